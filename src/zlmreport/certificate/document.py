@@ -1,0 +1,224 @@
+"""The certificate's content in one language, block by block; renderers give it a shape.
+
+Every text here is data: renderers set it as it stands and interpret nothing in it. Symbols are kept apart
+as `Symbol`, because they are set in italics and subscripts.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from datetime import date
+from enum import Enum
+from typing import TypeAlias
+
+from zlmreport.evaluation.evaluation import Evaluation
+from zlmreport.figures.figure import Figure
+from zlmreport.language import Language
+from zlmreport.measurement.measurement_set import MeasurementSet
+
+
+@dataclass(frozen=True, slots=True)
+class Symbol:
+    """A standard's symbol or formula, in the notation of `zlmreport.quantities.notation`."""
+
+    notation: str
+
+
+class Mark(Enum):
+    """A sign that stands for a statement; a renderer gives it a shape and a word."""
+
+    MET = "met"
+    NOT_MET = "not met"
+    OPEN = "open"
+
+
+@dataclass(frozen=True, slots=True)
+class Verdict:
+    """A mark with its word in the document's language: ``conforms``, ``not met``, ``not stated``."""
+
+    mark: Mark
+    word: str
+
+
+Cell: TypeAlias = str | Symbol | Verdict
+
+
+class Align(Enum):
+    """How a column stands: words to the left, numbers on their last digit to the right."""
+
+    LEFT = "left"
+    RIGHT = "right"
+    CENTRE = "centre"
+
+
+@dataclass(frozen=True, slots=True)
+class Column:
+    """A column of a table: its heading, unit below it, and alignment."""
+
+    heading: Cell
+    unit: str = ""
+    align: Align = Align.LEFT
+
+
+@dataclass(frozen=True, slots=True)
+class RowGroup:
+    """Rows under a heading of their own; no heading for a plain table.
+
+    `note` stands under the heading: what the group means.
+    """
+
+    rows: tuple[tuple[Cell, ...], ...]
+    heading: str = ""
+    note: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Table:
+    """A table; `dense` asks for small type, for many columns."""
+
+    caption: str
+    columns: tuple[Column, ...]
+    groups: tuple[RowGroup, ...]
+    dense: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Facts:
+    """Pairs of a name and a value: who, what, where, when."""
+
+    pairs: tuple[tuple[str, str], ...]
+    heading: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Paragraph:
+    """A paragraph of running text."""
+
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Notice:
+    """A statement that nobody may overlook: a deviation from the standard, missing readings."""
+
+    heading: str
+    items: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Graph:
+    """A figure in its place."""
+
+    figure: Figure
+
+
+@dataclass(frozen=True, slots=True)
+class Formulas:
+    """Definitions of symbols: (symbol, formula, name)."""
+
+    caption: str
+    rows: tuple[tuple[Symbol, Symbol, str], ...]
+
+
+Block: TypeAlias = Table | Facts | Paragraph | Notice | Graph | Formulas
+
+
+@dataclass(frozen=True, slots=True)
+class Section:
+    """A section: its key (an anchor, stable over languages), title, and blocks.
+
+    `new_page` asks to begin a page, as each standard's results do.
+    """
+
+    key: str
+    title: str
+    blocks: tuple[Block, ...]
+    new_page: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Party:
+    """A name and an address, line by line."""
+
+    name: str
+    lines: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Letterhead:
+    """Who issues the document: the laboratory, its accreditation, its logo as bytes."""
+
+    laboratory: Party
+    accreditation: str = ""
+    logo: bytes | None = None
+    logo_type: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class PageWords:
+    """The words of page margins: ``page {page} of {pages}`` is split around its numbers."""
+
+    number: str
+    page: str
+    of: str
+    end: str
+
+
+@dataclass(frozen=True, slots=True)
+class Certificate:
+    """A certificate or a measuring report, complete.
+
+    Attributes
+    ----------
+    number
+        Unique identification; on every page and the stem of every file.
+    title, subtitle
+        As printed on the cover.
+    language
+        Of all its text.
+    issued
+        Date of issue; None where the job states none.
+    paper
+        ``A4`` or ``Letter``.
+    letterhead
+        The issuing laboratory.
+    cover
+        The blocks of the first page under the title.
+    sections
+        The rest, in order.
+    page_words
+        Words of the page margins.
+    keywords, description
+        For the metadata of the file.
+    measurements, evaluations
+        What the sections were made of, for renderers of data.
+    generator
+        Name and version of this program.
+    plugins
+        Identifier and version of every plugin that took part.
+    """
+
+    number: str
+    title: str
+    subtitle: str
+    language: Language
+    issued: date | None
+    paper: str
+    letterhead: Letterhead | None
+    cover: tuple[Block, ...]
+    sections: tuple[Section, ...]
+    page_words: PageWords
+    description: str
+    measurements: MeasurementSet
+    evaluations: tuple[Evaluation, ...]
+    generator: str
+    keywords: tuple[str, ...] = ()
+    plugins: Mapping[str, str] = field(default_factory=dict)
+
+    @property
+    def figures(self) -> tuple[Figure, ...]:
+        """All figures in reading order."""
+        return tuple(
+            block.figure for section in self.sections for block in section.blocks if isinstance(block, Graph)
+        )

@@ -1,0 +1,76 @@
+"""What went wrong, where, and what would be right: for the person who can mend it."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True, order=True)
+class Place:
+    """A place in a file: lines and columns count from 1; 0 where there is none to name."""
+
+    file: str
+    line: int = 0
+    column: int = 0
+
+    def __str__(self) -> str:
+        """Return ``file:line:column``, as editors and compilers write it."""
+        if not self.line:
+            return self.file
+        return f"{self.file}:{self.line}:{self.column or 1}"
+
+
+@dataclass(frozen=True, slots=True, order=True)
+class Problem:
+    """One mistake: its place, and a sentence that says what is wrong and what would be right."""
+
+    place: Place
+    message: str
+
+    def __str__(self) -> str:
+        """Return the line that the user reads."""
+        return f"{self.place}: {self.message}"
+
+
+class ZlmreportError(Exception):
+    """Anything that ends the work with a message instead of a traceback.
+
+    Parameters
+    ----------
+    problems
+        Everything that was found, so that the user mends it in one go.
+    """
+
+    exit_code = 2
+
+    def __init__(self, problems: Iterable[Problem]) -> None:
+        self.problems: tuple[Problem, ...] = tuple(problems)
+        super().__init__("\n".join(map(str, self.problems)))
+
+    @classmethod
+    def at(cls, place: Place, message: str) -> ZlmreportError:
+        """Return the error for a single problem."""
+        return cls([Problem(place, message)])
+
+
+class InputError(ZlmreportError):
+    """The job, its data or the command line is wrong (exit code 2)."""
+
+
+class AccessError(ZlmreportError):
+    """A file or a device could not be read or written (exit code 3)."""
+
+    exit_code = 3
+
+
+def did_you_mean(name: str, known: Sequence[str]) -> str:
+    """Return the tail of a message on an unknown name: the nearest known one, and all of them.
+
+    >>> did_you_mean("iso230-2:2O14", ["iso230-2:2014", "nmtba"])
+    "did you mean 'iso230-2:2014'? (known: iso230-2:2014, nmtba)"
+    """
+    listed = f"(known: {', '.join(sorted(known))})" if known else "(none is installed)"
+    nearest = difflib.get_close_matches(name, known, n=1)
+    return f"did you mean '{nearest[0]}'? {listed}" if nearest else listed

@@ -1,0 +1,1 @@
+"""The core that standards share: statistics by position, parameters, requirements, evaluations."""

@@ -1,0 +1,117 @@
+"""The result of evaluating one test by one standard."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from zlmreport.evaluation.quantity import PositionQuantity, Quantity
+from zlmreport.evaluation.requirements import Finding
+from zlmreport.evaluation.statistics import PositionStatistics
+from zlmreport.language import Words
+from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.quantities.arrays import FloatArray
+
+
+@dataclass(frozen=True, slots=True)
+class Arithmetic:
+    """What a standard's formulas give, for one test or for a stack of tests.
+
+    Attributes
+    ----------
+    parameters : mapping of symbol to (...) array
+        Parameters of the axis, m or rad. NaN where the test does not define the parameter: it is then
+        not reported, and never zero.
+    positions : mapping of symbol to (..., position) array
+        The standard's own columns of the table by position, m or rad; NaN where not defined.
+    """
+
+    parameters: Mapping[str, FloatArray]
+    positions: Mapping[str, FloatArray] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
+class Parameter:
+    """One value of the results table.
+
+    Attributes
+    ----------
+    quantity
+        What it is.
+    value
+        m or rad, unrounded.
+    limit
+        Tolerance that the job states, m or rad; None without one.
+    conforms
+        Whether the unrounded value keeps the limit under the decision rule; None without a limit, or
+        where the rule cannot decide.
+    expanded_uncertainty, coverage_factor
+        U (m or rad) and k; None where not evaluated.
+    """
+
+    quantity: Quantity
+    value: float
+    limit: float | None = None
+    conforms: bool | None = None
+    expanded_uncertainty: float | None = None
+    coverage_factor: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class PositionColumn:
+    """A column of the table by position: the quantity, and its value at each target, shape (m,)."""
+
+    quantity: PositionQuantity
+    values: FloatArray
+
+
+@dataclass(frozen=True, slots=True)
+class Evaluation:
+    """A test evaluated by a standard.
+
+    Attributes
+    ----------
+    standard
+        The standard's identifier, edition included.
+    designation
+        As printed: ``ISO 230-2:2014``.
+    title
+        The standard's subject, in words.
+    measurements
+        What was evaluated.
+    statistics
+        Means, standard deviations and counts by position.
+    parameters
+        The parameters that this test defines, in the standard's order.
+    columns
+        The standard's own columns of the table by position.
+    findings
+        Requirements of the standard, met or not.
+    notes
+        What a reader must know: formulas' source, corrections of errata, sign conventions.
+    """
+
+    standard: str
+    designation: str
+    title: Words
+    measurements: MeasurementSet
+    statistics: PositionStatistics
+    parameters: tuple[Parameter, ...]
+    columns: tuple[PositionColumn, ...]
+    findings: tuple[Finding, ...]
+    notes: tuple[Words, ...]
+
+    def value(self, symbol: str) -> float | None:
+        """Return a parameter's value, m or rad; None where the test does not define it."""
+        for parameter in self.parameters:
+            if parameter.quantity.symbol == symbol:
+                return parameter.value
+        return None
+
+    def column(self, symbol: str) -> FloatArray:
+        """Return one of the standard's own columns, shape (m,), m or rad."""
+        for column in self.columns:
+            if column.quantity.symbol == symbol:
+                return column.values
+        known = ", ".join(column.quantity.symbol for column in self.columns)
+        raise KeyError(f"{self.standard} has no column {symbol!r} by position (it has: {known})")

@@ -1,0 +1,1 @@
+"""Graphs as data, and the one module that draws them."""

@@ -1,0 +1,162 @@
+"""A graph as data: what is drawn, in words of metrology and without a line width or a colour.
+
+A standard says which curves, bands, arrows and brackets its prescribed graph has; `zlmreport.figures.draw`
+gives all of them one look. Coordinates are in the units that the axes print (mm and µm, ° and ″).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+
+from zlmreport.language import Words
+from zlmreport.measurement.approach import Approach
+from zlmreport.quantities.arrays import FloatArray
+
+
+class Role(Enum):
+    """What a mark stands for; the drawing style follows from it, in colour and in black and white."""
+
+    MEAN_POSITIVE = "mean, positive approach"
+    MEAN_NEGATIVE = "mean, negative approach"
+    MEAN_BIDIRECTIONAL = "mean of both approaches"
+    LIMIT_POSITIVE = "spread limit, positive approach"
+    LIMIT_NEGATIVE = "spread limit, negative approach"
+    SPREAD = "spread of both approaches"
+    REVERSAL = "half reversal value about the mean"
+    BAND_LIMIT = "limit of the overall band"
+    TOLERANCE = "tolerance"
+
+
+@dataclass(frozen=True, slots=True)
+class Curve:
+    """A line through one value at each target.
+
+    Attributes
+    ----------
+    notation
+        The symbol in the legend (`zlmreport.quantities.notation`).
+    role
+        What it stands for.
+    x, y : (m,) arrays
+        Target positions and values; NaN leaves a gap.
+    """
+
+    notation: str
+    role: Role
+    x: FloatArray
+    y: FloatArray
+
+
+@dataclass(frozen=True, slots=True)
+class Band:
+    """The area between two limits; `lower` and `upper` have shape (m,), NaN leaves a gap."""
+
+    notation: str
+    role: Role
+    x: FloatArray
+    lower: FloatArray
+    upper: FloatArray
+
+
+@dataclass(frozen=True, slots=True)
+class Readings:
+    """All single readings of one approach, behind the curves: `x` and `y` of shape (N,)."""
+
+    approach: Approach
+    x: FloatArray
+    y: FloatArray
+
+
+@dataclass(frozen=True, slots=True)
+class Arrow:
+    """A double-headed arrow at one target position, between two values, with its symbol.
+
+    ``B_i`` at the worst target, ``U_j/2`` about a mean. Equal ends make no arrow but a mark.
+    """
+
+    notation: str
+    x: float
+    low: float
+    high: float
+
+
+@dataclass(frozen=True, slots=True)
+class Bracket:
+    """An overall parameter as a dimension line beside the diagram.
+
+    Attributes
+    ----------
+    notation
+        The parameter's symbol.
+    low, high
+        The two values that it spans.
+    low_at, high_at
+        The target positions at which these values arise; extension lines lead from there to the bracket.
+    """
+
+    notation: str
+    low: float
+    high: float
+    low_at: float
+    high_at: float
+
+
+@dataclass(frozen=True, slots=True)
+class Level:
+    """A horizontal line over the whole diagram: an offset, the middle of a band, a tolerance."""
+
+    notation: str
+    role: Role
+    y: float
+
+
+@dataclass(frozen=True, slots=True)
+class Panel:
+    """One pair of axes.
+
+    Attributes
+    ----------
+    heading
+        Above the panel, where a figure has more than one; None otherwise.
+    curves, bands, readings, arrows, brackets, levels
+        What is drawn.
+    """
+
+    heading: Words | None = None
+    curves: tuple[Curve, ...] = ()
+    bands: tuple[Band, ...] = ()
+    readings: tuple[Readings, ...] = ()
+    arrows: tuple[Arrow, ...] = ()
+    brackets: tuple[Bracket, ...] = ()
+    levels: tuple[Level, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Figure:
+    """A graph of a certificate.
+
+    Attributes
+    ----------
+    key
+        Short and unique among one standard's figures: ``means``, ``overall``.
+    title
+        The caption.
+    alternative
+        What the graph shows, for those who cannot see it: with its values.
+    x_title, y_title
+        The axes' quantities, without unit.
+    x_unit, y_unit
+        As printed.
+    panels
+        From top to bottom; they share the position axis.
+    """
+
+    key: str
+    title: Words
+    alternative: Words
+    x_title: Words
+    y_title: Words
+    x_unit: str
+    y_unit: str
+    panels: tuple[Panel, ...]

@@ -1,0 +1,30 @@
+"""The hooks. Each offers objects and does no work; each is called once, when plugins are found."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import pluggy
+
+from zlmreport.protocols import DataSource, Renderer, Standard
+
+PROJECT = "zlmreport"
+
+hookspec = pluggy.HookspecMarker(PROJECT)
+#: Marks a plugin's functions that answer these hooks.
+hookimpl = pluggy.HookimplMarker(PROJECT)
+
+
+@hookspec
+def zlmreport_standards() -> Iterable[Standard]:  # type: ignore[empty-body]
+    """Return the standards that this plugin evaluates by."""
+
+
+@hookspec
+def zlmreport_sources() -> Iterable[DataSource]:  # type: ignore[empty-body]
+    """Return the data sources that this plugin reads."""
+
+
+@hookspec
+def zlmreport_renderers() -> Iterable[Renderer]:  # type: ignore[empty-body]
+    """Return the file formats that this plugin writes."""

@@ -1,0 +1,1 @@
+"""Job files: from YAML with line numbers to a checked, frozen job."""

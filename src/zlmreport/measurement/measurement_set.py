@@ -1,0 +1,116 @@
+"""The readings of one test of one axis."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from zlmreport.measurement.approach import Approach
+from zlmreport.measurement.axis import Axis
+from zlmreport.measurement.provenance import Provenance
+from zlmreport.quantities.arrays import FloatArray, IntArray
+
+
+@dataclass(frozen=True, slots=True)
+class MissingReading:
+    """A reading that the test should have and has not.
+
+    Attributes
+    ----------
+    target_position
+        m or rad.
+    approach
+        Direction of approach.
+    run
+        Number of the run, from 1.
+    """
+
+    target_position: float
+    approach: Approach
+    run: int
+
+
+@dataclass(frozen=True, slots=True)
+class MeasurementSet:
+    """Readings in the order in which they were taken; nobody alters them.
+
+    A correction makes a new set and says so in its provenance. Build one with
+    `zlmreport.measurement.collect.collect`, which checks what a reader has read.
+
+    Attributes
+    ----------
+    axis
+        The axis under test.
+    target_positions : (m,) array
+        P_i, rising, m or rad.
+    target : (N,) integer array
+        For each reading, the index of its target position.
+    approach : (N,) integer array
+        For each reading, +1 or −1: the `Approach`.
+    run : (N,) integer array
+        For each reading, the number of its run, from 1.
+    deviation : (N,) array
+        x = actual − target, m or rad; NaN where the reading is named but missing.
+    time : (N,) array or None
+        Seconds from the first reading; None where the source does not tell.
+    conditions : mapping of name to (N,) array
+        What was logged beside each reading, SI (K, Pa, 1) where the contract names the column, as found
+        otherwise; NaN where not logged.
+    provenance
+        Where the readings come from.
+    """
+
+    axis: Axis
+    target_positions: FloatArray
+    target: IntArray
+    approach: IntArray
+    run: IntArray
+    deviation: FloatArray
+    time: FloatArray | None = None
+    conditions: Mapping[str, FloatArray] = field(default_factory=dict)
+    provenance: Provenance = field(default_factory=lambda: Provenance(source="unknown"))
+
+    @property
+    def approaches(self) -> tuple[Approach, ...]:
+        """The directions that were measured, the positive one first."""
+        return tuple(approach for approach in Approach if np.any(self.approach == approach))
+
+    @property
+    def is_bidirectional(self) -> bool:
+        """Whether targets were approached from both directions."""
+        return len(self.approaches) == len(Approach)
+
+    @property
+    def runs(self) -> IntArray:
+        """Return the numbers of the runs, rising, shape (n,)."""
+        return np.unique(self.run)
+
+    def deviations(self) -> FloatArray:
+        """Return the deviations as standards take them: shape (approach, position, run), NaN where missing.
+
+        The approach axis always has two places, `Approach.index`; a direction that was not measured is
+        all NaN. Runs stand in the order of their numbers.
+        """
+        runs = self.runs
+        grid = np.full((len(Approach), len(self.target_positions), len(runs)), np.nan)
+        direction = np.where(self.approach == Approach.POSITIVE, 0, 1)
+        grid[direction, self.target, np.searchsorted(runs, self.run)] = self.deviation
+        return grid
+
+    def missing(self) -> tuple[MissingReading, ...]:
+        """Return what is missing from a full test of every target in every run of each measured direction."""
+        grid = self.deviations()
+        found = []
+        for approach in self.approaches:
+            of_approach = grid[approach.index]
+            runs_taken = np.unique(self.run[self.approach == approach])
+            for position, column in np.argwhere(np.isnan(of_approach)):
+                if self.runs[column] in runs_taken:
+                    found.append(
+                        MissingReading(
+                            float(self.target_positions[position]), approach, int(self.runs[column])
+                        )
+                    )
+        return tuple(found)

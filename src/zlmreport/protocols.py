@@ -1,0 +1,122 @@
+"""What a plugin must be: one protocol for each kind."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Any, Protocol, runtime_checkable
+
+from zlmreport.certificate.document import Certificate
+from zlmreport.errors import Place
+from zlmreport.evaluation.evaluation import Arithmetic, Evaluation
+from zlmreport.evaluation.quantity import PositionQuantity, Quantity
+from zlmreport.evaluation.requirements import Finding
+from zlmreport.evaluation.statistics import PositionStatistics
+from zlmreport.figures.figure import Figure
+from zlmreport.job.options import Options
+from zlmreport.language import Words
+from zlmreport.measurement.axis import Axis
+from zlmreport.measurement.measurement_set import MeasurementSet
+
+
+@runtime_checkable
+class Standard(Protocol):
+    """One edition of a standard, complete on its own page.
+
+    Attributes
+    ----------
+    identifier
+        As jobs name it, edition included: ``iso230-2:2014``.
+    designation
+        As printed: ``ISO 230-2:2014``.
+    title
+        Its subject in words.
+    options
+        The job keys of this standard beside ``standard`` and ``tolerances``; plain `Options` for none.
+    quantities
+        The parameters of the axis that it defines, in the order of its results table.
+    position_quantities
+        Its own columns of the table by position, beside means, standard deviations and reversal values.
+    notes
+        What a reader of the results must know.
+    """
+
+    identifier: str
+    designation: str
+    title: Words
+    options: type[Options]
+    quantities: tuple[Quantity, ...]
+    position_quantities: tuple[PositionQuantity, ...]
+    notes: tuple[Words, ...]
+
+    def requirements(self, measurements: MeasurementSet, options: Any) -> Iterable[Finding]:
+        """Hold the standard's requirements against the test; a test that falls short is never refused."""
+
+    def arithmetic(self, statistics: PositionStatistics, options: Any) -> Arithmetic:
+        """Return every quantity and every own column, with the batch dimensions of the statistics.
+
+        NaN stands for what the test does not define: it is not reported, and never zero.
+        """
+
+    def figures(self, evaluation: Evaluation, options: Any) -> Iterable[Figure]:
+        """Return the standard's prescribed graphs."""
+
+
+@dataclass(frozen=True, slots=True)
+class SourceContext:
+    """What a data source needs to know beside its own keys.
+
+    Attributes
+    ----------
+    axis
+        The axis under test, as the job describes it.
+    place
+        Where the job names the source: for messages about what a file leaves open.
+    """
+
+    axis: Axis
+    place: Place
+
+
+@runtime_checkable
+class DataSource(Protocol):
+    """A reader of measurements.
+
+    Attributes
+    ----------
+    identifier
+        As jobs name it: ``laser-csv``.
+    title
+        In words.
+    options
+        Its job keys.
+    """
+
+    identifier: str
+    title: Words
+    options: type[Options]
+
+    def read(self, options: Any, context: SourceContext) -> MeasurementSet:
+        """Read the measurements; raise `InputError` with every defect of the data and its place."""
+
+
+@runtime_checkable
+class Renderer(Protocol):
+    """A writer of certificates. It reads no clock and writes no file.
+
+    Attributes
+    ----------
+    identifier
+        As ``output.formats`` names it: ``pdf``.
+    title
+        In words.
+    suffix
+        Of the file: ``.pdf``.
+    """
+
+    identifier: str
+    title: Words
+    suffix: str
+
+    def render(self, certificate: Certificate) -> bytes:
+        """Return the file's bytes; the same certificate gives the same bytes."""

@@ -1,0 +1,1 @@
+"""Units, numbers as they are written, and symbols as they are printed."""

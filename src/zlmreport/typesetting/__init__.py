@@ -1,0 +1,1 @@
+"""The Certificate set as HTML: the one place that uses Jinja."""
