@@ -71,6 +71,9 @@ def did_you_mean(name: str, known: Sequence[str]) -> str:
     >>> did_you_mean("iso230-2:2O14", ["iso230-2:2014", "nmtba"])
     "did you mean 'iso230-2:2014'? (known: iso230-2:2014, nmtba)"
     """
-    listed = f"(known: {', '.join(sorted(known))})" if known else "(none is installed)"
-    nearest = difflib.get_close_matches(name, known, n=1)
-    return f"did you mean '{nearest[0]}'? {listed}" if nearest else listed
+    if not known:
+        return "there is none to choose from"
+    listed = ", ".join(sorted(known))
+    by_letters = {each.casefold(): each for each in known}
+    nearest = difflib.get_close_matches(name.casefold(), by_letters, n=1)
+    return f"did you mean {by_letters[nearest[0]]!r}? (known: {listed})" if nearest else f"known: {listed}"

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 import pluggy
 
-from zlmreport.protocols import DataSource, Renderer, Standard
+from zlmreport.protocols import DataSource, Effect, Renderer, Standard
 
 PROJECT = "zlmreport"
 
@@ -28,3 +28,8 @@ def zlmreport_sources() -> Iterable[DataSource]:  # type: ignore[empty-body]
 @hookspec
 def zlmreport_renderers() -> Iterable[Renderer]:  # type: ignore[empty-body]
     """Return the file formats that this plugin writes."""
+
+
+@hookspec
+def zlmreport_effects() -> Iterable[Effect]:  # type: ignore[empty-body]
+    """Return the effects that this plugin adds to the error model."""

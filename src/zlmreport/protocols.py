@@ -1,4 +1,7 @@
-"""What a plugin must be: one protocol for each kind."""
+"""What a plugin must be: one protocol for each kind.
+
+An `Effect` is declared in `zlmreport.model.effect`: it is all that the error model knows of a plugin.
+"""
 
 from __future__ import annotations
 
@@ -17,6 +20,9 @@ from zlmreport.job.options import Options
 from zlmreport.language import Words
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.model.effect import Effect
+
+__all__ = ["DataSource", "Effect", "Renderer", "SourceContext", "Standard"]
 
 
 @runtime_checkable
@@ -31,6 +37,8 @@ class Standard(Protocol):
         As printed: ``ISO 230-2:2014``.
     title
         Its subject in words.
+    position_index
+        The letter that counts target positions in its symbols: ``i`` or ``j``.
     options
         The job keys of this standard beside ``standard`` and ``tolerances``; plain `Options` for none.
     quantities
@@ -44,6 +52,7 @@ class Standard(Protocol):
     identifier: str
     designation: str
     title: Words
+    position_index: str
     options: type[Options]
     quantities: tuple[Quantity, ...]
     position_quantities: tuple[PositionQuantity, ...]

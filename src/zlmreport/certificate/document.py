@@ -157,12 +157,17 @@ class Letterhead:
 
 @dataclass(frozen=True, slots=True)
 class PageWords:
-    """The words of page margins: ``page {page} of {pages}`` is split around its numbers."""
+    """The words of page margins and captions: ``page {page} of {pages}`` is split around its numbers.
+
+    `figure` and `table` stand before the numbers that captions are given: ``Figure 1``, ``Table 2``.
+    """
 
     number: str
     page: str
     of: str
     end: str
+    figure: str = ""
+    table: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -219,6 +224,5 @@ class Certificate:
     @property
     def figures(self) -> tuple[Figure, ...]:
         """All figures in reading order."""
-        return tuple(
-            block.figure for section in self.sections for block in section.blocks if isinstance(block, Graph)
-        )
+        blocks = (*self.cover, *(block for section in self.sections for block in section.blocks))
+        return tuple(block.figure for block in blocks if isinstance(block, Graph))

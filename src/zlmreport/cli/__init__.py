@@ -1,1 +1,61 @@
-"""The command line: one module a command."""
+"""The command line: one module a command.
+
+This module is all that ``--version`` and ``--help`` load; a command's own module, and with it all that is
+slow to load, comes when the command is given.
+"""
+
+from __future__ import annotations
+
+import importlib
+import os
+import sys
+from collections.abc import Sequence
+from typing import TextIO
+
+from zlmreport.cli.arguments import MAIN_JOB, parse
+from zlmreport.cli.messages import print_problems
+from zlmreport.errors import AccessError, Place, ZlmreportError
+
+#: What a shell sees of a program that these signals ended.
+_INTERRUPTED = 128 + 2
+_BROKEN_PIPE = 128 + 13
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Do what the command line says and return the exit code; messages go to the standard error output."""
+    for stream in (sys.stdout, sys.stderr):
+        _write_what_cannot_be_encoded_as_escapes(stream)
+    try:
+        command, options = parse(sys.argv[1:] if arguments is None else arguments)
+        module = importlib.import_module(f"zlmreport.cli.{'report' if command == MAIN_JOB else command}")
+        code: int = module.run(options)
+        sys.stdout.flush()
+    except SystemExit:  # by argparse, after --help and --version
+        return 0
+    except ZlmreportError as error:
+        print_problems(error)
+        return error.exit_code
+    except BrokenPipeError:
+        _forget_standard_output()
+        return _BROKEN_PIPE
+    except KeyboardInterrupt:
+        return _INTERRUPTED
+    except OSError as error:
+        _forget_standard_output()
+        print(Place("zlmreport"), error, sep=": ", file=sys.stderr)
+        return AccessError.exit_code
+    return code
+
+
+def _write_what_cannot_be_encoded_as_escapes(stream: TextIO) -> None:
+    """Let no letter of a name end the program on a terminal that does not have it."""
+    reconfigure = getattr(stream, "reconfigure", None)
+    if reconfigure:
+        reconfigure(errors="backslashreplace")
+
+
+def _forget_standard_output() -> None:
+    """Nobody reads on: let the interpreter not try to write the rest when it ends."""
+    sink = os.open(os.devnull, os.O_WRONLY)
+    os.dup2(sink, sys.stdout.fileno())
+    os.close(sink)

@@ -13,6 +13,8 @@ from zlmreport.evaluation.requirements import Finding
 from zlmreport.evaluation.statistics import PositionStatistics, position_statistics
 from zlmreport.language import Words
 from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.quantities.arrays import read_only_floats
+from zlmreport.quantities.notation import plain
 
 
 class EvaluatingStandard(Protocol):
@@ -21,6 +23,7 @@ class EvaluatingStandard(Protocol):
     identifier: str
     designation: str
     title: Words
+    position_index: str
     quantities: tuple[Quantity, ...]
     position_quantities: tuple[PositionQuantity, ...]
     notes: tuple[Words, ...]
@@ -59,27 +62,54 @@ def evaluate(
     statistics = position_statistics(measurements.deviations())
     arithmetic = standard.arithmetic(statistics, options)
     parameters = []
+    undefined = []
     for quantity in standard.quantities:
         value = float(arithmetic.parameters[quantity.symbol])
-        if np.isnan(value):
-            continue
         limit = tolerances.get(quantity.symbol)
+        if np.isnan(value):
+            if limit is not None:
+                undefined.append(_undefined(quantity))
+            continue
         conforms = None
         if limit is not None and decides_without_uncertainty:
-            conforms = abs(value) <= limit
+            conforms = _keeps(value, limit)
         parameters.append(Parameter(quantity, value, limit, conforms))
     columns = tuple(
-        PositionColumn(quantity, arithmetic.positions[quantity.symbol])
+        PositionColumn(quantity, read_only_floats(arithmetic.positions[quantity.symbol]))
         for quantity in standard.position_quantities
     )
     return Evaluation(
         standard=standard.identifier,
         designation=standard.designation,
         title=standard.title,
+        position_index=standard.position_index,
         measurements=measurements,
         statistics=statistics,
         parameters=tuple(parameters),
         columns=columns,
-        findings=tuple(standard.requirements(measurements, options)),
+        findings=(*standard.requirements(measurements, options), *undefined),
         notes=standard.notes,
     )
+
+
+#: Binary doubles cannot hold 1 µm and 3 µm exactly: a range of exactly 2 µm must not fail a limit of 2 µm.
+_ROUNDING_OF_DOUBLES = 1e-9
+
+
+def _keeps(value: float, limit: float) -> bool:
+    """Tell whether the unrounded amount keeps its limit; the rounding of doubles decides nothing."""
+    return abs(value) <= limit * (1 + _ROUNDING_OF_DOUBLES)
+
+
+def _undefined(quantity: Quantity) -> Finding:
+    """Return the finding on a limit that is stated for a parameter which the test does not define."""
+    requirement = Words(
+        "A test that defines {symbol}, for which a limit is stated",
+        "Eine Messung, die {symbol} bestimmt: dafür ist ein Grenzwert angegeben",
+    )
+    found = Words(
+        "{symbol} is not defined by this test; nothing is decided on its limit",
+        "{symbol} ist durch diese Messung nicht bestimmt; über den Grenzwert wird nicht entschieden",
+    )
+    symbol = plain(quantity.notation)
+    return Finding(requirement.given(symbol=symbol), found.given(symbol=symbol), met=False)

@@ -39,7 +39,7 @@ class Parameter:
     quantity
         What it is.
     value
-        m or rad, unrounded.
+        m or rad, unrounded, with the sign of the results file.
     limit
         Tolerance that the job states, m or rad; None without one.
     conforms
@@ -55,6 +55,11 @@ class Parameter:
     conforms: bool | None = None
     expanded_uncertainty: float | None = None
     coverage_factor: float | None = None
+
+    @property
+    def printed_value(self) -> float:
+        """The value with the sign that the standard's edition prints, m or rad."""
+        return self.quantity.printed_sign * self.value
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,6 +82,8 @@ class Evaluation:
         As printed: ``ISO 230-2:2014``.
     title
         The standard's subject, in words.
+    position_index
+        The letter that counts target positions in the standard's symbols.
     measurements
         What was evaluated.
     statistics
@@ -94,6 +101,7 @@ class Evaluation:
     standard: str
     designation: str
     title: Words
+    position_index: str
     measurements: MeasurementSet
     statistics: PositionStatistics
     parameters: tuple[Parameter, ...]
@@ -101,12 +109,17 @@ class Evaluation:
     findings: tuple[Finding, ...]
     notes: tuple[Words, ...]
 
-    def value(self, symbol: str) -> float | None:
-        """Return a parameter's value, m or rad; None where the test does not define it."""
+    def parameter(self, symbol: str) -> Parameter | None:
+        """Return a parameter of the axis; None where the test does not define it."""
         for parameter in self.parameters:
             if parameter.quantity.symbol == symbol:
-                return parameter.value
+                return parameter
         return None
+
+    def value(self, symbol: str) -> float | None:
+        """Return a parameter's value, m or rad; None where the test does not define it."""
+        parameter = self.parameter(symbol)
+        return None if parameter is None else parameter.value
 
     def column(self, symbol: str) -> FloatArray:
         """Return one of the standard's own columns, shape (m,), m or rad."""

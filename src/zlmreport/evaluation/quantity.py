@@ -36,6 +36,8 @@ class Quantity:
         What it says of a part made (or measured) on the machine, in a sentence.
     can_be_limited
         Whether a job may state a tolerance for it.
+    printed_sign
+        −1 where the edition prints the value with the sign opposite to the results file; else 1.
     """
 
     symbol: str
@@ -45,6 +47,7 @@ class Quantity:
     formula: str
     meaning: Words
     can_be_limited: bool = True
+    printed_sign: int = 1
 
 
 @dataclass(frozen=True, slots=True)

@@ -66,10 +66,41 @@ class PositionStatistics:
         return self.mean_positive - self.mean_negative
 
     @property
+    def is_measured(self) -> BoolArray:
+        """Whether there is a reading at all in each direction, shape (..., approach)."""
+        measured: BoolArray = np.any(self.count > 0, axis=-1)
+        return measured
+
+    @property
     def is_bidirectional(self) -> BoolArray:
         """Whether both directions were measured, shape (...)."""
-        both: BoolArray = np.all(np.any(self.count > 0, axis=-1), axis=-1)
+        both: BoolArray = np.all(self.is_measured, axis=-1)
         return both
+
+    def of_both_or_single(self, of_both: FloatArray, by_approach: FloatArray) -> FloatArray:
+        """Return values of both directions together, or those of the single direction that was measured.
+
+        Parameters
+        ----------
+        of_both : (..., position) array
+            Taken for the tests in which both directions were measured.
+        by_approach : (..., approach, position) array
+            Values formed in each direction by itself: taken for the tests in one direction.
+
+        Returns
+        -------
+        (..., position) array
+        """
+        both = self.is_bidirectional
+        if np.all(both):
+            return of_both
+        positive = self.is_measured[..., Approach.POSITIVE.index]
+        single = np.where(
+            positive[..., np.newaxis],
+            by_approach[..., Approach.POSITIVE.index, :],
+            by_approach[..., Approach.NEGATIVE.index, :],
+        )
+        return np.where(both[..., np.newaxis], of_both, single)
 
 
 def position_statistics(deviations: FloatArray) -> PositionStatistics:
@@ -79,15 +110,31 @@ def position_statistics(deviations: FloatArray) -> PositionStatistics:
     ----------
     deviations : (..., approach, position, run) array
         x_ij, m or rad; NaN where missing. A missing reading lowers n at its position and approach only.
+
+    Notes
+    -----
+    Means first, squares of the residuals about them second: nothing cancels. The runs, which are few, are
+    taken one by one, so that a large stack of tests needs no copy of itself.
     """
-    present = ~np.isnan(deviations)
-    count = np.count_nonzero(present, axis=-1)
-    filled = deviations if present.all() else np.where(present, deviations, 0.0)
+    readings = deviations.view()
+    readings.setflags(write=False)
+    runs = np.moveaxis(readings, -1, 0)
+    by_position = readings.shape[:-1]
+    count = np.zeros(by_position, dtype=np.int64)
+    total = np.zeros(by_position)
+    squares = np.zeros(by_position)
+    for run in runs:
+        present = ~np.isnan(run)
+        count += present
+        np.add(total, run, out=total, where=present)
     with np.errstate(invalid="ignore", divide="ignore"):
-        mean = filled.sum(axis=-1) / count
-        residual = filled - mean[..., np.newaxis]
-        if filled is not deviations:
-            residual = np.where(present, residual, 0.0)
-        variance = np.einsum("...j,...j->...", residual, residual) / (count - 1)
-    variance = np.where(count > 1, variance, np.nan)
-    return PositionStatistics(deviations, count, mean, np.sqrt(variance))
+        mean = total / count
+        for run in runs:
+            residual = run - mean
+            residual *= residual
+            np.add(squares, residual, out=squares, where=~np.isnan(residual))
+        standard_deviation = np.sqrt(squares / (count - 1))
+    standard_deviation[count < 2] = np.nan
+    for array in (count, mean, standard_deviation):
+        array.setflags(write=False)
+    return PositionStatistics(readings, count, mean, standard_deviation)

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from zlmreport.errors import Place
 from zlmreport.job.model import JobKeys
 from zlmreport.job.options import Options
+from zlmreport.job.tree import Keys, Step, keys_of, place_of
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.provenance import SourceFile
 
@@ -59,6 +60,8 @@ class Job:
         Where the files go.
     files
         The job file and every file that it extends, with digests.
+    tree
+        What the files say, value by value, with the places.
     """
 
     keys: JobKeys
@@ -68,3 +71,15 @@ class Job:
     formats: tuple[str, ...]
     directory: Path
     files: tuple[SourceFile, ...]
+    tree: Keys = field(default_factory=lambda: keys_of(Place("job")))
+
+    def place_of(self, key: str) -> Place:
+        """Return where a key stands, for messages: of one that is missing, its nearest parent's place.
+
+        Parameters
+        ----------
+        key
+            Dotted, items of lists by their index: ``certificate.number``, ``evaluate.0.tolerances.A``.
+        """
+        steps: list[Step] = [int(step) if step.isdecimal() else step for step in key.split(".")]
+        return place_of(self.tree, tuple(steps))

@@ -6,21 +6,18 @@ into the SI values of the core.
 
 from __future__ import annotations
 
-import datetime as dt
 from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, StringConstraints
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, model_validator
 
 from zlmreport.job.options import JobPath
+from zlmreport.job.types import Date, Finite, InWords, Lines, Positive, Text, file_stem
 from zlmreport.language import Language
 from zlmreport.measurement.axis import AxisKind
 
-#: A line of text as it is printed; long enough for any name, short enough for a page.
-Text = Annotated[str, StringConstraints(min_length=1, max_length=500, strip_whitespace=True)]
-Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
-Finite = Annotated[float, Field(allow_inf_nan=False)]
+#: Unique identification of a document, that also names its files.
 Number = Annotated[
-    str, StringConstraints(pattern=r"^[A-Za-z0-9][A-Za-z0-9._-]*$", min_length=1, max_length=100)
+    Text, AfterValidator(file_stem), Field(json_schema_extra={"pattern": r"^[A-Za-z0-9][A-Za-z0-9._-]*$"})
 ]
 
 
@@ -33,22 +30,25 @@ class JobPart(BaseModel):
 class Person(JobPart):
     """Somebody who answers for the certificate."""
 
-    name: Text = Field(description="The person's name.")
-    function: Text | None = Field(None, description="The person's function in the laboratory.")
+    name: Text = Field(description="The person's name.", examples=["Erika Mustermann"])
+    function: Text | None = Field(
+        None, description="The person's function in the laboratory.", examples=["Head of laboratory"]
+    )
 
 
 class CertificateKeys(JobPart):
     """The document."""
 
     number: Number = Field(
-        description="Unique identification of the document; also the stem of the output files."
+        description="Unique identification of the document; also the stem of the output files.",
+        examples=["CAL-2026-0117"],
     )
     kind: Literal["certificate", "report"] = Field(
         "certificate",
         description="A calibration certificate after ISO/IEC 17025:2017 clause 7.8, or a measuring report.",
     )
     title: Text | None = Field(None, description="Title on the cover, instead of the usual one.")
-    issued: dt.date | None = Field(None, description="Date of issue.")
+    issued: Date | None = Field(None, description="Date of issue.", examples=["2026-11-20"])
     language: Language = Field(Language.ENGLISH, description="Language of the document.")
     authorised_by: Person | None = Field(None, description="Who authorises the document.")
     paper: Literal["A4", "Letter"] = Field("A4", description="Paper size.")
@@ -60,17 +60,27 @@ class CertificateKeys(JobPart):
 class Laboratory(JobPart):
     """Who issues the document."""
 
-    name: Text = Field(description="Name of the laboratory.")
-    address: Text | None = Field(None, description="Postal address; commas or line breaks part its lines.")
+    name: Text = Field(description="Name of the laboratory.", examples=["Calibration Laboratory North"])
+    address: Lines | None = Field(
+        None,
+        description="Postal address; commas or line breaks part its lines.",
+        examples=["Gaugeway 1, 12345 Sampletown"],
+    )
     accreditation: Text | None = Field(None, description="Accreditation body and number.")
-    logo: JobPath | None = Field(None, description="PNG, JPEG or SVG file beside the file that names it.")
+    logo: JobPath | None = Field(
+        None, description="PNG or JPEG file beside the file that names it.", examples=["logo.png"]
+    )
 
 
 class Customer(JobPart):
     """For whom the work was done."""
 
-    name: Text = Field(description="Name of the customer.")
-    address: Text | None = Field(None, description="Postal address; commas or line breaks part its lines.")
+    name: Text = Field(description="Name of the customer.", examples=["Precision Parts Ltd"])
+    address: Lines | None = Field(
+        None,
+        description="Postal address; commas or line breaks part its lines.",
+        examples=["Millway 2, 12345 Sampletown"],
+    )
 
 
 class Machine(JobPart):
@@ -89,15 +99,33 @@ class Machine(JobPart):
 class AxisKeys(JobPart):
     """The axis under test."""
 
-    name: Text = Field(description="As on the machine: X.")
+    name: Text = Field(description="As on the machine.", examples=["X"])
     kind: AxisKind = Field(AxisKind.LINEAR, description="linear (mm) or rotary (degrees).")
     travel: tuple[Finite, Finite] | None = Field(
-        None, description="First and last position of the travel, mm or degrees."
+        None, description="First and last position of the travel, mm or degrees.", examples=[[0, 1000]]
     )
-    screw_pitch: Positive | None = Field(None, description="Pitch of the screw or gear, mm or degrees.")
-    signal_period: Positive | None = Field(None, description="Period of the scale's signal, mm or degrees.")
+    screw_pitch: Positive | None = Field(
+        None, description="Pitch of the screw or gear, mm or degrees.", examples=[10]
+    )
+    signal_period: Positive | None = Field(
+        None, description="Period of the scale's signal, mm or degrees.", examples=[0.02]
+    )
     scale_element: Positive | None = Field(
         None, description="Length of one element of a scale made of several, mm or degrees."
+    )
+    compensation_table: JobPath | None = Field(
+        None,
+        description="CSV file of the control's compensation table: columns position and deviation "
+        "(actual - target), mm and micrometres (degrees and arc seconds).",
+        examples=["x-compensation.csv"],
+    )
+    angular_errors: JobPath | None = Field(
+        None,
+        description="CSV file of the axis's pitch or yaw: columns position and angle, mm and microradians.",
+        examples=["x-pitch.csv"],
+    )
+    abbe_offset: Finite | None = Field(
+        None, description="Distance of the measuring line from the scale, mm.", examples=[200]
     )
 
 
@@ -106,50 +134,57 @@ class SourceKeys(BaseModel):
 
     model_config = ConfigDict(extra="allow", frozen=True)
 
-    plugin: Text = Field(description="Identifier of an installed data source.")
+    plugin: Text = Field(description="Identifier of an installed data source.", examples=["laser-csv"])
 
 
 class Measurement(JobPart):
     """How the readings were taken."""
 
-    source: SourceKeys
-    date: dt.date | None = Field(None, description="Date of the measurement.")
+    source: SourceKeys = Field(
+        description="Where the readings come from.", examples=[{"plugin": "laser-csv", "file": "x-axis.csv"}]
+    )
+    date: Date | None = Field(None, description="Date of the measurement.", examples=["2026-11-18"])
     method: Literal["linear", "unidirectional", "pendulum", "quasi-pilgrim"] | None = Field(
         None, description="Positioning method."
     )
-    feed: Positive | None = Field(None, description="Feed, mm/min or degrees/min.")
-    dwell: Positive | None = Field(None, description="Time at rest at each target, s.")
-    warm_up: Text | None = Field(None, description="Warm-up before the test, in words.")
-    compensation: Text | None = Field(None, description="State of the machine's compensation, in words.")
-    line: Text | None = Field(None, description="Place of the measuring line, positions of other axes.")
+    feed: Positive | None = Field(None, description="Feed, mm/min or degrees/min.", examples=[2000])
+    dwell: Positive | None = Field(None, description="Time at rest at each target, s.", examples=[5])
+    warm_up: Lines | None = Field(None, description="Warm-up before the test, in words.")
+    compensation: Lines | None = Field(None, description="State of the machine's compensation, in words.")
+    line: Lines | None = Field(None, description="Place of the measuring line, positions of other axes.")
     operator: Text | None = Field(None, description="Who measured.")
-    remarks: Text | None = Field(None, description="Anything else that a reader should know.")
+    remarks: Lines | None = Field(None, description="Anything else that a reader should know.")
 
 
 class Instrument(JobPart):
     """The measuring instrument: the link to the national standard."""
 
-    name: Text = Field(description="Type designation.")
+    name: Text = Field(description="Type designation.", examples=["Laser interferometer LM 10"])
     manufacturer: Text | None = Field(None, description="Who built it.")
     serial: Text | None = Field(None, description="Serial number.")
     certificate: Text | None = Field(None, description="Its calibration certificate.")
-    calibrated: dt.date | None = Field(None, description="Date of that calibration.")
-    expanded_uncertainty: Positive | Text | None = Field(
+    calibrated: Date | None = Field(None, description="Date of that calibration.", examples=["2026-03-01"])
+    expanded_uncertainty: Positive | InWords | None = Field(
         None,
         description="Its expanded uncertainty (k = 2), micrometres (arc seconds), or in words.",
+        examples=[0.3],
     )
 
 
 class Environment(JobPart):
     """Conditions during the measurement that the readings do not carry themselves."""
 
-    air_temperature: Text | Finite | None = Field(None, description="°C")
-    material_temperature: Text | Finite | None = Field(None, description="°C")
-    axis_temperature: Text | Finite | None = Field(None, description="Of the machine's scale, °C")
-    air_pressure: Text | Positive | None = Field(None, description="hPa")
-    relative_humidity: Text | Finite | None = Field(None, description="%")
-    expansion_coefficient: Text | Finite | None = Field(None, description="Used for correction, µm/(m·K)")
-    remarks: Text | None = Field(None, description="Anything else: oil shower, sunlight, vibration.")
+    air_temperature: Finite | InWords | None = Field(None, description="°C", examples=[20.1])
+    material_temperature: Finite | InWords | None = Field(None, description="°C", examples=[20.3])
+    axis_temperature: Finite | InWords | None = Field(
+        None, description="Of the machine's scale, °C", examples=[20.4]
+    )
+    air_pressure: Positive | InWords | None = Field(None, description="hPa", examples=[1013])
+    relative_humidity: Finite | InWords | None = Field(None, description="%", examples=[45])
+    expansion_coefficient: Finite | InWords | None = Field(
+        None, description="Used for correction, µm/(m·K)", examples=[11.5]
+    )
+    remarks: Lines | None = Field(None, description="Anything else: oil shower, sunlight, vibration.")
 
 
 class StandardKeys(BaseModel):
@@ -161,48 +196,71 @@ class StandardKeys(BaseModel):
     tolerances: dict[str, Positive] = Field(
         default_factory=dict,
         description="Limits by the symbols of the results file, micrometres (arc seconds).",
+        examples=[{"A": 20}],
     )
+
+    @model_validator(mode="before")
+    @classmethod
+    def _bare_identifier(cls, value: Any) -> Any:
+        """Take a bare identifier for the standard without further keys."""
+        return {"standard": value} if isinstance(value, str | int | float) else value
 
 
 class Model(JobPart):
     """The error model of the axis."""
 
     effects: list[str | dict[str, dict[str, Any] | None]] = Field(
-        default_factory=list, description="Effects in the model; a mapping fixes parameters."
+        default_factory=list,
+        description="Effects in the model; a mapping fixes parameters.",
+        examples=[["offset", "scale-error", "backlash"]],
     )
 
 
 class Output(JobPart):
     """What is written, and where."""
 
-    directory: JobPath | None = Field(None, description="Folder of the output files.")
+    directory: JobPath | None = Field(
+        None, description="Folder of the output files; the job's own folder without it.", examples=["out"]
+    )
     formats: list[Text] = Field(
         default_factory=lambda: ["pdf", "json"],
         min_length=1,
         description="Identifiers of installed renderers.",
+        examples=[["pdf", "json"]],
     )
 
 
 class JobKeys(JobPart):
     """A job file: from the measurements of one axis to a certificate."""
 
-    schema_: Literal["zlmreport/job/1"] = Field(alias="schema", description="Version of this format.")
-    extends: list[Text] | Text | None = Field(
-        None, description="Files whose keys this one builds on; paths are relative to this file."
+    schema_: Literal["zlmreport/job/1"] = Field(
+        alias="schema", description="Version of this format.", examples=["zlmreport/job/1"]
     )
-    certificate: CertificateKeys
-    laboratory: Laboratory | None = None
-    customer: Customer | None = None
-    machine: Machine = Field(default_factory=Machine)
-    axis: AxisKeys
-    measurement: Measurement
-    instrument: Instrument | None = None
-    environment: Environment | None = None
+    extends: list[Text] | Text | None = Field(
+        None,
+        description="Files whose keys this one builds on; paths are relative to this file.",
+        examples=["../laboratory.yaml"],
+    )
+    certificate: CertificateKeys = Field(
+        description="The document.", examples=[{"number": "CAL-2026-0117", "issued": "2026-11-20"}]
+    )
+    laboratory: Laboratory | None = Field(None, description="Who issues the document.")
+    customer: Customer | None = Field(None, description="For whom the work was done.")
+    machine: Machine = Field(default_factory=Machine, description="The machine under test.")
+    axis: AxisKeys = Field(description="The axis under test.", examples=[{"name": "X", "kind": "linear"}])
+    measurement: Measurement = Field(
+        description="How the readings were taken.",
+        examples=[{"source": {"plugin": "laser-csv", "file": "x-axis.csv"}}],
+    )
+    instrument: Instrument | None = Field(None, description="The measuring instrument.")
+    environment: Environment | None = Field(None, description="Conditions during the measurement.")
     evaluate: list[StandardKeys] = Field(
-        min_length=1, description="Standards to evaluate by; a bare identifier stands for {standard: …}."
+        min_length=1,
+        description="Standards to evaluate by; a bare identifier stands for {standard: …}.",
+        examples=[["iso230-2:2014"]],
     )
     decision_rule: Literal["simple", "guard-band", "iso14253-1", "non-binary"] = Field(
         "simple", description="How a value is held against its limit."
     )
-    model: Model | None = None
-    output: Output = Field(default_factory=Output)
+    model: Model | None = Field(None, description="The error model of the axis.")
+    output: Output = Field(default_factory=Output, description="What is written, and where.")

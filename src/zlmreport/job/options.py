@@ -23,6 +23,8 @@ class Options(BaseModel):
 
 def _beside_the_naming_file(value: Any) -> Any:
     """Resolve a relative path against the folder of the file that names it."""
+    if not value:
+        raise ValueError("the name of a file is expected")
     if isinstance(value, LocatedText):
         return Path(value.place.file).parent / str(value)
     return value

@@ -5,6 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import StrEnum
 
+import numpy as np
+
+from zlmreport.measurement.provenance import SourceFile
+from zlmreport.quantities.arrays import FloatArray
 from zlmreport.quantities.units import ARCSECOND, DEGREE, MICROMETRE, MILLIMETRE, Unit
 
 
@@ -13,6 +17,34 @@ class AxisKind(StrEnum):
 
     LINEAR = "linear"
     ROTARY = "rotary"
+
+
+@dataclass(frozen=True, slots=True)
+class PositionTable:
+    """A quantity over the position of the axis, known at some positions.
+
+    Attributes
+    ----------
+    positions
+        Rising, m or rad; two at least.
+    values
+        At these positions, SI.
+    source
+        The file that it was read from; None for one made in memory.
+    """
+
+    positions: tuple[float, ...]
+    values: tuple[float, ...]
+    source: SourceFile | None = None
+
+    @property
+    def interval(self) -> float:
+        """The median distance of neighbouring positions, m or rad."""
+        return float(np.median(np.diff(self.positions)))
+
+    def at(self, position: FloatArray) -> FloatArray:
+        """Return the quantity anywhere: linear between the positions, its end values held beyond them."""
+        return np.interp(position, self.positions, self.values)
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,6 +63,13 @@ class Axis:
         Known periods, m (rad): of the screw or gear, and of the scale's signal. None where unknown.
     scale_element
         Length of one element of a scale that is made of several, m (rad); None for one piece.
+    compensation_table
+        The table that the control is meant to apply, in the sign of the deviation (actual − target),
+        m or rad; None where the job names none.
+    angular_errors
+        The rotation that makes the Abbe offset count (pitch or yaw), rad; None where it was not measured.
+    abbe_offset
+        Of the measuring line from the scale, m; None where the job does not state it.
     """
 
     name: str
@@ -39,6 +78,9 @@ class Axis:
     screw_pitch: float | None = None
     signal_period: float | None = None
     scale_element: float | None = None
+    compensation_table: PositionTable | None = None
+    angular_errors: PositionTable | None = None
+    abbe_offset: float | None = None
 
     @property
     def position_unit(self) -> Unit:

@@ -54,7 +54,8 @@ class MeasurementSet:
     deviation : (N,) array
         x = actual − target, m or rad; NaN where the reading is named but missing.
     time : (N,) array or None
-        Seconds from the first reading; None where the source does not tell.
+        Seconds from the first reading that has a time, NaN for readings that have none; None where the
+        source does not tell.
     conditions : mapping of name to (N,) array
         What was logged beside each reading, SI (K, Pa, 1) where the contract names the column, as found
         otherwise; NaN where not logged.

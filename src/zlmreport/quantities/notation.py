@@ -10,9 +10,11 @@ import re
 from dataclasses import dataclass
 
 _SUBSCRIPT = re.compile(r"_\{([^}]*)\}")
-_LETTERS = re.compile(r"([^\W\d_][\u0300-\u036f]*)+")
+# Fractions count as word characters, but they are numbers.
+_LETTERS = re.compile(r"([^\W\d_¼½¾][\u0300-\u036f]*)+")
 _ONE_LETTER = re.compile(r"[^\W\d_][\u0300-\u036f]*")
-_INDICES = frozenset("ij")
+# A running index, alone or after the letter of a word: i, ij, sj.
+_INDEX = re.compile(r"([^\W\d_ij]?)([ij]+)")
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,7 +46,7 @@ def spans(notation: str) -> tuple[Span, ...]:
     found: list[Span] = []
     for position, part in enumerate(_SUBSCRIPT.split(notation)):
         if position % 2:
-            found.append(Span(part, part in _INDICES, subscript=True))
+            found.extend(_subscript_spans(part))
         else:
             found.extend(_base_spans(part))
     return tuple(found)
@@ -53,6 +55,15 @@ def spans(notation: str) -> tuple[Span, ...]:
 def plain(notation: str) -> str:
     """Return a notation as a plain line: ``P_{s max}`` as ``Ps max``."""
     return _SUBSCRIPT.sub(r"\1", notation)
+
+
+def _subscript_spans(text: str) -> list[Span]:
+    match = _INDEX.fullmatch(text)
+    if match is None:
+        return [Span(text, italic=False, subscript=True)]
+    word, index = match.groups()
+    spelled = [Span(word, italic=False, subscript=True)] if word else []
+    return [*spelled, Span(index, italic=True, subscript=True)]
 
 
 def _base_spans(text: str) -> list[Span]:

@@ -1,0 +1,60 @@
+"""Run the benchmarks: ``./run benchmark [NAME …]``."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+import cold
+import evaluation
+import memory
+import report
+import warm
+from measure import Measured, Sizes, own_process
+
+BENCHMARKS = {
+    "warm": ("One certificate, warm", warm.measure),
+    "cold": ("Start of the command", cold.measure),
+    "evaluation": ("Stacked tests", evaluation.measure),
+    "memory": ("Memory of a process that makes many certificates", memory.measure),
+}
+
+
+def main() -> None:
+    """Measure what the command line names, print tables, and write JSON if asked to."""
+    arguments = _parser().parse_args()
+    sizes = Sizes(arguments.rounds, arguments.tests, arguments.certificates)
+    results: dict[str, list[Measured]] = {}
+    for name in arguments.names or BENCHMARKS:
+        title, measure = BENCHMARKS[name]
+        with own_process() as process:
+            results[name] = process.submit(measure, sizes).result()
+        print(report.table(title, results[name]), end="\n\n", flush=True)
+        if arguments.json:
+            report.write_json(arguments.json, results)
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="./run benchmark", description="Measure zlmreport against a plain recipe."
+    )
+    parser.add_argument("names", nargs="*", type=_benchmark, metavar="NAME", help=", ".join(BENCHMARKS))
+    parser.add_argument(
+        "--rounds", type=int, default=16, help="repetitions; the first only warms (%(default)s)"
+    )
+    parser.add_argument("--tests", type=int, default=100_000, help="tests in the stack (%(default)s)")
+    parser.add_argument(
+        "--certificates", type=int, default=300, help="certificates of one process (%(default)s)"
+    )
+    parser.add_argument("--json", type=Path, metavar="FILE", help="also write the results there")
+    return parser
+
+
+def _benchmark(name: str) -> str:
+    if name not in BENCHMARKS:
+        raise argparse.ArgumentTypeError(f"{name!r} is none of {', '.join(BENCHMARKS)}")
+    return name
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,87 @@
+"""A stack of simulated tests evaluated by every standard at once, against one test after the other."""
+
+from __future__ import annotations
+
+import tracemalloc
+from collections.abc import Sequence
+from functools import partial
+
+import numpy as np
+
+from measure import Cost, Measured, Sizes, alternately, cost, median, peak_megabytes
+from sample import RUNS, TARGETS
+from zlmreport.evaluation.statistics import PositionStatistics, position_statistics
+from zlmreport.measurement.approach import Approach
+from zlmreport.plugins import find_plugins
+from zlmreport.protocols import Standard
+from zlmreport.quantities.arrays import FloatArray
+
+STANDARDS = (
+    "iso230-2:1988",
+    "iso230-2:1997",
+    "iso230-2:2006",
+    "iso230-2:2014",
+    "vdi-dgq-3441",
+    "vdi-vde-2617",
+    "nmtba",
+)
+
+#: Tests that are evaluated one by one: enough for a mean, few enough to wait for.
+_ONE_BY_ONE = 500
+_MEGABYTE = 1e6
+
+
+def measure(sizes: Sizes) -> list[Measured]:
+    """Measure the evaluation of stacked tests."""
+    registry = find_plugins()
+    standards = [registry.standard(identifier) for identifier in STANDARDS]
+    stack = np.random.default_rng(230).normal(0.0, 1e-6, (sizes.tests, len(Approach), TARGETS, RUNS))
+    statistics = position_statistics(stack)
+    costs = alternately(
+        {
+            "statistics": lambda: cost(lambda: position_statistics(stack)),
+            **{each.identifier: partial(_cost_of_standard, each, statistics) for each in standards},
+        },
+        sizes.rounds,
+    )
+    seconds = {name: median(one.wall for one in of_name) for name, of_name in costs.items()}
+    peak = peak_megabytes()
+    chosen = stack[:_ONE_BY_ONE]
+    one_by_one = cost(partial(_one_after_the_other, standards, chosen)).wall / len(chosen)
+    return [
+        Measured("means and standard deviations", seconds["statistics"], "s"),
+        *(Measured(f"formulas of {identifier}", seconds[identifier], "s") for identifier in STANDARDS),
+        Measured(f"all of {sizes.tests} tests by {len(STANDARDS)} standards", sum(seconds.values()), "s"),
+        Measured("of that, per test", sum(seconds.values()) / sizes.tests * 1e6, "µs"),
+        Measured("one test after the other, per test", one_by_one * 1e6, "µs"),
+        Measured("stack / one after the other", sum(seconds.values()) / sizes.tests / one_by_one),
+        Measured("the stack itself", stack.nbytes / _MEGABYTE, "MB"),
+        Measured(
+            "most memory of one standard beside it", _most_memory(standards, statistics) / _MEGABYTE, "MB"
+        ),
+        Measured("most memory of the process", peak, "MB"),
+    ]
+
+
+def _cost_of_standard(standard: Standard, statistics: PositionStatistics) -> Cost:
+    options = standard.options()
+    return cost(lambda: standard.arithmetic(statistics, options))
+
+
+def _one_after_the_other(standards: Sequence[Standard], tests: FloatArray) -> None:
+    for test in tests:
+        statistics = position_statistics(test)
+        for standard in standards:
+            standard.arithmetic(statistics, standard.options())
+
+
+def _most_memory(standards: Sequence[Standard], statistics: PositionStatistics) -> int:
+    """Return how many bytes the thriftless one of the standards takes at its height."""
+    tracemalloc.start()
+    peaks = []
+    for standard in standards:
+        tracemalloc.reset_peak()
+        standard.arithmetic(statistics, standard.options())
+        peaks.append(tracemalloc.get_traced_memory()[1])
+    tracemalloc.stop()
+    return max(peaks)

@@ -1,0 +1,51 @@
+"""Writes the generated parts of the pages: ``python docs/generate [FOLDER]``.
+
+A part stands between two comments, ``<!-- generated: NAME -->`` and ``<!-- end: NAME -->``, in any page below
+the folder (this one's parent, if none is given). What is around it is written by hand and left alone.
+"""
+
+from __future__ import annotations
+
+import re
+import sys
+from collections.abc import Callable, Mapping
+from pathlib import Path
+
+import command_texts
+import comparison
+import hooks
+import job_keys
+import standard_pages
+
+_PART = re.compile(r"(<!-- generated: (?P<name>[a-z0-9-]+) -->\n).*?(<!-- end: (?P=name) -->)", re.DOTALL)
+
+PARTS: Mapping[str, Callable[[], str]] = {
+    "commands": command_texts.text,
+    "comparison": comparison.text,
+    "hooks": hooks.hooks_text,
+    "protocols": hooks.protocols_text,
+    "job-keys": job_keys.job_text,
+    "source-keys": job_keys.sources_text,
+    "standard-keys": job_keys.standards_text,
+    "standards": standard_pages.text,
+}
+
+
+def generate(folder: Path) -> set[str]:
+    """Fill the generated parts of every page below a folder; return the names of the parts that are used."""
+    used: set[str] = set()
+
+    def filled(match: re.Match[str]) -> str:
+        used.add(match["name"])
+        return f"{match[1]}\n{PARTS[match['name']]().strip()}\n\n{match[3]}"
+
+    for page in sorted(folder.rglob("*.md")):
+        before = page.read_text(encoding="utf-8")
+        after = _PART.sub(filled, before)
+        if after != before:
+            page.write_text(after, encoding="utf-8")
+    return used
+
+
+if __name__ == "__main__":
+    generate(Path(sys.argv[1]) if len(sys.argv) > 1 else Path(__file__).parents[1])

@@ -1,0 +1,45 @@
+"""The commands as their parsers describe them.
+
+The texts are set from the parsers' parts and not from ``--help``, which Python's releases print differently.
+"""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Iterator
+
+from markdown import code, table
+
+from zlmreport.cli import arguments
+
+
+def text() -> str:
+    """Return a section for each command."""
+    parsers = [arguments._main_job()]  # noqa: SLF001 - what --help prints is made there
+    parsers.extend(make(command) for command, make in arguments._PARSERS.items())  # noqa: SLF001 - likewise
+    return "\n\n".join(part for parser in parsers for part in _section(parser))
+
+
+def _section(parser: argparse.ArgumentParser) -> Iterator[str]:
+    actions = [action for action in parser._actions if action.help]  # noqa: SLF001 - argparse has no other list
+    positional = [action for action in actions if not action.option_strings]
+    named = "".join(f" {_name(action)}" for action in positional)
+    yield f"## `{parser.prog}{named}`"
+    yield _as_printed(parser.description)
+    yield table(("Argument", "Meaning"), ((code(_name(action)), _meaning(action)) for action in actions))
+    if parser.epilog:
+        yield _as_printed(parser.epilog)
+
+
+def _name(action: argparse.Action) -> str:
+    value = f" {action.metavar}" if action.metavar and action.option_strings else ""
+    name = ", ".join(action.option_strings) or str(action.metavar)
+    return f"{name}{value}{' …' if action.nargs == '+' else ''}"
+
+
+def _meaning(action: argparse.Action) -> str:
+    return str(action.help).replace("show program's version number and exit", "print the version")
+
+
+def _as_printed(text: str | None) -> str:
+    return f"```text\n{(text or '').strip()}\n```"

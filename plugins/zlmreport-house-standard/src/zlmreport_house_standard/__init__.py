@@ -1,0 +1,1 @@
+"""House acceptance rules for machine axes, as standards of zlmreport."""

@@ -1,0 +1,40 @@
+"""PDF, set by WeasyPrint: tagged, with bookmarks, the bundled typeface, and graphs as vectors."""
+
+from __future__ import annotations
+
+from zlmreport.certificate.document import Certificate
+from zlmreport.errors import AccessError, Place
+from zlmreport.hookspecs import hookimpl
+from zlmreport.language import Words
+
+
+class PdfRenderer:
+    """Certificates as PDF."""
+
+    identifier = "pdf"
+    title = Words(en="PDF, tagged for accessibility", de="PDF, barrierefrei ausgezeichnet")
+    suffix = ".pdf"
+
+    def render(self, certificate: Certificate) -> bytes:
+        """Return the PDF.
+
+        Raises
+        ------
+        AccessError
+            If WeasyPrint cannot be loaded, because the system lacks Pango.
+        """
+        try:
+            from zlmreport_plugins.renderers.pdf.press import press
+        except (ImportError, OSError) as error:
+            raise AccessError.at(
+                Place("pdf"),
+                f"WeasyPrint cannot be loaded: {error}; it needs the library Pango "
+                "(Debian, Ubuntu: apt-get install libpango-1.0-0 libpangoft2-1.0-0 libharfbuzz-subset0)",
+            ) from error
+        return press().print(certificate)
+
+
+@hookimpl
+def zlmreport_renderers() -> list[PdfRenderer]:
+    """Offer the renderer."""
+    return [PdfRenderer()]

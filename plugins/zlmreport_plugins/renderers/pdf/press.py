@@ -1,0 +1,123 @@
+"""WeasyPrint, set up once in a process.
+
+Fonts and style sheets are shared by all documents: parsing them takes longer than setting a page, and every
+new font configuration costs memory that WeasyPrint 70 never gives back.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cache
+from importlib.resources import files
+from threading import Lock
+from typing import Any
+from xml.etree import ElementTree as ET
+
+from cssselect2 import ElementWrapper
+from weasyprint import CSS, HTML, VERSION
+from weasyprint.text.fonts import FontConfiguration
+
+from zlmreport.certificate.document import Certificate
+from zlmreport.figures.draw import to_svg
+from zlmreport.typesetting.compose import GRAPH_ADDRESS, LOGO_ADDRESS, compose
+from zlmreport.typesetting.resources import FACES, font, font_faces, style_sheet
+from zlmreport_plugins.renderers.pdf.graphs import PageGraph
+from zlmreport_plugins.renderers.pdf.supply import Contents, Supply
+
+#: For archives, with its structure tagged: it costs a tenth more time than a plain one.
+VARIANT = "pdf/a-3a"
+
+#: Whether graphs are drawn straight on this WeasyPrint's pages; any other redraws them from SVG, and slowly.
+DRAWS_ON_PAGES = VERSION.partition(".")[0] == "70"
+
+_FONT_ADDRESS = "font:{}"
+_PROFILE = "--srgb"
+
+
+@dataclass(slots=True)
+class _ColourProfile:
+    """What colours are meant by, as WeasyPrint asks for it.
+
+    Its own class packs the profile anew for each document, with other bytes from the second one on.
+    """
+
+    name: str
+    content: bytes
+    components: tuple[str, ...] = ("r", "g", "b")
+    pdf_reference: Any = None
+
+
+class Press:
+    """Prints documents, one at a time."""
+
+    def __init__(self) -> None:
+        self._fonts = FontConfiguration()
+        self._lock = Lock()
+        profile = (files("weasyprint.pdf") / "sRGB2014.icc").read_bytes()
+        self._profiles = {_PROFILE: _ColourProfile("sRGB2014", profile)}
+        faces = font_faces(lambda face: _FONT_ADDRESS.format(face.stem))
+        supply = Supply(
+            {_FONT_ADDRESS.format(face.stem): (font(f"{face.stem}.ttf"), "font/ttf") for face in FACES}
+        )
+        self._style = self._parsed(f"{faces}\n{style_sheet('certificate', 'paged')}", supply)
+        self._papers = {paper: self._parsed(style_sheet(paper), supply) for paper in ("A4", "Letter")}
+
+    def print(self, certificate: Certificate) -> bytes:
+        """Return a certificate as PDF."""
+        document = _Document(ET.fromstring(compose(certificate)), Supply(_contents(certificate)))  # noqa: S314 (set here)
+        with self._lock:
+            pdf: bytes = document.write_pdf(
+                stylesheets=[self._style, self._papers[certificate.paper]],
+                font_config=self._fonts,
+                color_profiles=self._profiles,
+                output_intent=_PROFILE,
+                cache=_page_graphs(certificate),
+                pdf_variant=VARIANT,
+            )
+        return pdf
+
+    def _parsed(self, style: str, supply: Supply) -> CSS:
+        return CSS(string=style, font_config=self._fonts, url_fetcher=supply)
+
+
+@cache
+def press() -> Press:
+    """Return the press of this process."""
+    return Press()
+
+
+def _page_graphs(certificate: Certificate) -> dict[str, PageGraph]:
+    """Return the graphs that need no loading, by address."""
+    if not DRAWS_ON_PAGES:
+        return {}
+    return {
+        GRAPH_ADDRESS.format(number): PageGraph(figure, certificate.language)
+        for number, figure in enumerate(certificate.figures)
+    }
+
+
+def _contents(certificate: Certificate) -> Contents:
+    """Return what the document may load: the logo, and graphs that are not drawn on its pages."""
+    contents: Contents = {}
+    letterhead = certificate.letterhead
+    if letterhead and letterhead.logo:
+        contents[LOGO_ADDRESS] = letterhead.logo, letterhead.logo_type
+    if not DRAWS_ON_PAGES:
+        for number, figure in enumerate(certificate.figures):
+            drawing = to_svg(figure, certificate.language).encode()
+            contents[GRAPH_ADDRESS.format(number)] = drawing, "image/svg+xml"
+    return contents
+
+
+class _Document(HTML):  # type: ignore[misc]
+    """A document that is a tree already.
+
+    `HTML` itself only takes text, and parses it by the rules of HTML in ten times the time.
+    """
+
+    def __init__(self, root: ET.Element, supply: Supply) -> None:
+        self.base_url = None
+        self.url_fetcher = supply
+        self.media_type = "print"
+        self.wrapper_element: Any = ElementWrapper.from_html_root(root, content_language=None)
+        self.etree_element = self.wrapper_element.etree_element

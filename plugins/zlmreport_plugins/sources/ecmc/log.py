@@ -1,0 +1,128 @@
+"""From the entries of a log to readings."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+from zlmreport.errors import Place, Problem
+from zlmreport.measurement.approach import Approach
+from zlmreport.measurement.collect import Reading
+from zlmreport.measurement.numeral import parse_number
+from zlmreport.quantities.units import Unit
+from zlmreport_plugins.sources.ecmc.entries import (
+    BACKWARD,
+    CYCLES,
+    FORWARD,
+    POSITIONS,
+    TARGET,
+    Entry,
+    Key,
+    is_count,
+    written,
+)
+
+#: What a log means that does not state them.
+_DEFAULTS = {CYCLES: 5, POSITIONS: 8}
+#: With so many announced readings to an entry, hardly any would be there.
+_HARDLY_ANY = 100
+
+
+@dataclass(frozen=True, slots=True)
+class Log:
+    """A log.
+
+    Attributes
+    ----------
+    file
+        For what has no line of its own.
+    entries
+        By key.
+    problems
+        What is wrong with them; reading adds to it.
+    """
+
+    file: Place
+    entries: Mapping[Key, Entry]
+    problems: list[Problem]
+
+    def readings(self, unit: Unit, forward: Approach) -> Iterator[Reading]:
+        """Yield the readings cycle by cycle, upwards and then downwards; the log tells no order.
+
+        Parameters
+        ----------
+        unit
+            Of all positions.
+        forward
+            The approach that the log calls FWD.
+        """
+        positions, cycles = self._count(POSITIONS), self._count(CYCLES)
+        if positions * cycles > _HARDLY_ANY * len(self.entries):
+            message = f"holds {len(self.entries)} entries for {positions} positions and {cycles} cycles"
+            self.problems.append(Problem(self.file, f"{message}; are POSITIONS and CYCLES right?"))
+            return
+        self._refuse_beyond(positions, cycles)
+        targets = sorted(self._targets(positions), key=lambda target: target[1])
+        measured = {name for name, _ in self.entries}
+        names = {forward: FORWARD, Approach(-forward): BACKWARD}
+        for cycle in range(1, cycles + 1):
+            for approach in Approach:
+                if names[approach] in measured:
+                    for index, target in targets[:: int(approach)]:
+                        yield self._reading((names[approach], (index, cycle)), target, approach, unit)
+
+    def _reading(self, key: Key, target: float, approach: Approach, unit: Unit) -> Reading:
+        """Return a reading; where its entry is empty, or not there, it is a missing one."""
+        entry = self.entries.get(key)
+        actual = self._number(key) if entry and entry.value else math.nan
+        index, cycle = key[1]
+        place = entry.place if entry else self.entries[TARGET, (index,)].place
+        return Reading(place, unit.to_si(target), approach, cycle, unit.to_si(actual - target))
+
+    def _targets(self, positions: int) -> Iterator[tuple[int, float]]:
+        """Yield the targets by number; say what is missing, unless it may be in a line that is wrong."""
+        keys = [(TARGET, (index,)) for index in range(1, positions + 1)]
+        absent = [written(key) for key in keys if key not in self.entries]
+        if absent and not self.problems:
+            stated = self.entries.get((POSITIONS, ()))
+            some = f"{', '.join(absent[:5])}{' …' if absent[5:] else ''}"
+            message = f"there is no {some}, and {self._stated(POSITIONS)}"
+            self.problems.append(Problem(stated.place if stated else self.file, message))
+        for key in keys:
+            if key in self.entries:
+                target = self._number(key)
+                if not math.isnan(target):
+                    yield key[1][0], target
+
+    def _refuse_beyond(self, positions: int, cycles: int) -> None:
+        """Refuse entries of positions or cycles that the log does not announce."""
+        limits = ((POSITIONS, positions), (CYCLES, cycles))
+        for key, entry in self.entries.items():
+            for (name, limit), index in zip(limits, key[1], strict=False):
+                if index > limit:
+                    message = f"{written(key)} is one too many: {self._stated(name)}"
+                    self.problems.append(Problem(entry.place, message))
+
+    def _count(self, name: str) -> int:
+        entry = self.entries.get((name, ()))
+        if entry and is_count(entry.value):
+            return int(entry.value)
+        if entry:
+            message = f"{name} is {entry.value[:40]!r}; a number of them belongs there"
+            self.problems.append(Problem(entry.place, message))
+        return _DEFAULTS[name]
+
+    def _stated(self, name: str) -> str:
+        entry = self.entries.get((name, ()))
+        if entry:
+            return f"{name} is {entry.value[:40]}"
+        return f"{name} is not stated, which in such a log means {_DEFAULTS[name]}"
+
+    def _number(self, key: Key) -> float:
+        entry = self.entries[key]
+        try:
+            return parse_number(entry.value)
+        except ValueError as error:
+            self.problems.append(Problem(entry.place, f"{written(key)}: {error}"))
+            return math.nan

@@ -1,0 +1,169 @@
+"""The long layout: one reading a row."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+
+from zlmreport.errors import InputError, Problem
+from zlmreport.measurement.approach import Approach
+from zlmreport.measurement.collect import Reading
+from zlmreport.measurement.conditions import CONDITIONS
+from zlmreport.protocols import SourceContext
+from zlmreport_plugins.sources.laser_csv.cells import Cells
+from zlmreport_plugins.sources.laser_csv.columns import (
+    Column,
+    Heading,
+    column_of,
+    find,
+    missing_column,
+    read_headings,
+)
+from zlmreport_plugins.sources.laser_csv.names import run_and_direction
+from zlmreport_plugins.sources.laser_csv.options import LaserCsvOptions
+from zlmreport_plugins.sources.laser_csv.table import Row, Table
+from zlmreport_plugins.sources.laser_csv.times import time_reader
+
+
+@dataclass(frozen=True, slots=True)
+class LongLayout:
+    """The columns of a long table.
+
+    Attributes
+    ----------
+    target
+        The target position.
+    value
+        The deviation or the actual position.
+    direction
+        None where the job states one direction for all readings.
+    run
+        None where the file has none: all readings are of one run.
+    time
+        None where there is none.
+    conditions
+        All the others.
+    stated_direction
+        The direction that the job states.
+    """
+
+    target: Column
+    value: Column
+    direction: Column | None
+    run: Column | None
+    time: Column | None
+    conditions: tuple[Column, ...]
+    stated_direction: Approach | None
+
+    @property
+    def columns(self) -> tuple[Column, ...]:
+        """Every column that is read."""
+        others = (self.target, self.value, self.direction, self.run, self.time)
+        return (*(column for column in others if column), *self.conditions)
+
+    @property
+    def value_columns(self) -> tuple[Column, ...]:
+        """The columns of readings."""
+        return (self.value,)
+
+    def number_columns(self) -> Iterator[Column]:
+        """Yield the columns that hold numbers with decimals."""
+        return (column for column in self.columns if column not in {self.direction, self.run})
+
+    def readings(self, cells: Cells, sense: float) -> Iterator[Reading]:
+        """Yield the readings of the sound rows; `sense` is −1 for deviations given as nominal − actual."""
+        time_of = time_reader(cells, self.time)
+        for row in cells.table.rows:
+            target = cells.demanded_number(row, self.target)
+            approach = cells.approach(row, self.direction) if self.direction else self.stated_direction
+            run = cells.run(row, self.run) if self.run else 1.0
+            value = cells.number(row, self.value)
+            time = time_of(row)
+            conditions = {condition.name: _kept(cells, row, condition) for condition in self.conditions}
+            if target is None or approach is None or run is None or value is None or time is None:
+                continue
+            yield Reading(
+                cells.table.place(row, self.value.index),
+                target,
+                approach,
+                run,
+                value - target if self.value.name == "position" else sense * value,
+                None if math.isnan(time) else time,
+                conditions,
+            )
+
+
+def long_layout(table: Table, options: LaserCsvOptions, context: SourceContext) -> LongLayout:
+    """Return the columns of a long table; raise InputError with all that are missing or in doubt."""
+    among = read_headings(table, options)
+    by_name = {
+        name: heading
+        for name in ("target", "direction", "run", "deviation", "position", "time", *CONDITIONS)
+        if (heading := find(name, among, table, options))
+    }
+    problems = list(_missing(by_name, among, table, options))
+    if problems:
+        raise InputError(problems)
+    known = {name: column_of(name, heading, options, context, table) for name, heading in by_name.items()}
+    taken = {found.index for found in known.values()}
+    return LongLayout(
+        known["target"],
+        known.get("deviation") or known["position"],
+        known.get("direction"),
+        known.get("run"),
+        known.get("time"),
+        (
+            *(known[name] for name in CONDITIONS if name in known),
+            *(
+                Column(other.index, other.text, other.text, None)
+                for other in among
+                if other.index not in taken
+            ),
+        ),
+        options.stated_direction,
+    )
+
+
+def _missing(
+    by_name: Iterable[str], among: Sequence[Heading], table: Table, options: LaserCsvOptions
+) -> Iterator[Problem]:
+    """Yield the columns that are missing, or that contradict each other or the job."""
+    place = table.place(table.header, 0)
+    if sum(run_and_direction(heading.name) is not None for heading in among) > 1 and "run" not in by_name:
+        yield Problem(place, "the header names runs as columns; say 'layout: wide' in the job")
+        return
+    if "target" not in by_name:
+        yield missing_column("target", among, table)
+    if "direction" not in by_name and not options.direction:
+        problem = missing_column("direction", among, table)
+        yield Problem(problem.place, f"{problem.message}; or say 'direction: up' for all readings")
+    if "direction" in by_name and options.direction:
+        yield Problem(
+            place, "the file has directions, and the job states one for all ('direction'); remove it there"
+        )
+    if "deviation" in by_name and "position" in by_name:
+        yield Problem(
+            place,
+            "there are both deviations and positions; name one of the columns in the job under 'ignore'",
+        )
+    if "deviation" not in by_name and "position" not in by_name:
+        problem = missing_column("deviation", among, table)
+        yield Problem(problem.place, f"{problem.message}; actual positions stand in a column 'position'")
+    if "deviation" not in by_name and options.sign == "nominal-actual":
+        yield Problem(
+            place, "'sign: nominal-actual' is said of deviations, and the file gives positions; remove it"
+        )
+
+
+def _kept(cells: Cells, row: Row, condition: Column) -> float:
+    """Return a condition; NaN if it is none, which is noted then."""
+    noted = len(cells.problems)
+    value = cells.number(row, condition)
+    if value is not None:
+        return value
+    if condition.name not in CONDITIONS:
+        problem = cells.problems[noted]
+        advice = f"a column that holds no numbers is named in the job under 'ignore': {condition.text}"
+        cells.problems[noted] = Problem(problem.place, f"{problem.message}; {advice}")
+    return math.nan

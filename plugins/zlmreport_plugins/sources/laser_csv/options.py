@@ -1,0 +1,113 @@
+"""The job keys of ``laser-csv``."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Annotated, Literal, Self
+
+from pydantic import AfterValidator, Field, field_validator, model_validator
+
+from zlmreport.errors import did_you_mean
+from zlmreport.job.options import JobPath, Options
+from zlmreport.measurement.approach import Approach
+from zlmreport.measurement.conditions import CONDITIONS
+from zlmreport.measurement.reading_units import POSITION_UNITS, TIME_UNITS, Scale, unit_named
+from zlmreport.measurement.text_file import known_encoding
+from zlmreport.quantities.formatting import DecimalSign
+from zlmreport.quantities.units import Unit
+from zlmreport_plugins.sources.laser_csv.names import COLUMN_NAMES, direction, folded, run_and_direction
+
+_DELIMITERS = {"comma": ",", "semicolon": ";", "tab": "\t"}
+_UNITS: Mapping[str, Mapping[str, Unit | Scale]] = {
+    **dict.fromkeys(("target", "deviation", "position"), POSITION_UNITS),
+    "time": TIME_UNITS,
+    **{name: kind.units for name, kind in CONDITIONS.items()},
+}
+
+
+class LaserCsvOptions(Options):
+    """Where the table is, and what it does not say itself."""
+
+    file: JobPath = Field(description="The table, relative to the file that names it.")
+    layout: Literal["long", "wide"] = Field(
+        "long",
+        description="long: one reading a row; wide: one target position a row and one column a run and "
+        "direction.",
+    )
+    values: Literal["deviation", "position"] = Field(
+        "deviation",
+        description="What a wide table holds: deviations, or actual positions. A long table has a column of "
+        "that name.",
+    )
+    columns: dict[str, str] = Field(
+        default_factory=dict,
+        description="The file's own names: {target: Soll, position: Ist}. For a wide table also {1+: RUN 1}.",
+    )
+    ignore: tuple[str, ...] = Field((), description="Columns of the file that are not read, by name.")
+    units: dict[str, str] = Field(
+        default_factory=dict,
+        description="Units by column: {target: inch, deviation: mm}. Without it the unit in the header's "
+        "brackets holds, and without that mm and micrometres (degrees and arc seconds).",
+    )
+    delimiter: Literal[",", ";", "\t", "comma", "semicolon", "tab"] | None = Field(
+        None, description="What parts the columns; told apart if not stated."
+    )
+    decimal: Literal[".", ",", "point", "comma"] | None = Field(
+        None, description="The decimal sign; told apart if not stated."
+    )
+    sign: Literal["actual-nominal", "nominal-actual"] = Field(
+        "actual-nominal", description="How the file forms its deviations; no file tells."
+    )
+    direction: Literal["+", "-", "up", "down", "forward", "reverse"] | None = Field(
+        None, description="Direction of all readings, where the file names none."
+    )
+    lines: tuple[Annotated[int, Field(ge=1)], Annotated[int, Field(ge=1)]] | None = Field(
+        None, description="First line (the header) and last line of the table, where the file holds more."
+    )
+    encoding: Annotated[str, AfterValidator(known_encoding)] | None = Field(
+        None, description="Encoding of the file, if it is not UTF-8: cp1252, gbk, utf-16."
+    )
+
+    @field_validator("columns")
+    @classmethod
+    def _columns_are_known(cls, columns: dict[str, str]) -> dict[str, str]:
+        for name in columns:
+            if folded(name) not in COLUMN_NAMES and run_and_direction(name) is None:
+                raise ValueError(
+                    f"{name!r} is no column of a measurement file; {did_you_mean(name, COLUMN_NAMES)}"
+                )
+        return columns
+
+    @field_validator("units")
+    @classmethod
+    def _units_are_of_columns(cls, units: dict[str, str]) -> dict[str, str]:
+        for name, spelling in units.items():
+            if name not in _UNITS:
+                raise ValueError(f"{name!r} is no column with a unit; {did_you_mean(name, list(_UNITS))}")
+            unit_named(spelling, _UNITS[name])
+        return units
+
+    @model_validator(mode="after")
+    def _keys_agree(self) -> Self:
+        if self.layout == "long" and self.values == "position":
+            raise ValueError("'values' is for 'layout: wide'; a long table has a column 'position' instead")
+        if self.lines and self.lines[0] >= self.lines[1]:
+            raise ValueError("'lines' names the header's line and the last line; the second is the larger")
+        return self
+
+    @property
+    def stated_delimiter(self) -> str | None:
+        """The delimiter that the job states."""
+        return _DELIMITERS.get(self.delimiter, self.delimiter) if self.delimiter else None
+
+    @property
+    def stated_decimal_sign(self) -> DecimalSign | None:
+        """The decimal sign that the job states."""
+        if self.decimal is None:
+            return None
+        return DecimalSign.COMMA if self.decimal in {",", "comma"} else DecimalSign.POINT
+
+    @property
+    def stated_direction(self) -> Approach | None:
+        """The direction of all readings that the job states."""
+        return direction(self.direction) if self.direction else None

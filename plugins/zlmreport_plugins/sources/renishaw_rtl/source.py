@@ -1,0 +1,160 @@
+"""The data source ``renishaw-rtl``."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Annotated
+
+from pydantic import AfterValidator, Field
+
+from zlmreport.errors import InputError, Place, Problem
+from zlmreport.job.options import JobPath, Options
+from zlmreport.language import Words
+from zlmreport.measurement.axis import AxisKind
+from zlmreport.measurement.collect import Reading, collect
+from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.measurement.provenance import Provenance
+from zlmreport.measurement.reading_units import POSITION_UNITS, position_units, unit_named
+from zlmreport.measurement.text_file import TextFile, known_encoding, quoted, read_text
+from zlmreport.protocols import SourceContext
+from zlmreport.quantities.units import MICROMETRE, MILLIRADIAN, Unit
+from zlmreport_plugins.sources.renishaw_rtl.remarks import remarks
+from zlmreport_plugins.sources.renishaw_rtl.runs import Deviation, Pass, deviations, passes
+from zlmreport_plugins.sources.renishaw_rtl.sections import Section, sections
+from zlmreport_plugins.sources.renishaw_rtl.targets import stated_count, target_positions
+
+_KINDS = {"rtl": AxisKind.LINEAR, "rta": AxisKind.ROTARY}
+_UNITS = {AxisKind.LINEAR: MICROMETRE, AxisKind.ROTARY: MILLIRADIAN}
+#: With so many readings that could be to one that is, hardly any are there.
+_HARDLY_ANY = 100
+_WHY = {
+    "rta": "angular deviations of a linear axis are pitch, yaw or roll, and no positioning test",
+    "rtl": "the linear test of a rotary axis is none of its angular positions",
+}
+_TARGETS, _DEVIATIONS = "TARGET DATA", "DEVIATIONS"
+
+_UNIT_TAKEN = Words(
+    en="The file does not name the unit of its deviations; they were read as {unit}, which is usual in files "
+    "of this kind (.{kind}).",
+    de="Die Datei nennt die Einheit ihrer Abweichungen nicht; sie wurden als {unit} gelesen, wie in Dateien "
+    "dieser Art (.{kind}) üblich.",
+)
+_UNIT_STATED = Words(
+    en="The file does not name the unit of its deviations; they were read as {unit}, as the job states.",
+    de="Die Datei nennt die Einheit ihrer Abweichungen nicht; sie wurden als {unit} gelesen, wie im Auftrag "
+    "angegeben.",
+)
+
+
+def _known_unit(spelling: str) -> str:
+    unit_named(spelling, POSITION_UNITS)
+    return spelling
+
+
+class RenishawRtlOptions(Options):
+    """Where the file is, and what it does not say itself."""
+
+    file: JobPath = Field(description="The .rtl or .rta file, relative to the file that names it.")
+    deviation_unit: Annotated[str, AfterValidator(_known_unit)] | None = Field(
+        None,
+        description="Unit of the deviations, if it is not micrometres (.rtl) or mrad (.rta): arcsec, nm.",
+    )
+    encoding: Annotated[str, AfterValidator(known_encoding)] | None = Field(
+        None, description="Encoding of the file, if it is not UTF-8: cp1252, gbk, utf-16."
+    )
+
+
+class RenishawRtl:
+    """Renishaw's linear and angular test files."""
+
+    identifier = "renishaw-rtl"
+    title = Words(en="Renishaw test file (.rtl, .rta)", de="Renishaw-Messdatei (.rtl, .rta)")
+    options: type[Options] = RenishawRtlOptions
+
+    def read(self, options: RenishawRtlOptions, context: SourceContext) -> MeasurementSet:
+        """Read a test file; raise `InputError` with every defect and its place."""
+        text = read_text(options.file, options.encoding)
+        parts = sections(text, (_TARGETS, _DEVIATIONS))
+        kind = _kind(text, parts, context)
+        unit = _deviation_unit(options, context)
+        targets = target_positions(parts[_TARGETS])
+        problems: list[Problem] = []
+        found = deviations(parts[_DEVIATIONS], targets, problems)
+        taken = list(passes(found, targets, problems))
+        problems.extend(_cut_off(parts, found))
+        if len(taken) * len(targets) > _HARDLY_ANY * len(found):
+            message = f"has {len(targets)} targets and {len(taken)} runs, and only {len(found)} readings"
+            raise InputError([Problem(text.place(), message), *problems])
+        said = [_unit_remark(options, unit, kind), *remarks(parts, problems)]
+        return collect(
+            _readings(taken, targets, unit, context),
+            context.axis,
+            Provenance(self.identifier, (text.source,), tuple(said)),
+            place=text.place(),
+            problems=problems,
+        )
+
+
+def _kind(text: TextFile, parts: Mapping[str, Section], context: SourceContext) -> str:
+    """Return the kind of file, rtl or rta, which must be that of the axis."""
+    own = next(kind for kind, axis_kind in _KINDS.items() if axis_kind is context.axis.kind)
+    kind, place = _told_kind(text, parts) or (own, text.place())
+    if kind not in _KINDS:
+        raise InputError.at(
+            place, f"the file is of type {quoted(kind)}; linear (rtl) and angular (rta) tests are read"
+        )
+    if kind != own:
+        raise InputError.at(
+            place,
+            f"the file is of type {kind}, and the axis is {context.axis.kind} (axis.kind): {_WHY[kind]}",
+        )
+    return kind
+
+
+def _told_kind(text: TextFile, parts: Mapping[str, Section]) -> tuple[str, Place] | None:
+    """Return the kind that the file's header or else its suffix tells, and where."""
+    entry = parts["HEADER"].value("filetype") if "HEADER" in parts else None
+    if entry and entry.value:
+        return entry.value.casefold(), entry.line.place
+    suffix = text.source.name.rpartition(".")[2].casefold()
+    return (suffix, text.place()) if suffix in _KINDS else None
+
+
+def _deviation_unit(options: RenishawRtlOptions, context: SourceContext) -> Unit:
+    if options.deviation_unit is None:
+        return _UNITS[context.axis.kind]
+    try:
+        return unit_named(options.deviation_unit, position_units(context.axis.kind))
+    except ValueError as error:
+        raise InputError.at(context.place, f"deviation_unit: {error}") from error
+
+
+def _unit_remark(options: RenishawRtlOptions, unit: Unit, kind: str) -> Words:
+    return (_UNIT_STATED if options.deviation_unit else _UNIT_TAKEN).given(unit=unit.symbol, kind=kind)
+
+
+def _cut_off(parts: Mapping[str, Section], found: Sequence[Deviation]) -> Iterator[Problem]:
+    """Yield the problem that the file has not as many runs as it announces."""
+    stated = stated_count(parts["RUNS"], "runcount") if "RUNS" in parts else None
+    runs = len({deviation.run for deviation in found})
+    if stated and stated[0] != runs:
+        yield Problem(
+            stated[1].place,
+            f"the file announces {stated[0]} runs and has readings of {runs}; was it cut off?",
+        )
+
+
+def _readings(
+    taken: Sequence[Pass], targets: Sequence[float], unit: Unit, context: SourceContext
+) -> Iterator[Reading]:
+    """Yield the readings run by run; a target that a run left out is a missing reading."""
+    positions = [context.axis.position_unit.to_si(target) for target in targets]
+    numbers = sorted(range(1, len(targets) + 1), key=lambda number: positions[number - 1])
+    for run in taken:
+        for number in numbers[:: int(run.approach)]:
+            position = positions[number - 1]
+            for deviation in run.deviations.get(number, ()):
+                yield Reading(deviation.place, position, run.approach, run.cycle, unit.to_si(deviation.value))
+            if number not in run.deviations:
+                yield Reading(run.place, position, run.approach, run.cycle, math.nan)

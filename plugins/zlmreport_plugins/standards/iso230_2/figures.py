@@ -1,0 +1,149 @@
+"""The graphs of ISO 230-2: bidirectional with and without the parameters, and each direction by itself."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from zlmreport.evaluation.evaluation import Evaluation
+from zlmreport.figures import alternatives
+from zlmreport.figures.figure import Arrow, Band, Curve, Figure, Panel, Role
+from zlmreport.figures.prescribed import DIRECTIONS, LIMITS, MEANS, Diagram, panel, worst
+from zlmreport.language import Words
+from zlmreport.measurement.approach import Approach
+from zlmreport_plugins.standards.iso230_2 import formulas
+from zlmreport_plugins.standards.iso230_2.editions import Edition
+
+_SYMBOLS = {Approach.POSITIVE: ("A_fwd", "E_fwd", "R_fwd"), Approach.NEGATIVE: ("A_bwd", "E_bwd", "R_bwd")}
+_MEAN = {
+    Approach.POSITIVE: Words("Mean of the positive direction", "Mittelwert der positiven Richtung"),
+    Approach.NEGATIVE: Words("Mean of the negative direction", "Mittelwert der negativen Richtung"),
+}
+
+
+def figures(edition: Edition, evaluation: Evaluation) -> Iterator[Figure]:
+    """Yield the edition's graphs, as far as the test defines what they show."""
+    graphs = _Graphs(edition, evaluation)
+    yield graphs.means()
+    if graphs.diagram.is_bidirectional:
+        yield graphs.overall()
+    yield graphs.unidirectional()
+
+
+class _Graphs:
+    """The graphs of one evaluation; limits and reversal by position are formed once."""
+
+    def __init__(self, edition: Edition, evaluation: Evaluation) -> None:
+        statistics = evaluation.statistics
+        self.k, self.i = edition.coverage_factor, f"_{{{edition.position_index}}}"
+        self.evaluation = evaluation
+        self.diagram = Diagram(evaluation)
+        self.mean = statistics.mean
+        self.mean_bidirectional = statistics.mean_bidirectional
+        self.upper = formulas.upper_limit(statistics, self.k)
+        self.lower = formulas.lower_limit(statistics, self.k)
+        self.worst_reversal = worst(np.abs(statistics.reversal_value))
+        self.worst_repeatability = worst(evaluation.column("R"))
+
+    def means(self) -> Figure:
+        """Return the means and limits of both directions, with B_i and R_i where they are largest."""
+        shown = panel(
+            bands=[self._limits(approach) for approach in Approach],
+            readings=self.diagram.readings(),
+            curves=self._means(),
+            arrows=self._bidirectional_arrows(f"B{self.i}", f"R{self.i}"),
+        )
+        title = Words(
+            "Axis {axis}: mean deviations, limits at {k} standard deviations, largest reversal and "
+            "repeatability",
+            "Achse {axis}: mittlere Abweichungen, Grenzen bei {k} Standardabweichungen, größte Umkehrspanne "
+            "und Wiederholgenauigkeit",
+        )
+        return self._figure("means", title.given(k=self.k), shown)
+
+    def overall(self) -> Figure:
+        """Return the bidirectional parameters at the places where they arise."""
+        shown = panel(
+            bands=[self._limits(approach) for approach in Approach],
+            curves=self._means(),
+            arrows=self._bidirectional_arrows("B", "R"),
+            brackets=[
+                self.diagram.bracket("A", self.lower, self.upper),
+                self.diagram.bracket("E", self.mean, self.mean),
+                self.diagram.bracket("M", self.mean_bidirectional, self.mean_bidirectional),
+            ],
+        )
+        title = Words(
+            "Axis {axis}: bidirectional parameters and where they arise",
+            "Achse {axis}: zweiseitige Kenngrößen und wo sie entstehen",
+        )
+        return self._figure("overall", title, shown)
+
+    def unidirectional(self) -> Figure:
+        """Return a panel for each direction that was measured, with its own parameters."""
+        panels = [self._direction(approach) for approach in self.diagram.approaches]
+        title = Words(
+            "Axis {axis}: unidirectional parameters and where they arise",
+            "Achse {axis}: einseitige Kenngrößen und wo sie entstehen",
+        )
+        return self._figure("unidirectional", title, *panels)
+
+    def _direction(self, approach: Approach) -> Panel:
+        accuracy, systematic, repeatability = _SYMBOLS[approach]
+        lower, upper, mean = (array[approach.index] for array in (self.lower, self.upper, self.mean))
+        return panel(
+            DIRECTIONS[approach],
+            bands=[self._limits(approach)],
+            readings=self.diagram.readings(approach),
+            curves=[self._mean(approach)],
+            arrows=[
+                self.diagram.arrow(
+                    f"R{approach.arrow}", worst(self.evaluation.column(repeatability)), lower, upper
+                )
+            ],
+            brackets=[
+                self.diagram.bracket(accuracy, lower, upper),
+                self.diagram.bracket(systematic, mean, mean),
+            ],
+        )
+
+    def _mean(self, approach: Approach) -> Curve | None:
+        notation = f"x̄{self.i}{approach.arrow}"
+        return self.diagram.curve(notation, MEANS[approach], self.mean[approach.index])
+
+    def _means(self) -> list[Curve | None]:
+        both = self.diagram.curve(f"x̄{self.i}", Role.MEAN_BIDIRECTIONAL, self.mean_bidirectional)
+        return [*map(self._mean, Approach), both]
+
+    def _limits(self, approach: Approach) -> Band | None:
+        arrow = approach.arrow
+        return self.diagram.band(
+            f"x̄{self.i}{arrow} ± {self.k}s{self.i}{arrow}",
+            LIMITS[approach],
+            self.lower[approach.index],
+            self.upper[approach.index],
+        )
+
+    def _bidirectional_arrows(self, reversal: str, repeatability: str) -> list[Arrow | None]:
+        positive, negative = (self.mean[approach.index] for approach in Approach)
+        # R_i is the width of the two directions' limits taken together: its three cases are the choices
+        # of the direction that gives the upper and of the one that gives the lower end.
+        lower, upper = self.lower.min(axis=0), self.upper.max(axis=0)
+        return [
+            self.diagram.arrow(reversal, self.worst_reversal, negative, positive),
+            self.diagram.arrow(repeatability, self.worst_repeatability, lower, upper),
+        ]
+
+    def _figure(self, key: str, title: Words, *panels: Panel) -> Figure:
+        axis = self.diagram.axis
+        alternative = alternatives.text(
+            alternatives.graph_of(self.evaluation),
+            *(
+                alternatives.range_of(axis, _MEAN[approach], self.mean[approach.index])
+                for approach in self.diagram.approaches
+            ),
+            alternatives.marks(axis, [mark for each in panels for mark in each.arrows]),
+            alternatives.marks(axis, [mark for each in panels for mark in each.brackets]),
+        )
+        return self.diagram.figure(key, title.given(axis=axis.name), alternative, panels)

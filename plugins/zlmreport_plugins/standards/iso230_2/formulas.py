@@ -1,0 +1,97 @@
+"""The formulas of ISO 230-2, in the order of the standard.
+
+k stands for the edition's coverage factor: 3 in 1988, 2 since 1997. All parameters are full ranges. Every
+function takes the statistics of one test or of a stack of tests; NaN stands for what is not defined.
+
+Sources: 1988 as in the ZLM Position manual, G 1.3; 1997, 2006 and 2014 as published, and confirmed by the
+published results in ``tests/data/published``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from zlmreport.evaluation.ranges import average, largest, smallest, width
+from zlmreport.evaluation.statistics import PositionStatistics
+from zlmreport.quantities.arrays import FloatArray
+
+
+def unidirectional_repeatability(statistics: PositionStatistics, k: int) -> FloatArray:
+    """R_i↑ = 2k·s_i↑ and R_i↓ = 2k·s_i↓, shape (..., approach, position)."""
+    return 2 * k * statistics.standard_deviation
+
+
+def bidirectional_repeatability(statistics: PositionStatistics, k: int) -> FloatArray:
+    """R_i = max(k·s_i↑ + k·s_i↓ + abs(B_i); 2k·s_i↑; 2k·s_i↓), shape (..., position).
+
+    NaN where a direction has fewer than two readings.
+    """
+    positive, negative = k * statistics.s_positive, k * statistics.s_negative
+    mixed = positive + negative + np.abs(statistics.reversal_value)
+    widest: FloatArray = np.maximum(mixed, 2 * np.maximum(positive, negative))
+    return widest
+
+
+def upper_limit(statistics: PositionStatistics, k: int) -> FloatArray:
+    """x̄_i↑ + k·s_i↑ and x̄_i↓ + k·s_i↓, shape (..., approach, position)."""
+    return statistics.mean + k * statistics.standard_deviation
+
+
+def lower_limit(statistics: PositionStatistics, k: int) -> FloatArray:
+    """x̄_i↑ − k·s_i↑ and x̄_i↓ − k·s_i↓, shape (..., approach, position)."""
+    return statistics.mean - k * statistics.standard_deviation
+
+
+def bidirectional_width(upper: FloatArray, lower: FloatArray) -> FloatArray:
+    """Return the range over both directions: max(upper↑; upper↓) − min(lower↑; lower↓).
+
+    Shape (..., approach, position) to (...); NaN where a direction was not measured at all.
+    """
+    width_of_both: FloatArray = np.max(largest(upper), axis=-1) - np.min(smallest(lower), axis=-1)
+    return width_of_both
+
+
+def positions(statistics: PositionStatistics, k: int) -> dict[str, FloatArray]:
+    """Return the columns by position by symbol, each of shape (..., position)."""
+    unidirectional = unidirectional_repeatability(statistics, k)
+    return {
+        "R_fwd": unidirectional[..., 0, :],
+        "R_bwd": unidirectional[..., 1, :],
+        "R": bidirectional_repeatability(statistics, k),
+    }
+
+
+def parameters(
+    statistics: PositionStatistics, k: int, repeatability: Mapping[str, FloatArray]
+) -> dict[str, FloatArray]:
+    """Return the parameters of the axis by symbol, each of shape (...).
+
+    Parameters
+    ----------
+    statistics
+        By position.
+    k
+        Coverage factor.
+    repeatability
+        The columns by position, as from `positions`.
+    """
+    upper, lower = upper_limit(statistics, k), lower_limit(statistics, k)
+    mean, mean_bidirectional = statistics.mean, statistics.mean_bidirectional
+    accuracy, systematic = width(upper, lower), width(mean, mean)
+    reversal = statistics.reversal_value
+    return {
+        "A": bidirectional_width(upper, lower),
+        "A_fwd": accuracy[..., 0],
+        "A_bwd": accuracy[..., 1],
+        "E": bidirectional_width(mean, mean),
+        "E_fwd": systematic[..., 0],
+        "E_bwd": systematic[..., 1],
+        "M": width(mean_bidirectional, mean_bidirectional),
+        "R": largest(repeatability["R"]),
+        "R_fwd": largest(repeatability["R_fwd"]),
+        "R_bwd": largest(repeatability["R_bwd"]),
+        "B": largest(np.abs(reversal)),
+        "B_mean": average(reversal),
+    }

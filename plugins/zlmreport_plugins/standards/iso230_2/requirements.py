@@ -1,0 +1,130 @@
+"""What ISO 230-2 asks of a test.
+
+The numbers of 1988 are those of the ZLM Position manual (G 1.1), and so published; those of the later
+editions have not been read in the standard's own text and are applied as they are in use, but for the rule
+on long axes: clause 6.2 of GOST ISO 230-2-2016, which is ISO 230-2:2014.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from zlmreport.evaluation import printed
+from zlmreport.evaluation.checks.positions import (
+    exceeds,
+    measured_length,
+    positions_by_angle,
+    positions_over_travel,
+    positions_per_metre,
+    positions_per_scale_element,
+    principal_angles,
+)
+from zlmreport.evaluation.checks.readings import (
+    both_directions,
+    fewest_runs,
+    no_missing_readings,
+    number_of_runs,
+)
+from zlmreport.evaluation.checks.spacing import mean_interval, random_fractions, spacing_against_periods
+from zlmreport.evaluation.requirements import Basis, Finding
+from zlmreport.language import Words
+from zlmreport.measurement.axis import Axis, AxisKind
+from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport_plugins.standards.iso230_2.editions import Edition
+
+_RUNS = 5
+_LONG = {AxisKind.LINEAR: 2.0, AxisKind.ROTARY: 2 * math.pi}
+_POSITIONS_BY_ANGLE = {math.pi / 2: 3, math.pi: 5}
+_POSITIONS_ABOVE = 8
+_MEAN_INTERVAL_OF_LONG_AXIS = 0.25
+
+_ONE_DIRECTION_ONLY = Words(
+    "only the parameters of this direction exist", "nur die Kenngrößen dieser Richtung sind bestimmt"
+)
+
+
+def findings(edition: Edition, measurements: MeasurementSet) -> Iterator[Finding]:
+    """Yield the edition's requirements, held against the test."""
+    yield both_directions(measurements, _ONE_DIRECTION_ONLY, Basis.PUBLISHED)
+    if edition.long_axis is not None and _is_long_axis_test(measurements):
+        yield from _long_axis(edition.long_axis, measurements)
+    else:
+        yield from _full_test(edition, measurements)
+    yield no_missing_readings(measurements)
+    yield positions_over_travel(measurements)
+    yield from spacing_against_periods(measurements, Basis.APPLIED)
+    if edition.long_axis is None:
+        yield random_fractions(measurements, "P = N·p + r", Basis.PUBLISHED)
+    else:
+        yield random_fractions(measurements, "P = (i − 1)·p + r", Basis.APPLIED)
+
+
+def _axis_length(measurements: MeasurementSet) -> float:
+    """Return the length of the axis, m or rad: its travel, or what was measured where none is stated."""
+    travel = measurements.axis.travel
+    measured = measured_length(measurements)
+    return max(measured, abs(travel[1] - travel[0])) if travel else measured
+
+
+def _is_long(measurements: MeasurementSet, length: float) -> bool:
+    return exceeds(length, _LONG[measurements.axis.kind])
+
+
+def _is_long_axis_test(measurements: MeasurementSet) -> bool:
+    """Tell whether the test is one of a long axis, and not of a shorter zone with several runs."""
+    if _is_long(measurements, measured_length(measurements)):
+        return True
+    return _is_long(measurements, _axis_length(measurements)) and fewest_runs(measurements) == 1
+
+
+def _full_test(edition: Edition, measurements: MeasurementSet) -> Iterator[Finding]:
+    """Yield the requirements on a test with several runs."""
+    axis = measurements.axis
+    if edition.long_axis is not None and _is_long(measurements, _axis_length(measurements)):
+        yield _zone(axis, _axis_length(measurements), measured_length(measurements))
+    yield number_of_runs(measurements, _RUNS, Basis.APPLIED)
+    if axis.kind is AxisKind.ROTARY:
+        yield positions_by_angle(measurements, _POSITIONS_BY_ANGLE, _POSITIONS_ABOVE, Basis.APPLIED)
+        yield principal_angles(measurements, Basis.APPLIED)
+        return
+    basis = Basis.PUBLISHED if edition.long_axis is None else Basis.APPLIED
+    yield positions_per_metre(measurements, 5, basis, minimum=5)
+    if edition.long_axis is None:
+        yield positions_per_scale_element(measurements, 1, basis)
+
+
+def _zone(axis: Axis, length: float, measured: float) -> Finding:
+    """Return the finding on a zone of a long axis that was tested in full."""
+    requirement = Words(
+        "On an axis above {limit}, a full test of a shorter zone only as agreed",
+        "An einer Achse über {limit} eine vollständige Prüfung eines kürzeren Bereichs nur nach Vereinbarung",
+    ).given(limit=printed.position(axis, _LONG[axis.kind]))
+    found = Words("{measured} of {length}", "{measured} von {length}").given(
+        measured=printed.position(axis, measured), length=printed.position(axis, length)
+    )
+    return Finding(requirement, found, met=None)
+
+
+def _long_axis(basis: Basis, measurements: MeasurementSet) -> Iterator[Finding]:
+    """Yield the requirements on an axis above 2000 mm or 360°: one run, and no s, R, A."""
+    axis, number = measurements.axis, fewest_runs(measurements)
+    requirement = Words(
+        "Above {limit} one run in each direction; s, R and A are not evaluated",
+        "Über {limit} ein Durchlauf je Richtung; s, R und A werden nicht ausgewertet",
+    ).given(limit=printed.position(axis, _LONG[axis.kind]))
+    length = printed.position(axis, _axis_length(measurements))
+    if number == 1:
+        found = Words(
+            "1 run on {length}; s, R and A are not evaluated",
+            "1 Durchlauf auf {length}; s, R und A werden nicht ausgewertet",
+        )
+        yield Finding(requirement, found.given(length=length), met=True, basis=basis)
+    else:
+        found = Words(
+            "{runs} on {length}; the R and A that follow from them go beyond the standard",
+            "{runs} auf {length}; die daraus folgenden R und A gehen über die Norm hinaus",
+        ).given(runs=printed.runs(number), length=length)
+        yield Finding(requirement, found, met=False, basis=basis)
+    if axis.kind is AxisKind.LINEAR:
+        yield mean_interval(measurements, _MEAN_INTERVAL_OF_LONG_AXIS, Basis.APPLIED)

@@ -1,0 +1,14 @@
+"""VDI/DGQ 3441 and VDI/VDE 2617: the same algebra with 3 and with 2 standard deviations."""
+
+from __future__ import annotations
+
+from zlmreport.hookspecs import hookimpl
+from zlmreport.protocols import Standard
+from zlmreport_plugins.standards.vdi.guidelines import GUIDELINES
+from zlmreport_plugins.standards.vdi.standard import VdiGuideline
+
+
+@hookimpl
+def zlmreport_standards() -> tuple[Standard, ...]:
+    """Return the two guidelines."""
+    return tuple(VdiGuideline(guideline) for guideline in GUIDELINES)

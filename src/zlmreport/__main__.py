@@ -1,0 +1,7 @@
+"""``python -m zlmreport``."""
+
+import sys
+
+from zlmreport.cli import main
+
+sys.exit(main())

@@ -1,0 +1,108 @@
+"""What ISO/IEC 17025:2017 clause 7.8 makes mandatory, held against a job."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from zlmreport.errors import InputError, Problem
+from zlmreport.job.job import Job
+from zlmreport.job.model import JobKeys
+
+
+@dataclass(frozen=True, slots=True)
+class MandatoryItem:
+    """An item that a calibration certificate must show.
+
+    Attributes
+    ----------
+    clause
+        Of ISO/IEC 17025:2017.
+    key
+        The job key that states it.
+    what
+        The item in words, as the message names it.
+    stated
+        Whether a job states it.
+    """
+
+    clause: str
+    key: str
+    what: str
+    stated: Callable[[JobKeys], object]
+
+
+MANDATORY_ITEMS = (
+    MandatoryItem(
+        "7.8.2.1 b", "laboratory.name", "the laboratory's name", lambda job: job.laboratory is not None
+    ),
+    MandatoryItem(
+        "7.8.2.1 b",
+        "laboratory.address",
+        "the laboratory's address",
+        lambda job: job.laboratory and job.laboratory.address,
+    ),
+    MandatoryItem("7.8.2.1 e", "customer.name", "the customer's name", lambda job: job.customer is not None),
+    MandatoryItem(
+        "7.8.2.1 e",
+        "customer.address",
+        "how to reach the customer",
+        lambda job: job.customer and job.customer.address,
+    ),
+    MandatoryItem(
+        "7.8.2.1 g",
+        "machine.serial",
+        "an unambiguous identification of the machine",
+        lambda job: job.machine.serial,
+    ),
+    MandatoryItem(
+        "7.8.2.1 i", "measurement.date", "the date of the measurement", lambda job: job.measurement.date
+    ),
+    MandatoryItem("7.8.2.1 j", "certificate.issued", "the date of issue", lambda job: job.certificate.issued),
+    MandatoryItem(
+        "7.8.2.1 o",
+        "certificate.authorised_by",
+        "the person who authorises the certificate",
+        lambda job: job.certificate.authorised_by,
+    ),
+    MandatoryItem(
+        "7.8.4.1 a",
+        "instrument.expanded_uncertainty",
+        "the measurement uncertainty of the instrument",
+        lambda job: job.instrument and job.instrument.expanded_uncertainty,
+    ),
+    MandatoryItem(
+        "7.8.4.1 b",
+        "environment",
+        "the conditions that influence the results",
+        lambda job: job.environment is not None,
+    ),
+    MandatoryItem(
+        "7.8.4.1 c",
+        "instrument.certificate",
+        "the instrument's calibration certificate, for traceability",
+        lambda job: job.instrument and job.instrument.certificate,
+    ),
+)
+
+
+def demand_mandatory_items(job: Job) -> None:
+    """Refuse a calibration certificate that lacks mandatory items; a measuring report may lack them.
+
+    Raises
+    ------
+    InputError
+        With every missing item, its clause, and the key that states it.
+    """
+    if job.keys.certificate.kind != "certificate":
+        return
+    missing = [item for item in MANDATORY_ITEMS if not item.stated(job.keys)]
+    if missing:
+        raise InputError(
+            Problem(
+                job.place_of(item.key),
+                f"a calibration certificate must state {item.what} (ISO/IEC 17025:2017, {item.clause}): "
+                f"add {item.key}, or make a measuring report by certificate.kind: report",
+            )
+            for item in missing
+        )

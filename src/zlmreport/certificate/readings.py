@@ -1,0 +1,101 @@
+"""The single readings, as they were taken."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from zlmreport.certificate.document import Align, Block, Column, Notice, RowGroup, Section, Symbol, Table
+from zlmreport.certificate.scribe import Scribe
+from zlmreport.language import Words
+from zlmreport.measurement.approach import Approach
+from zlmreport.measurement.measurement_set import MeasurementSet
+
+#: Columns of readings that stand beside each other on an upright page.
+_MOST_COLUMNS = 10
+#: Missing readings that are named one by one.
+_MOST_NAMED = 12
+
+_TITLE = Words(en="Readings", de="Messwerte")
+_CAPTION = Words(
+    en="Deviations x = actual − target position, in the order of runs",
+    de="Abweichungen x = Istposition − Sollposition, in der Reihenfolge der Durchläufe",
+)
+
+
+def section(measurements: MeasurementSet, scribe: Scribe) -> Section:
+    """Return the section of raw readings: one row a target, runs as columns."""
+    blocks: list[Block] = [*missing_readings(measurements, scribe)]
+    columns = [
+        (approach, index) for approach in measurements.approaches for index in range(len(measurements.runs))
+    ]
+    fit = len(columns) <= _MOST_COLUMNS
+    blocks.extend(
+        _table(measurements, chosen, scribe) for chosen in ([columns] if fit else _by_approach(columns))
+    )
+    return Section("readings", scribe.say(_TITLE), tuple(blocks), new_page=True)
+
+
+def missing_readings(measurements: MeasurementSet, scribe: Scribe) -> Iterator[Notice]:
+    """Yield the notice that names the missing readings, if there are any."""
+    missing = measurements.missing()
+    if not missing:
+        return
+    heading = Words(
+        en="{count} of {all} readings are missing; nothing was filled in",
+        de="{count} von {all} Messwerten fehlen; nichts wurde ergänzt",
+    ).given(
+        count=len(missing),
+        all=len(measurements.approaches) * len(measurements.target_positions) * len(measurements.runs),
+    )
+    one = Words(
+        en="target {target} {unit} {arrow}, run {run}",
+        de="Sollposition {target} {unit} {arrow}, Durchlauf {run}",
+    )
+    items = [
+        scribe.say(
+            one.given(
+                target=scribe.position(reading.target_position),
+                unit=scribe.position_unit.symbol,
+                arrow=reading.approach.arrow,
+                run=reading.run,
+            )
+        )
+        for reading in missing[:_MOST_NAMED]
+    ]
+    if len(missing) > _MOST_NAMED:
+        more = Words(
+            en="and {count} more (see the table of readings)",
+            de="und {count} weitere (siehe Tabelle der Messwerte)",
+        )
+        items.append(scribe.say(more.given(count=len(missing) - _MOST_NAMED)))
+    yield Notice(scribe.say(heading), tuple(items))
+
+
+def _by_approach(columns: Sequence[tuple[Approach, int]]) -> Iterator[list[tuple[Approach, int]]]:
+    """Yield columns that fit on a page: one approach at a time, so many runs at a time."""
+    for approach in Approach:
+        of_approach = [column for column in columns if column[0] is approach]
+        for start in range(0, len(of_approach), _MOST_COLUMNS):
+            yield of_approach[start : start + _MOST_COLUMNS]
+
+
+def _table(measurements: MeasurementSet, chosen: Sequence[tuple[Approach, int]], scribe: Scribe) -> Table:
+    grid = measurements.deviations()
+    unit = scribe.deviation_unit.symbol
+    columns = [
+        Column(Symbol("i"), align=Align.RIGHT),
+        Column(Symbol("P_{i}"), scribe.position_unit.symbol, Align.RIGHT),
+        *(
+            Column(Symbol(f"x_{{i{measurements.runs[run]}}}{approach.arrow}"), unit, Align.RIGHT)
+            for approach, run in chosen
+        ),
+    ]
+    rows = tuple(
+        (
+            str(position + 1),
+            scribe.position(float(target)),
+            *(scribe.deviation(float(grid[approach.index, position, run])) for approach, run in chosen),
+        )
+        for position, target in enumerate(measurements.target_positions)
+    )
+    return Table(scribe.say(_CAPTION), tuple(columns), (RowGroup(rows),), dense=True)

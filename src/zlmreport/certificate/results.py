@@ -1,0 +1,251 @@
+"""The results by one standard: parameters, graphs, table by position, requirements, definitions."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from zlmreport.certificate.document import (
+    Align,
+    Block,
+    Cell,
+    Column,
+    Formulas,
+    Graph,
+    Mark,
+    Notice,
+    Paragraph,
+    RowGroup,
+    Section,
+    Symbol,
+    Table,
+    Verdict,
+)
+from zlmreport.certificate.scribe import NOTHING, Scribe
+from zlmreport.evaluation.evaluation import Evaluation, Parameter
+from zlmreport.evaluation.quantity import Group
+from zlmreport.evaluation.requirements import Basis, Finding
+from zlmreport.figures.figure import Figure
+from zlmreport.language import Words
+from zlmreport.quantities.arrays import FloatArray
+
+
+@dataclass(frozen=True, slots=True)
+class Evaluated:
+    """An evaluation with the standard's prescribed graphs of it."""
+
+    evaluation: Evaluation
+    figures: tuple[Figure, ...]
+
+
+_GROUPS = {
+    Group.SYSTEMATIC: (
+        Words(en="Systematic deviations", de="Systematische Abweichungen"),
+        Words(
+            en="What repeats from run to run: the average error to expect.",
+            de="Was sich von Durchlauf zu Durchlauf wiederholt: der im Mittel zu erwartende Fehler.",
+        ),
+    ),
+    Group.RANDOM: (
+        Words(en="Random deviations", de="Zufällige Abweichungen"),
+        Words(
+            en="How far repeated approaches to one position scatter.",
+            de="Wie weit wiederholte Anfahrten einer Position streuen.",
+        ),
+    ),
+    Group.COMPOSITE: (
+        Words(en="Composite deviations", de="Gesamtabweichungen"),
+        Words(
+            en="Systematic and random deviations together.",
+            de="Systematische und zufällige Abweichungen zusammen.",
+        ),
+    ),
+}
+
+CONFORMS = Words(en="conforms", de="eingehalten")
+DOES_NOT_CONFORM = Words(en="does not conform", de="nicht eingehalten")
+UNDECIDED = Words(en="not decided", de="nicht entschieden")
+_MET = Words(en="met", de="erfüllt")
+_NOT_MET = Words(en="not met", de="nicht erfüllt")
+_OPEN = Words(en="open", de="offen")
+
+
+def section(evaluated: Evaluated, scribe: Scribe) -> Section:
+    """Return the section on the results by one standard."""
+    evaluation = evaluated.evaluation
+    title = Words(en="Results by {designation}", de="Ergebnisse nach {designation}")
+    blocks: list[Block] = [
+        Paragraph(scribe.say(evaluation.title)),
+        *_shortfalls(evaluation, scribe),
+        _parameters(evaluation, scribe),
+        *map(Graph, evaluated.figures),
+        _positions(evaluation, scribe),
+        _requirements(evaluation, scribe),
+        _definitions(evaluation, scribe),
+        *(Paragraph(scribe.say(note)) for note in evaluation.notes),
+    ]
+    return Section(
+        key=evaluation.standard.replace(":", "-"),
+        title=scribe.say(title.given(designation=evaluation.designation)),
+        blocks=tuple(blocks),
+        new_page=True,
+    )
+
+
+def verdict(parameter: Parameter, scribe: Scribe) -> Cell:
+    """Return the cell that says whether a parameter keeps its limit."""
+    if parameter.limit is None:
+        return NOTHING
+    if parameter.conforms is None:
+        return Verdict(Mark.OPEN, scribe.say(UNDECIDED))
+    if parameter.conforms:
+        return Verdict(Mark.MET, scribe.say(CONFORMS))
+    return Verdict(Mark.NOT_MET, scribe.say(DOES_NOT_CONFORM))
+
+
+def limit(parameter: Parameter, scribe: Scribe) -> str:
+    """Write a parameter's limit as the job states it, with no digits added."""
+    if parameter.limit is None:
+        return NOTHING
+    return scribe.number(scribe.deviation_unit.from_si(parameter.limit))
+
+
+def _shortfalls(evaluation: Evaluation, scribe: Scribe) -> Iterator[Notice]:
+    """Yield the notice of the requirements that the test does not meet, if there are any."""
+    unmet = [finding for finding in evaluation.findings if finding.met is False]
+    if unmet:
+        statement = Words(en="{requirement}: {found}", de="{requirement}: {found}")
+        yield Notice(
+            scribe.say(
+                Words(
+                    en="The test deviates from {designation}",
+                    de="Die Messung weicht von {designation} ab",
+                ).given(designation=evaluation.designation)
+            ),
+            tuple(
+                scribe.say(statement.given(requirement=_requirement(finding, scribe), found=finding.found))
+                for finding in unmet
+            ),
+        )
+
+
+def _parameters(evaluation: Evaluation, scribe: Scribe) -> Table:
+    unit = scribe.deviation_unit.symbol
+    columns = (
+        Column(scribe.say(Words(en="Symbol", de="Zeichen"))),
+        Column(scribe.say(Words(en="Parameter and what it means", de="Kenngröße und ihre Bedeutung"))),
+        Column(scribe.say(Words(en="Value", de="Wert")), unit, Align.RIGHT),
+        Column(scribe.say(Words(en="Limit", de="Grenzwert")), unit, Align.RIGHT),
+        Column(scribe.say(Words(en="Conformity", de="Konformität"))),
+    )
+    groups = []
+    for group, (heading, note) in _GROUPS.items():
+        rows = tuple(
+            (
+                Symbol(parameter.quantity.notation),
+                scribe.say(
+                    Words("{name}: {meaning}", "{name}: {meaning}").given(
+                        name=parameter.quantity.name, meaning=parameter.quantity.meaning
+                    )
+                ),
+                scribe.deviation(parameter.printed_value),
+                limit(parameter, scribe),
+                verdict(parameter, scribe),
+            )
+            for parameter in evaluation.parameters
+            if parameter.quantity.group is group
+        )
+        if rows:
+            groups.append(RowGroup(rows, scribe.say(heading), scribe.say(note)))
+    return Table(
+        scribe.say(Words(en="Parameters of the axis", de="Kenngrößen der Achse")), columns, tuple(groups)
+    )
+
+
+def _positions(evaluation: Evaluation, scribe: Scribe) -> Table:
+    """Return the table by position; it shows n where readings are missing somewhere."""
+    statistics = evaluation.statistics
+    measurements = evaluation.measurements
+    unit = scribe.deviation_unit.symbol
+    index = f"_{{{evaluation.position_index}}}"
+    columns = [
+        Column(Symbol(evaluation.position_index), align=Align.RIGHT),
+        Column(Symbol(f"P{index}"), scribe.position_unit.symbol, Align.RIGHT),
+    ]
+    cells: list[tuple[str, ...]] = [
+        tuple(str(number) for number in range(1, len(measurements.target_positions) + 1)),
+        tuple(scribe.position(float(target)) for target in measurements.target_positions),
+    ]
+
+    def add(notation: str, values: FloatArray) -> None:
+        columns.append(Column(Symbol(notation), unit, Align.RIGHT))
+        cells.append(tuple(scribe.deviation(float(value)) for value in values))
+
+    for approach in measurements.approaches:
+        if measurements.missing():
+            columns.append(Column(Symbol(f"n{index}{approach.arrow}"), align=Align.RIGHT))
+            cells.append(tuple(str(int(count)) for count in statistics.count[approach.index]))
+        add(f"x̄{index}{approach.arrow}", statistics.mean[approach.index])
+        if len(measurements.runs) > 1:
+            add(f"s{index}{approach.arrow}", statistics.standard_deviation[approach.index])
+    if measurements.is_bidirectional:
+        add(f"x̄{index}", statistics.mean_bidirectional)
+        add(f"B{index}", statistics.reversal_value)
+    for column in evaluation.columns:
+        if any(value == value for value in column.values.tolist()):  # noqa: PLR0124 - NaN is what differs from itself
+            add(column.quantity.notation, column.values)
+    caption = Words(en="Results by target position", de="Ergebnisse nach Sollposition")
+    return Table(
+        scribe.say(caption), tuple(columns), (RowGroup(tuple(zip(*cells, strict=True))),), dense=True
+    )
+
+
+def _requirements(evaluation: Evaluation, scribe: Scribe) -> Table:
+    columns = (
+        Column(scribe.say(Words(en="Requirement on the test", de="Anforderung an die Messung"))),
+        Column(scribe.say(Words(en="Found", de="Vorgefunden"))),
+        Column(scribe.say(Words(en="Result", de="Ergebnis"))),
+    )
+    rows = tuple(
+        (_requirement(finding, scribe), scribe.say(finding.found), _mark(finding, scribe))
+        for finding in evaluation.findings
+    )
+    caption = Words(
+        en="Requirements on the test. Those marked * are applied as this program's reading of the "
+        "standard, not quoted from its text.",
+        de="Anforderungen an die Messung. Mit * bezeichnete werden nach dem Verständnis dieses Programms "
+        "angewandt und nicht aus dem Wortlaut der Norm zitiert.",
+    )
+    return Table(scribe.say(caption), columns, (RowGroup(rows),))
+
+
+def _requirement(finding: Finding, scribe: Scribe) -> str:
+    words = scribe.say(finding.requirement)
+    return words if finding.basis is Basis.PUBLISHED else f"{words} *"
+
+
+def _mark(finding: Finding, scribe: Scribe) -> Verdict:
+    if finding.met is None:
+        return Verdict(Mark.OPEN, scribe.say(_OPEN))
+    if finding.met:
+        return Verdict(Mark.MET, scribe.say(_MET))
+    return Verdict(Mark.NOT_MET, scribe.say(_NOT_MET))
+
+
+def _definitions(evaluation: Evaluation, scribe: Scribe) -> Formulas:
+    caption = Words(
+        en="Definitions. Names describe the parameters; the formulas define what was computed.",
+        de="Definitionen. Die Namen beschreiben die Kenngrößen; maßgebend für die Berechnung sind die "
+        "Formeln.",
+    )
+    return Formulas(
+        scribe.say(caption),
+        tuple(
+            (
+                Symbol(parameter.quantity.notation),
+                Symbol(parameter.quantity.formula),
+                scribe.say(parameter.quantity.name),
+            )
+            for parameter in evaluation.parameters
+        ),
+    )

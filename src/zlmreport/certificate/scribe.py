@@ -1,0 +1,110 @@
+"""Writing words and values for one document: its language, its axis's units, its decimals."""
+
+from __future__ import annotations
+
+import datetime as dt
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from zlmreport.language import Language, Words
+from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.quantities.arrays import FloatArray
+from zlmreport.quantities.formatting import fixed_number, general_number
+from zlmreport.quantities.units import Unit
+
+#: What stands in a table where a value does not exist.
+NOTHING = "–"
+
+_MOST_DECIMALS = 3
+_MOST_TARGET_DECIMALS = 6
+_ZERO_CELSIUS = 273.15
+
+
+@dataclass(frozen=True, slots=True)
+class Scribe:
+    """Writes for one document.
+
+    Attributes
+    ----------
+    language
+        Of the document.
+    position_unit, deviation_unit
+        Of the axis: mm and µm, or ° and ″.
+    position_decimals, deviation_decimals
+        Decimals in which the readings were given. Results are printed to the same decimals, for more
+        would claim more than was read.
+    """
+
+    language: Language
+    position_unit: Unit
+    deviation_unit: Unit
+    position_decimals: int
+    deviation_decimals: int
+
+    @classmethod
+    def of(cls, measurements: MeasurementSet, language: Language) -> Scribe:
+        """Return the scribe for a document on these measurements."""
+        axis = measurements.axis
+        return cls(
+            language,
+            axis.position_unit,
+            axis.deviation_unit,
+            _decimals(axis.position_unit.from_si(measurements.target_positions), _MOST_TARGET_DECIMALS),
+            _decimals(axis.deviation_unit.from_si(measurements.deviation), _MOST_DECIMALS),
+        )
+
+    def say(self, words: Words) -> str:
+        """Return the words in the document's language."""
+        return words.in_language(self.language)
+
+    def deviation(self, value: float) -> str:
+        """Write a deviation or a parameter (m or rad), without its unit."""
+        if math.isnan(value):
+            return NOTHING
+        return fixed_number(
+            self.deviation_unit.from_si(value), self.deviation_decimals, self.language.decimal_sign
+        )
+
+    def position(self, value: float) -> str:
+        """Write a position (m or rad), without its unit."""
+        return fixed_number(
+            self.position_unit.from_si(value), self.position_decimals, self.language.decimal_sign
+        )
+
+    def length(self, value: float) -> str:
+        """Write a length or an angle along the axis with its unit and no needless digits."""
+        number = general_number(self.position_unit.from_si(value), self.language.decimal_sign)
+        return f"{number} {self.position_unit.symbol}"
+
+    def number(self, value: float) -> str:
+        """Write a number with no needless digits."""
+        return general_number(value, self.language.decimal_sign)
+
+    def date(self, value: dt.date) -> str:
+        """Write a date as ISO 8601 does: alike in every language, and never mistaken."""
+        return value.isoformat()
+
+    def span(self, values: FloatArray, decimals: int) -> str:
+        """Write the smallest and largest of logged values, or the one value that they share."""
+        low, high = float(np.nanmin(values)), float(np.nanmax(values))
+        first = fixed_number(low, decimals, self.language.decimal_sign)
+        last = fixed_number(high, decimals, self.language.decimal_sign)
+        return first if first == last else f"{first} … {last}"
+
+    def celsius_span(self, kelvin: FloatArray) -> str:
+        """Write the range of logged temperatures in °C."""
+        return f"{self.span(kelvin - _ZERO_CELSIUS, 2)} °C"
+
+
+def _decimals(values: FloatArray, most: int) -> int:
+    """Return the decimals in which values were given: the fewest that hold them all, at most `most`."""
+    finite = values[np.isfinite(values)]
+    # A thousandth of the last digit that could be printed, or a double's rounding of a large value:
+    # a position read as 10000.0001 mm leaves its deviation a little off its own decimals.
+    tolerance = np.maximum(1e-3 * 10.0**-most, 1e-9 * np.abs(finite))
+    for decimals in range(most):
+        if np.all(np.abs(np.round(finite, decimals) - finite) <= tolerance):
+            return decimals
+    return most

@@ -1,0 +1,180 @@
+"""The commands with their options, and what is said of an option or a command that there is not."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any, NoReturn
+
+from zlmreport import __version__
+from zlmreport.errors import InputError, Place, did_you_mean
+
+#: The job's own name, for it has no word of its own on the command line.
+MAIN_JOB = "report"
+
+_COMMANDS = {
+    "check": "validate jobs, their data and the tests; write nothing",
+    "init": "write a commented job with sample data that runs as it is",
+    "plugins": "list the plugins found, and why one failed to load",
+    "schema": "print the JSON Schema of the job file, for editors",
+}
+
+_MAIN_DESCRIPTION = f"""\
+Read the measurements that a job names, evaluate them by its standards, and write
+the certificate.
+
+other commands:
+{chr(10).join(f"  {name:9} {text}" for name, text in _COMMANDS.items())}
+"""
+_MAIN_EPILOG = """\
+examples:
+  zlmreport init first && zlmreport first/job.yaml
+  zlmreport x-axis.yaml y-axis.yaml --output certificates
+  zlmreport x-axis.yaml --format pdf,html,json --fail-on-nonconformity
+
+exit codes: 0 done; 1 done, but a limit is not met (only with --fail-on-nonconformity);
+2 a job, its data or the command line is wrong; 3 a file could not be read or written
+"""
+_JSON_HELP = "print a machine-readable summary (zlmreport/summary/1) instead of tables"
+
+
+def parse(arguments: Sequence[str]) -> tuple[str, argparse.Namespace]:
+    """Return the command with its options.
+
+    Raises
+    ------
+    InputError
+        If there is no such command or option, with the nearest that there is.
+    SystemExit
+        After ``--help`` and ``--version`` have been printed.
+    """
+    command, *rest = arguments or [""]
+    if command in _COMMANDS:
+        return command, _PARSERS[command](command).parse_strictly(rest)
+    options = _main_job().parse_strictly(arguments)
+    for job in options.jobs:
+        _refuse_mistaken_command(job)
+    return MAIN_JOB, options
+
+
+class _Parser(argparse.ArgumentParser):
+    """A parser whose errors are problems like all others, and name the nearest option."""
+
+    def __init__(self, program: str, description: str, epilog: str = "") -> None:
+        super().__init__(
+            program,
+            description=description,
+            epilog=epilog,
+            formatter_class=argparse.RawDescriptionHelpFormatter,
+            allow_abbrev=False,
+        )
+        self._known = ["--help"]
+        self.add_argument(
+            "--plugin",
+            metavar="FILE",
+            type=Path,
+            action="append",
+            default=[],
+            help="a plugin in a file of its own, beside the installed ones; may be given several times",
+        )
+
+    def add_argument(self, *names: Any, **settings: Any) -> argparse.Action:
+        """Add an argument, and remember its long names."""
+        action = super().add_argument(*names, **settings)
+        if hasattr(self, "_known"):
+            self._known.extend(name for name in names if name.startswith("--"))
+        return action
+
+    def parse_strictly(self, arguments: Sequence[str]) -> argparse.Namespace:
+        options, unknown = self.parse_known_args(arguments)
+        if unknown:
+            name = unknown[0].partition("=")[0]
+            if name.startswith("-"):
+                self.error(f"unknown option {name!r}; {did_you_mean(name, self._known)}")
+            self.error(f"{name!r} is one argument too many")
+        return options
+
+    def error(self, message: str) -> NoReturn:
+        raise InputError.at(Place(self.prog), f"{message} (see {self.prog} --help)")
+
+
+def _refuse_mistaken_command(job: Path) -> None:
+    """Take a word that is no file for a command that there is not."""
+    word = str(job)
+    if job.suffix or job.name != word or job.exists():
+        return
+    if word in _COMMANDS:
+        raise InputError.at(Place("zlmreport"), f"the command comes first: zlmreport {word} …")
+    raise InputError.at(
+        Place("zlmreport"),
+        f"{word!r} is neither a file nor a command; {did_you_mean(word, list(_COMMANDS))}",
+    )
+
+
+def _main_job() -> _Parser:
+    parser = _Parser("zlmreport", _MAIN_DESCRIPTION, _MAIN_EPILOG)
+    parser.add_argument("--version", action="version", version=f"zlmreport {__version__}")
+    _add_jobs(parser)
+    parser.add_argument(
+        "-o", "--output", metavar="DIR", type=Path, help="folder of the files, instead of the job's"
+    )
+    parser.add_argument(
+        "--format", metavar="F,F", help="formats, parted by commas, instead of the job's: pdf,html,json"
+    )
+    parser.add_argument("--quiet", action="store_true", help="print nothing but mistakes")
+    parser.add_argument("--json", action="store_true", help=_JSON_HELP)
+    parser.add_argument(
+        "--fail-on-nonconformity", action="store_true", help="exit with 1 if a stated limit is not met"
+    )
+    return parser
+
+
+def _check(command: str) -> _Parser:
+    parser = _Parser(
+        f"zlmreport {command}",
+        "Validate jobs and their data, and hold each standard's requirements against the test.\n"
+        "Nothing is written. A requirement that is not met is no mistake; the certificate says so.",
+        "example:\n  zlmreport check x-axis.yaml",
+    )
+    _add_jobs(parser)
+    parser.add_argument("--quiet", action="store_true", help="print nothing but mistakes")
+    parser.add_argument("--json", action="store_true", help=_JSON_HELP)
+    return parser
+
+
+def _init(command: str) -> _Parser:
+    parser = _Parser(
+        f"zlmreport {command}",
+        "Write a commented job, a laboratory's shared data and sample readings, to begin with.\n"
+        "No file that is there already is touched.",
+        "example:\n  zlmreport init first && zlmreport first/job.yaml",
+    )
+    parser.add_argument("directory", metavar="DIR", type=Path, help="folder; it is made if it is not there")
+    return parser
+
+
+def _plugins(command: str) -> _Parser:
+    return _Parser(
+        f"zlmreport {command}",
+        "List every plugin found, by kind, with its identifier, title and distribution,\n"
+        "and why one failed to load. ZLMREPORT_DISABLE_PLUGINS=name,name switches plugins off.",
+    )
+
+
+def _schema(command: str) -> _Parser:
+    return _Parser(
+        f"zlmreport {command}",
+        "Print the JSON Schema of the job file, with the keys of all installed plugins.",
+        "example, for editors that use the YAML language server: write the schema to a file,\n"
+        "  zlmreport schema > job.schema.json\n"
+        "and begin the job with the line\n"
+        "  # yaml-language-server: $schema=job.schema.json",
+    )
+
+
+_PARSERS = {"check": _check, "init": _init, "plugins": _plugins, "schema": _schema}
+
+
+def _add_jobs(parser: _Parser) -> None:
+    parser.add_argument("jobs", metavar="JOB.yaml", nargs="+", type=Path, help="job files")

@@ -1,0 +1,42 @@
+"""The main job: from job files to certificates."""
+
+from __future__ import annotations
+
+from argparse import Namespace
+from dataclasses import replace
+
+from zlmreport import pipeline
+from zlmreport.cli.jobs import do_all
+from zlmreport.cli.results import Result, load_all
+from zlmreport.cli.terminal import report
+from zlmreport.errors import Place
+from zlmreport.job.job import Job
+from zlmreport.job.loading import chosen_formats
+from zlmreport.plugins import Registry, find_plugins
+
+
+def run(options: Namespace) -> int:
+    """Make the certificates of all jobs and return the worst exit code."""
+    registry = find_plugins(files=options.plugin)
+    formats = _formats(options.format, registry)
+
+    def made(result: Result, job: Job) -> Result:
+        outcome = pipeline.run(job, registry)
+        files = pipeline.write(outcome.documents)
+        return replace(result, evaluations=outcome.certificate.evaluations, files=files)
+
+    loaded = [
+        replace(result, job=replace(result.job, directory=options.output))
+        if result.job and options.output
+        else result
+        for result in load_all(options.jobs, registry, formats)
+    ]
+    return do_all(loaded, made, report, options, fail_on_nonconformity=options.fail_on_nonconformity)
+
+
+def _formats(named: str | None, registry: Registry) -> tuple[str, ...]:
+    """Return the formats that the command line names, instead of those of the jobs."""
+    if named is None:
+        return ()
+    place = Place("zlmreport --format")
+    return chosen_formats([(name.strip(), place) for name in named.split(",")], registry)

@@ -1,0 +1,175 @@
+"""What people read of a job that is done: tables that line up, and colours where a terminal shows them."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import sys
+import unicodedata
+from collections.abc import Iterable, Iterator, Sequence
+from enum import Enum
+from pathlib import Path
+
+from zlmreport.certificate.readings import missing_readings
+from zlmreport.certificate.results import CONFORMS, DOES_NOT_CONFORM, UNDECIDED, limit
+from zlmreport.certificate.scribe import Scribe
+from zlmreport.cli.messages import visible
+from zlmreport.cli.results import Result
+from zlmreport.evaluation.evaluation import Evaluation, Parameter
+from zlmreport.job.job import Job
+from zlmreport.language import Language
+from zlmreport.quantities.notation import plain
+
+#: Said of a job whose error model this version cannot fit yet.
+MODEL_NOTE = "model.effects is kept as it stands: this version has no command 'model' yet"
+
+#: Of a terminal, in letters: its width where it has none, what a table needs beside the names of
+#: parameters, and how much of a name is always shown.
+_USUAL_WIDTH, _OTHER_COLUMNS, _SHORTEST_NAME = 120, 44, 24
+
+
+class Colour(Enum):
+    """A colour, as a terminal is told to take it."""
+
+    RED = "31"
+    GREEN = "32"
+    YELLOW = "33"
+    BOLD = "1"
+
+    def of(self, text: str) -> str:
+        """Return a text in this colour where somebody sees it."""
+        if not text or os.environ.get("NO_COLOR") or not sys.stdout.isatty():
+            return text
+        return f"\x1b[{self.value}m{text}\x1b[0m"
+
+
+def report(result: Result) -> Iterator[str]:
+    """Yield the lines on a finished job."""
+    job = result.job
+    if job is None or not result.evaluations:
+        return
+    scribe = Scribe.of(result.evaluations[0].measurements, Language.ENGLISH)
+    yield f"{Colour.BOLD.of(job.keys.certificate.number)}  {_subject(job)}"
+    for path in result.files:
+        yield f"  {shown_path(path)}"
+    for evaluation in result.evaluations:
+        yield ""
+        yield from _parameters(evaluation, scribe)
+    yield from _notices(result, scribe)
+
+
+def findings(result: Result) -> Iterator[str]:
+    """Yield the lines on a checked job: each standard's requirements, met or not."""
+    if not result.evaluations:
+        return
+    scribe = Scribe.of(result.evaluations[0].measurements, Language.ENGLISH)
+    yield f"{Colour.BOLD.of(str(result.path))}  the job and its data are sound"
+    for evaluation in result.evaluations:
+        yield f"  {evaluation.designation}"
+        words = {True: "met", False: Colour.RED.of("not met"), None: Colour.YELLOW.of("open")}
+        yield from table(
+            (words[finding.met], f"{scribe.say(finding.requirement)}: {scribe.say(finding.found)}")
+            for finding in evaluation.findings
+        )
+    yield from _missing(result, scribe)
+    yield from _model(result)
+
+
+def table(rows: Iterable[Sequence[str]], right: Sequence[int] = (), indent: str = "    ") -> Iterator[str]:
+    """Yield rows whose columns line up; `right` lists the columns that stand on their last letter."""
+    rows = [tuple(row) for row in rows]
+    widths = [max(map(_width, column)) for column in zip(*rows, strict=True)]
+    for row in rows:
+        cells = []
+        for number, (cell, width) in enumerate(zip(row, widths, strict=True)):
+            space = " " * (width - _width(cell))
+            cells.append(space + cell if number in right else cell + space)
+        yield indent + "  ".join(cells).rstrip()
+
+
+def shown_path(path: Path) -> str:
+    """Return a path as the user would type it: from the current folder, if it lies below that."""
+    absolute = path.resolve()
+    here = Path.cwd()
+    return visible(str(absolute.relative_to(here) if absolute.is_relative_to(here) else absolute))
+
+
+def _subject(job: Job) -> str:
+    machine = job.keys.machine
+    named = " ".join(part for part in (machine.manufacturer, machine.model) if part)
+    serial = f"serial {machine.serial}" if machine.serial else ""
+    return ", ".join(part for part in (f"axis {job.axis.name}", named, serial) if part)
+
+
+def _parameters(evaluation: Evaluation, scribe: Scribe) -> Iterator[str]:
+    has_limits = any(parameter.limit is not None for parameter in evaluation.parameters)
+    longest_name = max(_SHORTEST_NAME, shutil.get_terminal_size((_USUAL_WIDTH, 0)).columns - _OTHER_COLUMNS)
+    rows = [
+        (
+            plain(parameter.quantity.notation),
+            _shortened(scribe.say(parameter.quantity.name), longest_name),
+            scribe.deviation(parameter.printed_value),
+            limit(parameter, scribe) if has_limits else "",
+            _verdict(parameter, scribe),
+        )
+        for parameter in evaluation.parameters
+    ]
+    headings = ("", "", scribe.deviation_unit.symbol, "limit" if has_limits else "", "")
+    first, *others = table([headings, *rows], right=(2, 3))
+    room = len(first) - len(first.lstrip()) - 1
+    yield f"  {evaluation.designation}".ljust(room) + first[room:]
+    yield from others
+
+
+def _verdict(parameter: Parameter, scribe: Scribe) -> str:
+    if parameter.limit is None:
+        return ""
+    if parameter.conforms is None:
+        return Colour.YELLOW.of(scribe.say(UNDECIDED))
+    if parameter.conforms:
+        return Colour.GREEN.of(scribe.say(CONFORMS))
+    return Colour.RED.of(scribe.say(DOES_NOT_CONFORM))
+
+
+def _notices(result: Result, scribe: Scribe) -> Iterator[str]:
+    notices = list(_missing(result, scribe))
+    for evaluation in result.evaluations:
+        notices.extend(
+            f"  {Colour.YELLOW.of('not met')}  {evaluation.designation}: "
+            f"{scribe.say(finding.requirement)}: {scribe.say(finding.found)}"
+            for finding in evaluation.findings
+            if finding.met is False
+        )
+    notices.extend(_model(result))
+    if notices:
+        yield ""
+        yield from notices
+
+
+def _missing(result: Result, scribe: Scribe) -> Iterator[str]:
+    for notice in missing_readings(result.evaluations[0].measurements, scribe):
+        yield f"  {Colour.YELLOW.of('missing')}  {notice.heading}"
+        yield from (f"           {item}" for item in notice.items)
+
+
+def _model(result: Result) -> Iterator[str]:
+    if result.job and result.job.keys.model and result.job.keys.model.effects:
+        yield f"  {Colour.YELLOW.of('note')}  {MODEL_NOTE}"
+
+
+def _shortened(name: str, longest: int) -> str:
+    return name if len(name) <= longest else f"{name[: longest - 1].rstrip()}…"
+
+
+def _width(cell: str) -> int:
+    """Return how wide a cell is printed: colours and combining marks take no room."""
+    width = 0
+    in_colour = False
+    for character in cell:
+        if character == "\x1b":
+            in_colour = True
+        elif in_colour:
+            in_colour = character != "m"
+        elif not unicodedata.combining(character):
+            width += 1
+    return width

@@ -1,0 +1,204 @@
+"""A panel's layout as artists, from back to front."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+from matplotlib.artist import Artist
+from matplotlib.path import Path
+from matplotlib.transforms import Affine2D, IdentityTransform, Transform
+
+from zlmreport.figures.canvas import Fill, Stroke
+from zlmreport.figures.dimensions import GAP, HEAD, HEAD_HALF_WIDTH, OVERSHOOT, Dimension
+from zlmreport.figures.draw_artists import Lettering, Marks, Outline
+from zlmreport.figures.draw_lettering import plain_label
+from zlmreport.figures.figure import Band, Curve, Readings
+from zlmreport.figures.frame import Frame, PlacedLabel
+from zlmreport.figures.layout import TICK_GAP, TICK_LENGTH
+from zlmreport.figures.panel_layout import PanelLayout
+from zlmreport.figures.style import (
+    DIMENSION,
+    EXTENSION,
+    FRAME,
+    GRID,
+    GROUND,
+    INK,
+    MARK_SIZES,
+    READING_SIZE,
+    READINGS,
+    RIM,
+    ROLES,
+    TICK,
+    TICK_TEXT_SIZE,
+    ZERO,
+    RoleStyle,
+)
+from zlmreport.quantities.arrays import BoolArray, FloatArray
+
+#: Least distance between two marks of a curve that has very many targets.
+_MARK_DISTANCE = 11.0
+#: Half the length of the dash that stands for a value between two gaps.
+_LONE_DASH = 3.5
+
+PAGE = IdentityTransform()
+
+
+def panel_artists(layout: PanelLayout, *, is_lowest: bool) -> Iterator[Artist]:
+    """Return the artists of a panel; only below the lowest panel the positions are written."""
+    frame, panel = layout.frame, layout.panel
+    to_page = Affine2D().translate(-frame.x_scale.lower, -frame.y_scale.lower)
+    to_page.scale(frame.x_factor, frame.y_factor).translate(frame.box.left, frame.box.bottom)
+
+    yield from _grid(frame)
+    for band in panel.bands:
+        yield from _band(band, frame, to_page)
+    for readings in panel.readings:
+        points = Path(np.column_stack([readings.x, readings.y]))
+        yield reading_marks("reading", readings, points, to_page)
+    for level, height, _ in layout.levels:
+        line = [(frame.box.left, height), (frame.box.right, height)]
+        yield lines("level", [line], ROLES[level.role].stroke)
+    yield from _extensions(layout)
+    for curve in panel.curves:
+        yield from _curve(curve, frame, to_page)
+    yield from _axes(frame, is_lowest=is_lowest)
+    for kind, dimensions in (("arrow", layout.arrows), ("bracket", layout.brackets)):
+        for dimension in dimensions:
+            yield from _dimension(kind, dimension)
+    for _, _, label in layout.levels:
+        yield _ground(label)
+        yield Lettering("level", label, INK)
+
+
+def lines(kind: str, parts: Sequence[Sequence[tuple[float, float]]], stroke: Stroke) -> Outline:
+    """Return several lines on the page as one outline."""
+    points = [point for part in parts for point in part]
+    codes = [code for part in parts for code in (Path.MOVETO, *[Path.LINETO] * (len(part) - 1))]
+    return Outline(kind, Path(np.reshape(points, (-1, 2)), codes), PAGE, stroke)
+
+
+def curve_marks(kind: str, style: RoleStyle, points: Path, transform: Transform) -> Iterator[Artist]:
+    """Return the marks of a curve, where its role has marks."""
+    if style.mark is not None:
+        size, fill = MARK_SIZES[style.mark], Fill(style.stroke.colour)
+        yield Marks(kind, points, transform, style.mark, size, RIM, fill)
+
+
+def reading_marks(kind: str, readings: Readings, points: Path, transform: Transform) -> Marks:
+    """Return the marks of single readings."""
+    mark, stroke = READINGS[readings.approach]
+    return Marks(kind, points, transform, mark, READING_SIZE, stroke)
+
+
+def _grid(frame: Frame) -> Iterator[Artist]:
+    box = frame.box
+    across = [[(box.left, y), (box.right, y)] for y in map(frame.y_point, frame.y_scale.ticks)]
+    along = [[(x, box.bottom), (x, box.top)] for x in map(frame.x_point, frame.x_scale.ticks)]
+    yield lines("grid", across + along, GRID)
+    if frame.y_scale.lower <= 0 <= frame.y_scale.upper:
+        zero = frame.y_point(0.0)
+        yield lines("zero", [[(box.left, zero), (box.right, zero)]], ZERO)
+
+
+def _axes(frame: Frame, *, is_lowest: bool) -> Iterator[Artist]:
+    box = frame.box
+    yield lines("frame", [[(box.left, box.top), (box.left, box.bottom), (box.right, box.bottom)]], FRAME)
+    ticks = [[(box.left - TICK_LENGTH, y), (box.left, y)] for y in map(frame.y_point, frame.y_scale.ticks)]
+    for positions, length in ((frame.x_scale.ticks, TICK_LENGTH), (frame.x_scale.marks, TICK_LENGTH / 2)):
+        ticks += [[(x, box.bottom - length), (x, box.bottom)] for x in map(frame.x_point, positions)]
+    yield lines("tick", ticks, TICK)
+    right = box.left - TICK_LENGTH - TICK_GAP
+    for value, text in zip(frame.y_scale.ticks, frame.y_scale.labels, strict=True):
+        label = plain_label(text, TICK_TEXT_SIZE)
+        place = PlacedLabel(label, right - label.width, frame.y_point(value) - label.rise)
+        yield Lettering("tick y", place, INK)
+    if is_lowest:
+        top = box.bottom - TICK_LENGTH - TICK_GAP
+        for value, text in zip(frame.x_scale.ticks, frame.x_scale.labels, strict=True):
+            label = plain_label(text, TICK_TEXT_SIZE)
+            place = PlacedLabel(label, frame.x_point(value) - label.width / 2, top - 2 * label.rise)
+            yield Lettering("tick x", place, INK)
+
+
+def _curve(curve: Curve, frame: Frame, to_page: Affine2D) -> Iterator[Artist]:
+    style = ROLES[curve.role]
+    role = curve.role.name.lower()
+    points = np.column_stack([curve.x, curve.y])
+    yield Outline(f"curve {role}", Path(points), to_page, style.stroke)
+    shown = _spaced(points, _MARK_DISTANCE / frame.x_factor)
+    yield from curve_marks(f"mark {role}", style, Path(points[shown]), to_page)
+    if style.mark is None:
+        yield from _lone_values(f"curve {role}", curve.x, curve.y, frame, style.stroke)
+
+
+def _spaced(points: FloatArray, distance: float) -> BoolArray:
+    """Return which points of a curve get a mark: all that are far enough from the marked one before."""
+    shown = np.zeros(len(points), dtype=np.bool_)
+    last = -np.inf
+    for index in np.flatnonzero(np.isfinite(points).all(axis=1)):
+        if abs(points[index, 0] - last) >= distance:
+            shown[index] = True
+            last = points[index, 0]
+    return shown
+
+
+def _lone_values(kind: str, x: FloatArray, y: FloatArray, frame: Frame, stroke: Stroke) -> Iterator[Artist]:
+    """Return short dashes for values between gaps, to which no line leads."""
+    finite = np.concatenate([[False], np.isfinite(x) & np.isfinite(y), [False]])
+    lone = finite[1:-1] & ~finite[:-2] & ~finite[2:]
+    if lone.any():
+        places = frame.points(x[lone], y[lone]).tolist()
+        dashes = [[(left - _LONE_DASH, height), (left + _LONE_DASH, height)] for left, height in places]
+        yield lines(kind, dashes, Stroke(stroke.colour, stroke.width))
+
+
+def _band(band: Band, frame: Frame, to_page: Affine2D) -> Iterator[Artist]:
+    style = ROLES[band.role]
+    role = band.role.name.lower()
+    exists = np.isfinite(band.x) & np.isfinite(band.lower) & np.isfinite(band.upper)
+    for part in np.split(np.arange(len(exists)), np.flatnonzero(np.diff(exists)) + 1):
+        if len(part) > 1 and exists[part[0]]:
+            x = np.concatenate([band.x[part], band.x[part][::-1]])
+            y = np.concatenate([band.upper[part], band.lower[part][::-1]])
+            yield Outline(f"band {role}", Path(np.column_stack([x, y])), to_page, None, style.tint)
+    for limit in (band.lower, band.upper):
+        yield Outline(f"limit {role}", Path(np.column_stack([band.x, limit])), to_page, style.stroke)
+        yield from _lone_values(f"limit {role}", band.x, limit, frame, style.stroke)
+
+
+def _extensions(layout: PanelLayout) -> Iterator[Artist]:
+    parts = []
+    for dimension in (*layout.arrows, *layout.brackets):
+        span = dimension.span
+        for start, height in ((span.low_from, span.low), (span.high_from, span.high)):
+            side = 1.0 if dimension.x > start else -1.0
+            parts.append([(start + side * GAP, height), (dimension.x + side * OVERSHOOT, height)])
+    if parts:
+        yield lines("extension", parts, EXTENSION)
+
+
+def _dimension(kind: str, dimension: Dimension) -> Iterator[Artist]:
+    span, x = dimension.span, dimension.x
+    if span.length > 0:
+        yield lines(kind, [[(x, span.low - span.tail), (x, span.high + span.tail)]], DIMENSION)
+        outwards = -1.0 if span.tail else 1.0
+        heads = [_head(x, span.low, -outwards), _head(x, span.high, outwards)]
+        yield Outline(f"{kind} head", Path.make_compound_path(*heads), PAGE, None, Fill(INK))
+    else:
+        half = 2 * HEAD_HALF_WIDTH
+        yield lines(kind, [[(x - half, span.low), (x + half, span.low)]], DIMENSION)
+    if dimension.is_among_lines:
+        yield _ground(dimension.label)
+    yield Lettering(kind, dimension.label, INK)
+
+
+def _head(x: float, tip: float, direction: float) -> Path:
+    base = tip - direction * HEAD
+    corners = [(x, tip), (x - HEAD_HALF_WIDTH, base), (x + HEAD_HALF_WIDTH, base), (x, tip)]
+    return Path(corners, closed=True)
+
+
+def _ground(label: PlacedLabel) -> Outline:
+    """Return what lets lines fade behind a label."""
+    return Outline("ground", Path(label.box.corners, closed=True), PAGE, None, GROUND)

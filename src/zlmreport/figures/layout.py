@@ -1,0 +1,140 @@
+"""Where everything in a figure stands: margins computed from what they hold, then scales, then panels.
+
+All places are points from the lower left corner of the drawing, y upwards.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+
+from zlmreport.figures.canvas import Label
+from zlmreport.figures.draw_lettering import plain_label
+from zlmreport.figures.figure import Figure, Panel
+from zlmreport.figures.frame import Box, Frame, PlacedLabel
+from zlmreport.figures.legend import LEGEND_GAP, LegendLayout, lay_out_legend
+from zlmreport.figures.panel_layout import PanelLayout, bracket_width, lay_out_panel, level_width
+from zlmreport.figures.scale import Scale, position_scale, value_scales
+from zlmreport.figures.style import TEXT_SIZE, TICK_TEXT_SIZE
+from zlmreport.language import Language
+from zlmreport.quantities.arrays import FloatArray
+
+_MILLIMETRE = 72 / 25.4
+#: The text width of an A4 page.
+WIDTH = 170 * _MILLIMETRE
+_HEIGHT_OF_PANEL = 52 * _MILLIMETRE
+_HEIGHT_BESIDES = 38 * _MILLIMETRE
+
+TICK_LENGTH = 3.0
+TICK_GAP = 2.5
+_TITLE_GAP = 4.0
+_PANEL_GAP = 10.0
+_EDGE = 2.0
+#: Beside the frame at least: half the label of a tick at its end.
+_LEAST_MARGIN = 6.0
+#: Between the outermost values and the frame: an arrow head that points from outside has room there.
+_VALUE_ROOM = 11.0
+_POSITION_ROOM = 12.0
+_LEAST_TICK_DISTANCE = 18.0
+#: What a legend of one row takes from a panel's height, with the gaps above and below.
+_ABOUT_LEGEND = 28.0
+
+
+@dataclass(frozen=True, slots=True)
+class FigureLayout:
+    """A figure with the place of everything in it, in points."""
+
+    width: float
+    height: float
+    panels: tuple[PanelLayout, ...]
+    titles: tuple[PlacedLabel, ...]
+
+
+def figure_height(figure: Figure) -> float:
+    """Return the height of a figure in points; it depends on nothing but the number of panels."""
+    return _HEIGHT_BESIDES + _HEIGHT_OF_PANEL * len(figure.panels)
+
+
+def lay_out(figure: Figure, language: Language) -> FigureLayout:
+    """Return the places of everything in a figure."""
+    height = figure_height(figure)
+    bottom = _EDGE + 1.35 * TEXT_SIZE + _TITLE_GAP + TICK_TEXT_SIZE + TICK_GAP + TICK_LENGTH
+    # The width of the values' labels is the left margin, and the legend's rows follow from it; so the
+    # values come first, for the height that a legend of one row leaves.
+    y_scales = _y_scales(figure, language, (height - bottom) / max(1, len(figure.panels)) - _ABOUT_LEGEND)
+    widest = max((_tick_width(text) for scale in y_scales for text in scale.labels), default=0.0)
+    left = _EDGE + TEXT_SIZE + _TITLE_GAP + widest + TICK_GAP + TICK_LENGTH
+    levels = max(map(level_width, figure.panels), default=0.0)
+    brackets = max(map(bracket_width, figure.panels), default=0.0)
+    right = WIDTH - _EDGE - max(levels + brackets, _LEAST_MARGIN)
+    x_scale = position_scale(
+        _positions(figure.panels), right - left, _POSITION_ROOM, language.decimal_sign, _tick_width
+    )
+
+    legends = [lay_out_legend(panel, language, WIDTH - _EDGE - left) for panel in figure.panels]
+    boxes = _boxes(left, bottom, right, height, legends)
+    panels = tuple(
+        lay_out_panel(panel, Frame(box, x_scale, y_scale), legend, levels)
+        for panel, box, y_scale, legend in zip(figure.panels, boxes, y_scales, legends, strict=True)
+    )
+    x_title = _axis_title(figure.x_title.in_language(language), figure.x_unit)
+    y_title = _axis_title(figure.y_title.in_language(language), figure.y_unit)
+    top = boxes[0].top if boxes else height
+    titles = (
+        PlacedLabel(x_title, (left + right - x_title.width) / 2, _EDGE + 0.35 * TEXT_SIZE),
+        PlacedLabel(y_title, _EDGE + 0.8 * TEXT_SIZE, (bottom + top - y_title.width) / 2, 90.0),
+    )
+    return FigureLayout(WIDTH, height, panels, titles)
+
+
+def _boxes(left: float, bottom: float, right: float, top: float, legends: list[LegendLayout]) -> list[Box]:
+    """Return the frames' places: alike in height, each below its legend."""
+    taken = sum(legend.height + LEGEND_GAP + _PANEL_GAP for legend in legends) - _PANEL_GAP
+    height = (top - bottom - taken) / max(1, len(legends))
+    boxes = []
+    for legend in legends:
+        top -= legend.height + LEGEND_GAP
+        boxes.append(Box(left, top - height, right, top))
+        top -= height + _PANEL_GAP
+    return boxes
+
+
+def _axis_title(text: str, unit: str) -> Label:
+    return plain_label(f"{text} in {unit}" if unit else text, TEXT_SIZE)
+
+
+def _tick_width(text: str) -> float:
+    return plain_label(text, TICK_TEXT_SIZE).width
+
+
+def _y_scales(figure: Figure, language: Language, height: float) -> tuple[Scale, ...]:
+    room = _VALUE_ROOM / (height - 2 * _VALUE_ROOM)
+    most = int(height / _LEAST_TICK_DISTANCE)
+    return value_scales([_values(panel) for panel in figure.panels], room, most, language.decimal_sign)
+
+
+def _positions(panels: Iterable[Panel]) -> FloatArray:
+    found: list[FloatArray] = []
+    for panel in panels:
+        found += [curve.x for curve in panel.curves]
+        found += [band.x for band in panel.bands]
+        found += [readings.x for readings in panel.readings]
+        found.append(np.array([arrow.x for arrow in panel.arrows]))
+        found.append(np.array([(bracket.low_at, bracket.high_at) for bracket in panel.brackets]))
+    return _joined(found)
+
+
+def _values(panel: Panel) -> FloatArray:
+    found = [curve.y for curve in panel.curves]
+    found += [limit for band in panel.bands for limit in (band.lower, band.upper)]
+    found += [readings.y for readings in panel.readings]
+    found.append(np.array([(arrow.low, arrow.high) for arrow in panel.arrows]))
+    found.append(np.array([(bracket.low, bracket.high) for bracket in panel.brackets]))
+    found.append(np.array([level.y for level in panel.levels]))
+    return _joined(found)
+
+
+def _joined(arrays: list[FloatArray]) -> FloatArray:
+    return np.concatenate([np.empty(0), *map(np.ravel, arrays)])

@@ -1,0 +1,189 @@
+"""From an evaluation to the marks of its prescribed graphs.
+
+A standard says which curves, bands, arrows and brackets it wants and hands over values in SI; a `Diagram`
+brings them into the units of the page and leaves out what this test does not define. So a graph of a
+unidirectional test, or of a single run, shows what exists.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import TypeVar
+
+import numpy as np
+
+from zlmreport.evaluation.evaluation import Evaluation
+from zlmreport.figures.figure import (
+    Arrow,
+    Band,
+    Bracket,
+    Curve,
+    Figure,
+    Level,
+    Panel,
+    Readings,
+    Role,
+)
+from zlmreport.language import Words
+from zlmreport.measurement.approach import Approach
+from zlmreport.measurement.axis import Axis
+from zlmreport.quantities.arrays import FloatArray, read_only_floats
+
+Mark = TypeVar("Mark")
+
+MEANS = {Approach.POSITIVE: Role.MEAN_POSITIVE, Approach.NEGATIVE: Role.MEAN_NEGATIVE}
+LIMITS = {Approach.POSITIVE: Role.LIMIT_POSITIVE, Approach.NEGATIVE: Role.LIMIT_NEGATIVE}
+DIRECTIONS = {
+    Approach.POSITIVE: Words("Positive direction of approach ↑", "Positive Anfahrrichtung ↑"),
+    Approach.NEGATIVE: Words("Negative direction of approach ↓", "Negative Anfahrrichtung ↓"),
+}
+POSITION_TITLE = Words("Target position", "Sollposition")
+DEVIATION_TITLE = Words("Deviation", "Abweichung")
+
+
+def worst(values: FloatArray) -> int | None:
+    """Return the index of the target position with the largest value; None where none is defined."""
+    return int(np.nanargmax(values)) if np.isfinite(values).any() else None
+
+
+@dataclass(frozen=True, slots=True)
+class Diagram:
+    """The graphs of one evaluation.
+
+    All values go in as m or rad and NaN where not defined; positions are indices of targets. What is not
+    defined anywhere gives None, and `panel` leaves it out.
+
+    Attributes
+    ----------
+    evaluation
+        What the graphs show.
+    """
+
+    evaluation: Evaluation
+
+    @property
+    def axis(self) -> Axis:
+        """The axis under test."""
+        return self.evaluation.measurements.axis
+
+    @property
+    def approaches(self) -> tuple[Approach, ...]:
+        """The directions in which there is a reading, the positive one first."""
+        return tuple(each for each in Approach if self.evaluation.statistics.is_measured[each.index])
+
+    @property
+    def is_bidirectional(self) -> bool:
+        """Whether there are readings in both directions."""
+        return len(self.approaches) == len(Approach)
+
+    @property
+    def positions(self) -> FloatArray:
+        """The target positions in the unit of the page, shape (m,)."""
+        return read_only_floats(
+            self.axis.position_unit.from_si(self.evaluation.measurements.target_positions)
+        )
+
+    def curve(self, notation: str, role: Role, values: FloatArray) -> Curve | None:
+        """Return a line through one value at each target, shape (m,)."""
+        if not np.isfinite(values).any():
+            return None
+        return Curve(notation, role, self.positions, self._printed(values))
+
+    def band(self, notation: str, role: Role, lower: FloatArray, upper: FloatArray) -> Band | None:
+        """Return the area between two limits, each of shape (m,)."""
+        if not (np.isfinite(lower) & np.isfinite(upper)).any():
+            return None
+        return Band(notation, role, self.positions, self._printed(lower), self._printed(upper))
+
+    def readings(self, *approaches: Approach) -> tuple[Readings, ...]:
+        """Return the single readings of each approach that was measured; of all approaches by default."""
+        measurements = self.evaluation.measurements
+        present = np.isfinite(measurements.deviation)
+        found = []
+        for approach in approaches or tuple(Approach):
+            of_approach = present & (measurements.approach == approach)
+            if of_approach.any():
+                x = self.positions[measurements.target[of_approach]]
+                y = self._printed(measurements.deviation[of_approach])
+                found.append(Readings(approach, read_only_floats(x), y))
+        return tuple(found)
+
+    def arrow(self, notation: str, at: int | None, low: FloatArray, high: FloatArray) -> Arrow | None:
+        """Return an arrow at one target between two of the values of shape (m,), given in any order."""
+        if at is None or not (np.isfinite(low[at]) and np.isfinite(high[at])):
+            return None
+        ends = sorted((float(self._printed(low)[at]), float(self._printed(high)[at])))
+        return Arrow(notation, float(self.positions[at]), ends[0], ends[1])
+
+    def bracket(self, symbol: str, lower: FloatArray, upper: FloatArray) -> Bracket | None:
+        """Return a parameter of the axis as a bracket.
+
+        Parameters
+        ----------
+        symbol
+            Of a parameter of the evaluation; None is returned where this test does not define it.
+        lower, upper : (m,) or (approach, m) arrays
+            The parameter spans from the smallest of `lower` to the largest of `upper`; the bracket's
+            extension lines lead to the targets at which these arise.
+        """
+        parameter = self.evaluation.parameter(symbol)
+        if parameter is None:
+            return None
+        lowest, highest = int(np.nanargmin(lower)), int(np.nanargmax(upper))
+        number = len(self.positions)
+        return Bracket(
+            parameter.quantity.notation,
+            low=float(self._printed(lower).flat[lowest]),
+            high=float(self._printed(upper).flat[highest]),
+            low_at=float(self.positions[lowest % number]),
+            high_at=float(self.positions[highest % number]),
+        )
+
+    def level(self, notation: str, role: Role, value: float) -> Level | None:
+        """Return a horizontal line at a value."""
+        if not np.isfinite(value):
+            return None
+        return Level(notation, role, float(self.axis.deviation_unit.from_si(value)))
+
+    def figure(self, key: str, title: Words, alternative: Words, panels: Iterable[Panel]) -> Figure:
+        """Return the figure: deviation over target position, in the units of the axis."""
+        return Figure(
+            key=key,
+            title=title,
+            alternative=alternative,
+            x_title=POSITION_TITLE,
+            y_title=DEVIATION_TITLE,
+            x_unit=self.axis.position_unit.symbol,
+            y_unit=self.axis.deviation_unit.symbol,
+            panels=tuple(panels),
+        )
+
+    def _printed(self, values: FloatArray) -> FloatArray:
+        return read_only_floats(self.axis.deviation_unit.from_si(values))
+
+
+def panel(  # noqa: PLR0913 - one for each kind of mark
+    heading: Words | None = None,
+    *,
+    curves: Iterable[Curve | None] = (),
+    bands: Iterable[Band | None] = (),
+    readings: Iterable[Readings] = (),
+    arrows: Iterable[Arrow | None] = (),
+    brackets: Iterable[Bracket | None] = (),
+    levels: Iterable[Level | None] = (),
+) -> Panel:
+    """Return a panel of what there is: None stands for what this test does not define."""
+    return Panel(
+        heading=heading,
+        curves=_defined(curves),
+        bands=_defined(bands),
+        readings=tuple(readings),
+        arrows=_defined(arrows),
+        brackets=_defined(brackets),
+        levels=_defined(levels),
+    )
+
+
+def _defined(marks: Iterable[Mark | None]) -> tuple[Mark, ...]:
+    return tuple(mark for mark in marks if mark is not None)

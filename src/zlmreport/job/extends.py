@@ -1,0 +1,101 @@
+"""A job file together with the files that it extends."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from zlmreport.errors import AccessError, InputError, Place, Problem
+from zlmreport.job.parse import parse
+from zlmreport.job.text import LARGEST
+from zlmreport.job.tree import Items, Keys, Scalar, keys_of, merged
+from zlmreport.measurement.provenance import SourceFile
+
+#: Files that extend one another in a row.
+LONGEST_CHAIN = 16
+
+
+@dataclass(frozen=True, slots=True)
+class Composition:
+    """A job file's keys with those of the files it extends, and all files that took part."""
+
+    keys: Keys
+    files: tuple[SourceFile, ...]
+
+
+def compose(path: Path) -> Composition:
+    """Read a job file and every file that it extends.
+
+    Raises
+    ------
+    AccessError
+        If a file cannot be read.
+    InputError
+        If a file is no YAML, or files extend each other in a circle.
+    """
+    reader = _Reader()
+    keys = reader.keys(path, (), None)
+    return Composition(keys, tuple(reader.files.values()))
+
+
+@dataclass(slots=True)
+class _Reader:
+    """Reads each file once; `files` has them by their real path, the job file first."""
+
+    files: dict[str, SourceFile] = field(default_factory=dict)
+    _known: dict[str, Keys] = field(default_factory=dict)
+
+    def keys(self, path: Path, chain: tuple[Path, ...], named_at: Place | None) -> Keys:
+        """Return the keys of a file and of all that it extends.
+
+        `chain` is the row of files by which it was come to, and `named_at` where the last of them names it.
+        """
+        identity = os.path.realpath(path)
+        if named_at and identity in map(os.path.realpath, chain):
+            circle = " → ".join(each.name for each in (*chain, path))
+            raise InputError.at(named_at, f"these files extend each other in a circle: {circle}")
+        if named_at and len(chain) == LONGEST_CHAIN:
+            raise InputError.at(named_at, f"more than {LONGEST_CHAIN} files extend one another in a row")
+        if identity not in self._known:
+            content = _content(path, named_at)
+            digest = hashlib.sha256(content).hexdigest()
+            self.files[identity] = SourceFile(path.name, digest, len(content))
+            self._known[identity] = self._with_bases(parse(content, str(path)), (*chain, path))
+        return self._known[identity]
+
+    def _with_bases(self, own: Keys, chain: tuple[Path, ...]) -> Keys:
+        bases = keys_of(own.place)
+        for name in _extended(own):
+            base = self.keys(chain[-1].parent / name.text, chain, name.place)
+            bases = merged(bases, base.without("extends"))
+        return merged(bases, own)
+
+
+def _extended(keys: Keys) -> tuple[Scalar, ...]:
+    """Return the names of the files that a file extends."""
+    entry = keys.entries.get("extends")
+    if entry is None or (isinstance(entry.value, Scalar) and entry.value.is_nothing):
+        return ()
+    names = entry.value.items if isinstance(entry.value, Items) else (entry.value,)
+    found = tuple(name for name in names if isinstance(name, Scalar) and name.text)
+    if found != names:
+        raise InputError(
+            Problem(name.place, "extends names a file, or a list of files: extends: ../laboratory.yaml")
+            for name in names
+            if name not in found
+        )
+    return found
+
+
+def _content(path: Path, named_at: Place | None) -> bytes:
+    """Return a file's bytes, one more than is allowed at most."""
+    try:
+        with path.open("rb") as file:
+            return file.read(LARGEST + 1)
+    except OSError as error:
+        reason = (error.strerror or str(error)).lower()
+        if named_at:
+            raise AccessError.at(named_at, f"{str(path)!r} cannot be read: {reason}") from error
+        raise AccessError.at(Place(str(path)), f"cannot be read: {reason}") from error

@@ -1,0 +1,89 @@
+"""What a job needs to know of the plugins that it names; `zlmreport.plugins.Registry` answers."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Protocol
+
+from zlmreport.errors import Place
+from zlmreport.job.options import Options
+
+
+class LimitedQuantity(Protocol):
+    """A parameter for which a job may state a tolerance."""
+
+    @property
+    def symbol(self) -> str:
+        """As jobs and results name it."""
+
+    @property
+    def can_be_limited(self) -> bool:
+        """Whether a tolerance makes sense for it."""
+
+
+class InstalledSource(Protocol):
+    """A data source with its own keys."""
+
+    @property
+    def identifier(self) -> str:
+        """As jobs name it."""
+
+    @property
+    def options(self) -> type[Options]:
+        """Its own keys."""
+
+
+class InstalledStandard(Protocol):
+    """A standard with its own keys, and the parameters that a job may limit."""
+
+    @property
+    def identifier(self) -> str:
+        """As jobs name it."""
+
+    @property
+    def options(self) -> type[Options]:
+        """Its own keys."""
+
+    @property
+    def quantities(self) -> Sequence[LimitedQuantity]:
+        """Its parameters."""
+
+
+class InstalledRenderer(Protocol):
+    """A file format."""
+
+    @property
+    def identifier(self) -> str:
+        """As jobs name it."""
+
+    @property
+    def suffix(self) -> str:
+        """Of its files."""
+
+
+class Installed(Protocol):
+    """All plugins, by what jobs call them.
+
+    The three lookups raise `InputError` at `named_at` for an identifier that no plugin provides.
+    """
+
+    @property
+    def sources(self) -> Sequence[InstalledSource]:
+        """All data sources."""
+
+    @property
+    def standards(self) -> Sequence[InstalledStandard]:
+        """All standards."""
+
+    @property
+    def renderers(self) -> Sequence[InstalledRenderer]:
+        """All file formats."""
+
+    def source(self, identifier: str, named_at: Place | None = None) -> InstalledSource:
+        """Return a data source."""
+
+    def standard(self, identifier: str, named_at: Place | None = None) -> InstalledStandard:
+        """Return a standard."""
+
+    def renderer(self, identifier: str, named_at: Place | None = None) -> InstalledRenderer:
+        """Return a file format."""

@@ -1,0 +1,206 @@
+"""From a job file to a checked job."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
+from pathlib import Path
+
+from zlmreport.errors import InputError, Place, Problem, did_you_mean
+from zlmreport.job.extends import compose
+from zlmreport.job.installed import Installed, InstalledStandard
+from zlmreport.job.interpret import axis_in_si, tolerances_in_si
+from zlmreport.job.job import Job, SourceChoice, StandardChoice
+from zlmreport.job.model import JobKeys
+from zlmreport.job.text import quoted
+from zlmreport.job.tree import Entry, Items, Keys, Node, Scalar, key_place, keys_of, place_of, walk
+from zlmreport.job.validate import validate
+
+_SOURCE = ("measurement", "source")
+
+
+def load(path: Path, registry: Installed, formats: tuple[str, ...] = ()) -> Job:
+    """Read a job file and check all that can be checked without reading measurements.
+
+    Parameters
+    ----------
+    path
+        The job file.
+    registry
+        The installed plugins.
+    formats
+        Identifiers of installed renderers, instead of those that the job names.
+
+    Raises
+    ------
+    InputError
+        With every mistake, in the order of their places.
+    AccessError
+        If the job, or a file that it extends, cannot be read.
+    """
+    composition = compose(path)
+    tree = composition.keys
+    problems: list[Problem] = []
+    keys = validate(JobKeys, tree, problems)
+    source = _source(tree, registry, problems)
+    standards = list(_standards(tree, registry, problems))
+    formats = formats or _formats(tree, keys, registry, problems)
+    if keys:
+        problems.extend(_contradictions(keys, tree))
+    if problems or keys is None or source is None:
+        raise InputError(sorted(set(problems)))
+    axis = axis_in_si(keys.axis)
+    return Job(
+        keys=keys,
+        axis=axis,
+        source=source,
+        standards=tuple(
+            replace(choice, tolerances=tolerances_in_si(each.tolerances, axis))
+            for choice, each in zip(standards, keys.evaluate, strict=True)
+        ),
+        formats=formats,
+        directory=keys.output.directory or path.parent,
+        files=composition.files,
+        tree=tree,
+    )
+
+
+def _source(tree: Keys, registry: Installed, problems: list[Problem]) -> SourceChoice | None:
+    """Return the data source with its own keys."""
+    keys = _at(tree, _SOURCE)
+    plugin = _at(tree, (*_SOURCE, "plugin"))
+    if not isinstance(keys, Keys) or not isinstance(plugin, Scalar) or plugin.is_nothing:
+        return None
+    try:
+        source = registry.source(plugin.text, plugin.place)
+    except InputError as error:
+        problems.extend(error.problems)
+        return None
+    own = replace(keys.without("plugin"), place=plugin.place)
+    options = validate(source.options, own, problems, within=".".join(_SOURCE), also_known=["plugin"])
+    return SourceChoice(source.identifier, options, plugin.place) if options else None
+
+
+def _standards(tree: Keys, registry: Installed, problems: list[Problem]) -> Iterator[StandardChoice]:
+    """Yield the standards with their own keys."""
+    evaluate = _at(tree, ("evaluate",))
+    first_named: dict[str, Place] = {}
+    for item in evaluate.items if isinstance(evaluate, Items) else ():
+        keys = _with_identifier(item)
+        named = keys.entries.get("standard")
+        if named is None or not isinstance(named.value, Scalar) or named.value.is_nothing:
+            continue
+        identifier, place = named.value.text, named.value.place
+        try:
+            standard = registry.standard(identifier, place)
+        except InputError as error:
+            problems.extend(error.problems)
+            continue
+        if identifier in first_named:
+            first = first_named[identifier].line
+            problems.append(
+                Problem(place, f"{identifier} stands in line {first} already; remove one of them")
+            )
+        first_named.setdefault(identifier, place)
+        problems.extend(_unknown_tolerances(keys, standard))
+        own = replace(keys.without("standard", "tolerances"), place=place)
+        options = validate(
+            standard.options, own, problems, within="evaluate", also_known=["standard", "tolerances"]
+        )
+        if options:
+            yield StandardChoice(standard.identifier, options, {})
+
+
+def _with_identifier(item: Node) -> Keys:
+    """Return a standard's keys; a bare identifier stands for the key `standard`."""
+    if isinstance(item, Keys):
+        return item
+    return keys_of(item.place, (Entry("standard", item.place, item),))
+
+
+def _unknown_tolerances(keys: Keys, standard: InstalledStandard) -> Iterator[Problem]:
+    """Yield tolerances for what is no parameter of the standard, or cannot have one."""
+    tolerances = _at(keys, ("tolerances",))
+    limitable = [quantity.symbol for quantity in standard.quantities if quantity.can_be_limited]
+    symbols = {quantity.symbol for quantity in standard.quantities}
+    for symbol, entry in tolerances.entries.items() if isinstance(tolerances, Keys) else ():
+        if symbol not in symbols:
+            message = f"{quoted(symbol)} is no parameter of {standard.identifier}; "
+        elif symbol not in limitable:
+            message = f"{symbol} of {standard.identifier} takes no tolerance; "
+        else:
+            continue
+        yield Problem(entry.place, message + did_you_mean(symbol, limitable))
+
+
+def _formats(
+    tree: Keys, keys: JobKeys | None, registry: Installed, problems: list[Problem]
+) -> tuple[str, ...]:
+    """Return the output formats; without a list of them, the usual ones."""
+    stated = _at(tree, ("output", "formats"))
+    if isinstance(stated, Items):
+        named = [(item.text, item.place) for item in stated.items if isinstance(item, Scalar)]
+    else:
+        place = place_of(tree, ("output", "formats"))
+        named = [(identifier, place) for identifier in (keys.output.formats if keys else ())]
+    try:
+        return chosen_formats(named, registry)
+    except InputError as error:
+        problems.extend(error.problems)
+        return ()
+
+
+def chosen_formats(named: Iterable[tuple[str, Place]], registry: Installed) -> tuple[str, ...]:
+    """Return the identifiers of output formats.
+
+    Parameters
+    ----------
+    named
+        Identifiers, each with the place where it is named.
+    registry
+        The installed plugins.
+
+    Raises
+    ------
+    InputError
+        For each that no plugin provides, and each that would write the same file as one before it.
+    """
+    problems: list[Problem] = []
+    by_suffix: dict[str, str] = {}
+    for identifier, place in named:
+        try:
+            suffix = registry.renderer(identifier, place).suffix
+        except InputError as error:
+            problems.extend(error.problems)
+            continue
+        other = by_suffix.setdefault(suffix, identifier)
+        if other == identifier:
+            continue
+        problems.append(
+            Problem(place, f"{other} and {identifier} both write {suffix} files; choose one of them")
+        )
+    if problems:
+        raise InputError(problems)
+    return tuple(by_suffix.values())
+
+
+def _contradictions(keys: JobKeys, tree: Keys) -> Iterator[Problem]:
+    """Yield what no single key shows to be wrong."""
+    issued, measured = keys.certificate.issued, keys.measurement.date
+    if issued and measured and issued < measured:
+        yield Problem(
+            place_of(tree, ("certificate", "issued")),
+            f"certificate.issued: {issued} lies before the measurement of {measured}",
+        )
+    travel = keys.axis.travel
+    if travel and travel[0] >= travel[1]:
+        yield Problem(
+            key_place(tree, ("axis", "travel")),
+            "axis.travel: the first position of the travel must be less than the last",
+        )
+
+
+def _at(tree: Node, path: tuple[str, ...]) -> Node | None:
+    """Return the value at a path, if there is one."""
+    found = list(walk(tree, path))
+    return found[-1][2] if len(found) == len(path) else None

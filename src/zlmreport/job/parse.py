@@ -1,0 +1,173 @@
+"""From YAML to a tree of values with places.
+
+Events are read one by one, so that what is too deep or too large is refused where it becomes so, before
+it costs anything. No value is interpreted: YAML would take a serial number 00123 for 83, and ``no`` for
+false.
+"""
+
+from __future__ import annotations
+
+from types import MappingProxyType
+from typing import Any
+
+import yaml
+
+from zlmreport.errors import InputError, Place, Problem
+from zlmreport.job.syntax import NOT_YAML, complaint, place
+from zlmreport.job.text import decoded, described, quoted, unprintable
+from zlmreport.job.tree import Entry, Items, Keys, Node, Scalar
+
+#: A job needs five levels, and some hundred values.
+DEEPEST = 32
+MOST_VALUES = 20_000
+
+_ADVICE = "'zlmreport init DIR' writes one to begin with"
+
+
+def parse(content: bytes, file: str) -> Keys:
+    """Return the keys of a job file.
+
+    Parameters
+    ----------
+    content
+        The file's bytes.
+    file
+        Its name, for places.
+
+    Raises
+    ------
+    InputError
+        With every mistake that does not hide the rest of the file.
+    """
+    reader = _Reader(decoded(content, file), file)
+    try:
+        root = reader.document()
+    except yaml.MarkedYAMLError as error:
+        raise InputError([*reader.problems, complaint(error, file)]) from error
+    except (ValueError, OverflowError) as error:  # of an escape or a version beyond all bounds
+        raise InputError([*reader.problems, reader.stuck()]) from error
+    if not isinstance(root, Keys):
+        reader.problems.append(Problem(Place(file, 1, 1), _no_keys(root)))
+    if reader.problems or not isinstance(root, Keys):
+        raise InputError(reader.problems)
+    return Keys(Place(file, 1, 1), root.entries)
+
+
+def _no_keys(root: Node | None) -> str:
+    if root is None or (isinstance(root, Scalar) and root.is_nothing):
+        return f"is empty; a job file holds keys such as 'schema: zlmreport/job/1' ({_ADVICE})"
+    found = "a list" if isinstance(root, Items) else "a text"
+    return f"is {found}; a job file holds keys such as 'schema: zlmreport/job/1' ({_ADVICE})"
+
+
+class _Reader:
+    """Reads one document; `problems` holds the mistakes that need not end the reading."""
+
+    def __init__(self, text: str, file: str) -> None:
+        self.problems: list[Problem] = []
+        self._parser = yaml.SafeLoader(text)
+        self._file = file
+        self._values = 0
+        self._anchors: dict[str, tuple[Node, int] | None] = {}
+
+    def document(self) -> Node | None:
+        """Return the document's value; None if there is no document."""
+        root = None
+        documents = 0
+        while self._parser.check_event():
+            event = self._next()
+            if isinstance(event, yaml.DocumentStartEvent):
+                documents += 1
+                if documents > 1:
+                    self._refuse(event, "a second document begins here; a job is one: remove the line ---")
+                    break
+                root = self._node(self._next(), 0)
+        return root
+
+    def stuck(self) -> Problem:
+        """Return the problem of a character that the parser cannot get past."""
+        return Problem(place(self._parser.get_mark(), self._file), NOT_YAML)
+
+    def _next(self) -> Any:
+        """Return the next event; which kinds may come, the parser's grammar says, and no type."""
+        return self._parser.get_event()  # type: ignore[no-untyped-call]
+
+    def _node(self, event: Any, depth: int) -> Node:
+        if isinstance(event, yaml.AliasEvent):
+            return self._aliased(event)
+        if depth > DEEPEST:
+            raise self._error(event, f"is nested deeper than {DEEPEST} levels")
+        self._count(event, 1)
+        if event.tag is not None:
+            self._refuse(event, f"a job uses no tags (here {event.tag}); put a text in quotes instead")
+        before = self._values
+        if event.anchor:
+            self._anchors[event.anchor] = None
+        node: Node
+        if isinstance(event, yaml.MappingStartEvent):
+            node = self._keys(event, depth)
+        elif isinstance(event, yaml.SequenceStartEvent):
+            node = self._items(event, depth)
+        else:
+            node = self._scalar(event)
+        if event.anchor:
+            self._anchors[event.anchor] = (node, self._values - before + 1)
+        return node
+
+    def _scalar(self, event: yaml.ScalarEvent) -> Scalar:
+        hidden = unprintable(event.value)
+        if hidden:
+            self._refuse(event, f"{described(hidden)} in a text; remove it")
+        return Scalar(self._place(event), event.value, plain=event.style is None)
+
+    def _items(self, start: yaml.Event, depth: int) -> Items:
+        items = []
+        while not isinstance(event := self._next(), yaml.SequenceEndEvent):
+            items.append(self._node(event, depth + 1))
+        return Items(self._place(start), tuple(items))
+
+    def _keys(self, start: yaml.Event, depth: int) -> Keys:
+        entries: dict[str, Entry] = {}
+        while not isinstance(event := self._next(), yaml.MappingEndEvent):
+            key = self._node(event, depth + 1)
+            value = self._node(self._next(), depth + 1)
+            if not isinstance(key, Scalar):
+                self._refuse(event, "a key is a plain word, not a group or a list")
+            elif key.text == "<<":
+                self._refuse(event, "'<<' is not used in a job; shared keys come from a file by 'extends'")
+            elif key.text in entries:
+                first = entries[key.text].place.line
+                self._refuse(event, f"{quoted(key.text)} stands in line {first} already; remove one of them")
+            else:
+                if isinstance(value, Scalar) and value.plain and not value.text:
+                    value = Scalar(key.place, "")
+                entries[key.text] = Entry(key.text, key.place, value)
+        return Keys(self._place(start), MappingProxyType(entries))
+
+    def _aliased(self, event: yaml.AliasEvent) -> Node:
+        if event.anchor not in self._anchors:
+            raise self._error(
+                event, f"*{event.anchor} names nothing that stands above it; put a text in quotes"
+            )
+        anchored = self._anchors[event.anchor]
+        if anchored is None:
+            raise self._error(event, f"*{event.anchor} stands inside the value that it names")
+        node, size = anchored
+        self._count(event, size)
+        return node
+
+    def _count(self, event: yaml.Event, values: int) -> None:
+        self._values += values
+        if self._values > MOST_VALUES:
+            raise self._error(
+                event, f"the file comes to more than {MOST_VALUES} values here; a job has about 50"
+            )
+
+    def _refuse(self, event: yaml.Event, message: str) -> None:
+        self.problems.append(Problem(self._place(event), message))
+
+    def _error(self, event: yaml.Event, message: str) -> InputError:
+        return InputError([*self.problems, Problem(self._place(event), message)])
+
+    def _place(self, event: yaml.Event) -> Place:
+        return place(event.start_mark, self._file)

@@ -1,0 +1,141 @@
+"""The JSON Schema of the job file, for editors: its keys, and those of the installed plugins."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from typing import Any, TypeAlias
+
+from pydantic import BaseModel
+from pydantic.errors import PydanticInvalidForJsonSchema
+
+from zlmreport.job.installed import Installed, InstalledSource, InstalledStandard
+from zlmreport.job.model import JobKeys, SourceKeys, StandardKeys
+
+Schema: TypeAlias = dict[str, Any]
+
+
+def job_schema(registry: Installed) -> Schema:
+    """Return the JSON Schema (draft 2020-12) of the job file.
+
+    What a job must have is asked only of a job that extends no other file: from there it may come too.
+    """
+    schema = JobKeys.model_json_schema()
+    definitions = schema["$defs"]
+    definitions[SourceKeys.__name__] = {
+        "description": definitions[SourceKeys.__name__]["description"],
+        "oneOf": [_source(source, definitions) for source in registry.sources],
+    }
+    definitions[StandardKeys.__name__] = {
+        "description": definitions[StandardKeys.__name__]["description"],
+        "anyOf": [
+            {"enum": [standard.identifier for standard in registry.standards]},
+            *(_standard(standard, definitions) for standard in registry.standards),
+        ],
+    }
+    formats = definitions["Output"]["properties"]["formats"]
+    formats["items"] = {"enum": [renderer.identifier for renderer in registry.renderers]}
+    for part in _parts(schema):
+        _take_numbers_for_text(part)
+    return {
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "$id": "urn:zlmreport:job:1",
+        **_without_demands(schema),
+        "if": {"not": {"required": ["extends"]}},
+        "then": _demands(schema, definitions),
+    }
+
+
+def _source(source: InstalledSource, definitions: Schema) -> Schema:
+    """Return the schema of a data source's keys."""
+    key = {"const": source.identifier, "description": "Identifier of the data source."}
+    return _with_keys(_own_keys(source.options, source.identifier, definitions), {"plugin": key})
+
+
+def _standard(standard: InstalledStandard, definitions: Schema) -> Schema:
+    """Return the schema of a standard's keys."""
+    limitable = [quantity.symbol for quantity in standard.quantities if quantity.can_be_limited]
+    keys = {
+        "standard": {"const": standard.identifier, "description": "Identifier of the standard."},
+        "tolerances": {
+            "type": "object",
+            "description": StandardKeys.model_fields["tolerances"].description,
+            "properties": {symbol: {"type": "number", "exclusiveMinimum": 0} for symbol in limitable},
+            "additionalProperties": False,
+        },
+    }
+    return _with_keys(_own_keys(standard.options, standard.identifier, definitions), keys)
+
+
+def _own_keys(options: type[BaseModel], identifier: str, definitions: Schema) -> Schema:
+    """Return the schema of a plugin's own keys; what they refer to moves into the definitions."""
+    template = f"#/$defs/{identifier}.{{model}}"
+    try:
+        schema = options.model_json_schema(ref_template=template)
+    except PydanticInvalidForJsonSchema:  # a plugin may have keys of types that JSON does not know
+        return {"type": "object", "properties": {}}
+    own = schema.pop("$defs", {})
+    definitions.update({f"{identifier}.{name}": definition for name, definition in own.items()})
+    return schema
+
+
+def _with_keys(schema: Schema, keys: Schema) -> Schema:
+    """Return a plugin's schema with the key that names the plugin, and others of the job."""
+    named_by = next(iter(keys))
+    return {
+        **schema,
+        "properties": {**keys, **schema.get("properties", {})},
+        "required": [named_by, *schema.get("required", [])],
+    }
+
+
+def _take_numbers_for_text(part: Schema) -> None:
+    """Allow numbers where text is asked for: a serial number 00123 is taken as it is spelt."""
+    if part.get("type") == "string" and not {"enum", "const", "format"} & part.keys():
+        part["type"] = ["string", "number"]
+
+
+def _parts(schema: Any) -> Iterator[Schema]:
+    """Yield every part of a schema."""
+    if isinstance(schema, dict):
+        yield schema
+        for part in schema.values():
+            yield from _parts(part)
+    elif isinstance(schema, list):
+        for part in schema:
+            yield from _parts(part)
+
+
+def _without_demands(schema: Schema) -> Schema:
+    """Return the schema without what its own parts must have; plugins' keys stay with their plugin."""
+    relaxed = {key: value for key, value in schema.items() if key != "required"}
+    plugin_parts = {SourceKeys.__name__, StandardKeys.__name__}
+    relaxed["$defs"] = {
+        name: definition
+        if name in plugin_parts or "." in name
+        else {key: value for key, value in definition.items() if key != "required"}
+        for name, definition in schema["$defs"].items()
+    }
+    return relaxed
+
+
+def _demands(schema: Schema, definitions: Schema) -> Schema:
+    """Return what a part of a job must have, and what its parts must."""
+    inner = {
+        name: demands
+        for name, part in schema.get("properties", {}).items()
+        if (demands := _demands(_referred(part, definitions), definitions))
+    }
+    return {
+        **({"required": schema["required"]} if "required" in schema else {}),
+        **({"properties": inner} if inner else {}),
+    }
+
+
+def _referred(part: Schema, definitions: Schema) -> Schema:
+    """Return the definition that a part refers to, alone or beside null."""
+    alternatives: Iterable[Schema] = part.get("anyOf", [part])
+    for alternative in alternatives:
+        name = alternative.get("$ref", "").removeprefix("#/$defs/")
+        if name in definitions:
+            return {} if "oneOf" in definitions[name] else definitions[name]
+    return {}

@@ -1,0 +1,188 @@
+"""Mistakes in a job file, said to the person who can mend them."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Collection, Mapping
+from typing import Any
+
+from pydantic import BaseModel
+from pydantic.fields import FieldInfo
+
+from zlmreport.errors import Problem, did_you_mean
+from zlmreport.job.fields import choices_in, field_at, keys_in, model_at
+from zlmreport.job.mistakes import MISSING, UNKNOWN, Mistake, Refusal
+from zlmreport.job.text import counted, quoted
+from zlmreport.job.tree import Items, Keys, Node, Scalar, Step
+from zlmreport.job.types import with_decimal_point
+
+_NUMBER_AND_UNIT = re.compile(
+    r"([-+]?\d+(?:\.\d+)?)\s*(?:mm|µm|μm|um|nm|m|in|°C?|deg|arcsec|″|%|hPa|s)(?:/min)?"
+)
+
+_CHOICE_KINDS = frozenset({"literal_error", "enum"})
+_SPOKEN_KINDS = frozenset({"value_error", "assertion_error"})
+
+#: What is expected instead, by the kind of refusal.
+_EXPECTED: Mapping[str, Callable[[Mapping[str, Any]], str]] = {
+    "float_type": lambda _: "a number",
+    "float_parsing": lambda _: "a number",
+    "finite_number": lambda _: "a finite number",
+    "int_type": lambda _: "a whole number",
+    "int_parsing": lambda _: "a whole number",
+    "int_from_float": lambda _: "a whole number",
+    "greater_than": lambda given: _bounded("greater than", given["gt"]),
+    "greater_than_equal": lambda given: _bounded("of at least", given["ge"]),
+    "less_than": lambda given: _bounded("less than", given["lt"]),
+    "less_than_equal": lambda given: _bounded("of at most", given["le"]),
+    "multiple_of": lambda given: f"a multiple of {given['multiple_of']}",
+    "string_type": lambda _: "text",
+    "string_too_short": lambda given: f"text of at least {counted(given['min_length'], 'character')}",
+    "string_too_long": lambda given: f"text of at most {counted(given['max_length'], 'character')}",
+    "string_pattern_mismatch": lambda given: f"text of the form {given['pattern']}",
+    "path_type": lambda _: "the name of a file",
+    "date_type": lambda _: "a date such as 2026-11-20",
+    "date_parsing": lambda _: "a date such as 2026-11-20",
+    "date_from_datetime_parsing": lambda _: "a date such as 2026-11-20",
+    "date_from_datetime_inexact": lambda _: "a date such as 2026-11-20",
+    "bool_type": lambda _: "true or false",
+    "bool_parsing": lambda _: "true or false",
+    "list_type": lambda _: "a list",
+    "tuple_type": lambda _: "a list",
+    "set_type": lambda _: "a list",
+    "too_short": lambda given: f"a list of at least {counted(given['min_length'], 'value')}",
+    "too_long": lambda given: f"a list of at most {counted(given['max_length'], 'value')}",
+    "dict_type": lambda _: "a group of keys",
+    "mapping_type": lambda _: "a group of keys",
+    "model_type": lambda _: "a group of keys",
+    "model_attributes_type": lambda _: "a group of keys",
+}
+
+
+def _bounded(words: str, bound: Any) -> str:
+    """Say what is expected of a number, or of a date."""
+    return f"a number {words} {bound:g}" if isinstance(bound, int | float) else f"{words} {bound}"
+
+
+def problem(mistake: Mistake, model: type[BaseModel], within: str, also_known: Collection[str]) -> Problem:
+    """Return the problem that the user reads.
+
+    Parameters
+    ----------
+    mistake
+        What was found.
+    model
+        What describes the keys: a message quotes its descriptions and examples.
+    within
+        The dotted path of the model's keys in the job.
+    also_known
+        Keys beside the model's own that belong to the same group.
+    """
+    field = field_at(model, mistake.path)
+    name = ".".join(
+        [*([within] if within else []), *(step for step in mistake.path if isinstance(step, str))]
+    )
+    if mistake.kinds == {MISSING}:
+        return Problem(mistake.place, _missing(mistake, name, field))
+    if mistake.kinds == {UNKNOWN}:
+        return Problem(mistake.place, _unknown(mistake, model, within, also_known))
+    return Problem(mistake.place, _unfit(mistake, model, name, field))
+
+
+def _dotted(within: str, path: tuple[Step, ...]) -> str:
+    """Return the dotted name of a key; items of a list are known by their place."""
+    return ".".join(step for step in (within, *path) if isinstance(step, str) and step)
+
+
+def _missing(mistake: Mistake, name: str, field: FieldInfo | None) -> str:
+    if isinstance(mistake.path[-1], int):
+        return f"{name}: a value is missing in the list{_example(field)}"
+    return f"{name} is missing{_description(field)}{_example(field)}"
+
+
+def _unknown(mistake: Mistake, model: type[BaseModel], within: str, also_known: Collection[str]) -> str:
+    *group, key = map(str, mistake.path)
+    part = model_at(model, mistake.path[:-1])
+    known = list(keys_in(part)) if part else []
+    if not group:
+        known.extend(also_known)
+    where = _dotted(within, tuple(group))
+    return f"unknown key {quoted(key)}{f' in {where}' if where else ''}; {did_you_mean(key, known)}"
+
+
+def _unfit(mistake: Mistake, model: type[BaseModel], name: str, field: FieldInfo | None) -> str:
+    spoken = [str(refusal.context["error"]) for refusal in mistake.refusals if refusal.kind in _SPOKEN_KINDS]
+    prefix = f"{name}: " if name else ""
+    node = mistake.node
+    if spoken:
+        return f"{prefix}{spoken[0]}"
+    if mistake.kinds & _CHOICE_KINDS and isinstance(node, Scalar) and not node.is_nothing:
+        choices = [choice for refusal in mistake.refusals for choice in _choices(refusal, field)]
+        return f"{prefix}{quoted(node.text)} is unknown; {did_you_mean(node.text, choices)}"
+    expected = " or ".join(dict.fromkeys(_expectation(refusal, field) for refusal in mistake.refusals))
+    hint = _hint(node) or _keys_hint(model, mistake) or _example(field)
+    if isinstance(node, Scalar) and node.is_nothing:
+        return f"{name} has no value; {expected} is expected{hint.replace('; for', ', for')}"
+    return f"{prefix}{shown(node)} is not {expected}{hint}"
+
+
+def _expectation(refusal: Refusal, field: FieldInfo | None) -> str:
+    if refusal.kind in _CHOICE_KINDS:
+        return f"one of {', '.join(_choices(refusal, field))}"
+    if refusal.kind in _EXPECTED:
+        return _EXPECTED[refusal.kind](refusal.context)
+    return f"what is expected{_description(field)}"
+
+
+def _choices(refusal: Refusal, field: FieldInfo | None) -> list[str]:
+    listed = choices_in(field.annotation) if field else []
+    return listed or re.split(r", | or ", str(refusal.context.get("expected", "")).replace("'", ""))
+
+
+def _hint(node: Node | None) -> str:
+    """Say how a number is written that is almost one."""
+    if not isinstance(node, Scalar):
+        return ""
+    point = with_decimal_point(node.text)
+    if point:
+        return f"; write a decimal point: {point}"
+    unit = _NUMBER_AND_UNIT.fullmatch(node.text)
+    return f"; write the number without its unit: {unit[1]}" if unit else ""
+
+
+def _keys_hint(model: type[BaseModel], mistake: Mistake) -> str:
+    """Name the keys of the group that a value should have been."""
+    part = model_at(model, mistake.path)
+    if part is None or isinstance(mistake.node, Keys):
+        return ""
+    return f"; its keys are {', '.join(keys_in(part))}"
+
+
+def _description(field: FieldInfo | None) -> str:
+    """Return a key's description as the end of a sentence."""
+    if not field or not field.description:
+        return ""
+    first, rest = field.description[:1], field.description[1:].rstrip(".")
+    return f": {first if rest[:1].isupper() else first.lower()}{rest}"
+
+
+def _example(field: FieldInfo | None) -> str:
+    return f"; for example {_as_written(field.examples[0])}" if field and field.examples else ""
+
+
+def _as_written(example: Any) -> str:
+    """Write an example as it would stand in a job."""
+    if isinstance(example, dict):
+        return f"{{{', '.join(f'{key}: {_as_written(value)}' for key, value in example.items())}}}"
+    if isinstance(example, list):
+        return f"[{', '.join(map(_as_written, example))}]"
+    return str(example)
+
+
+def shown(node: Node | None) -> str:
+    """Return a value as a message shows it."""
+    if isinstance(node, Keys):
+        return "a group of keys"
+    if isinstance(node, Items):
+        return f"a list of {counted(len(node.items), 'value')}"
+    return quoted(node.text) if node else "this"

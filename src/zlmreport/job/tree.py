@@ -1,0 +1,124 @@
+"""What a job file says, value by value, each with its place: a tree that nothing has interpreted yet."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import TypeAlias
+
+from zlmreport.errors import Place
+
+Step: TypeAlias = str | int
+
+
+@dataclass(frozen=True, slots=True)
+class Scalar:
+    """A single value as it is spelt.
+
+    Attributes
+    ----------
+    place
+        Where it stands; where nothing stands, its key.
+    text
+        The value's text, quotes and line folding resolved.
+    plain
+        Whether it stands without quotes: only then can it be empty, or a number.
+    """
+
+    place: Place
+    text: str
+    plain: bool = True
+
+    @property
+    def is_nothing(self) -> bool:
+        """Whether the key is there without a value."""
+        return self.plain and self.text in {"", "~", "null"}
+
+
+@dataclass(frozen=True, slots=True)
+class Items:
+    """A list."""
+
+    place: Place
+    items: tuple[Node, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """A key with its place, and its value."""
+
+    key: str
+    place: Place
+    value: Node
+
+
+@dataclass(frozen=True, slots=True)
+class Keys:
+    """A group of keys, in the order in which they stand."""
+
+    place: Place
+    entries: Mapping[str, Entry]
+
+    def without(self, *keys: str) -> Keys:
+        """Return the group without some of its keys."""
+        kept = {key: entry for key, entry in self.entries.items() if key not in keys}
+        return Keys(self.place, MappingProxyType(kept))
+
+
+Node: TypeAlias = Scalar | Items | Keys
+
+
+def keys_of(place: Place, entries: Iterator[Entry] | tuple[Entry, ...] = ()) -> Keys:
+    """Return a group of entries."""
+    return Keys(place, MappingProxyType({entry.key: entry for entry in entries}))
+
+
+def walk(tree: Node, path: tuple[Step, ...]) -> Iterator[tuple[Step, Place, Node]]:
+    """Follow a path as far as it exists: yield each step, the place that stands for it, and its value.
+
+    A group or a list is where its key stands, for that is the line that a reader looks for; a single
+    value is where it stands itself.
+    """
+    node = tree
+    for step in path:
+        if isinstance(node, Keys) and isinstance(step, str) and step in node.entries:
+            entry = node.entries[step]
+            node = entry.value
+            place = node.place if isinstance(node, Scalar) else entry.place
+        elif isinstance(node, Items) and isinstance(step, int) and 0 <= step < len(node.items):
+            node = node.items[step]
+            place = node.place
+        else:
+            return
+        yield step, place, node
+
+
+def place_of(tree: Node, path: tuple[Step, ...]) -> Place:
+    """Return the place of a value, or of its nearest parent that exists."""
+    place = tree.place
+    for _, place, _ in walk(tree, path):  # noqa: B007 - the last place found is the answer
+        pass
+    return place
+
+
+def key_place(tree: Node, path: tuple[Step, ...]) -> Place:
+    """Return the place of a key, or of its nearest parent that exists."""
+    node = tree
+    for _, _, node in walk(tree, path[:-1]):  # noqa: B007 - the last group found is the answer
+        pass
+    if path and isinstance(node, Keys) and path[-1] in node.entries:
+        return node.entries[str(path[-1])].place
+    return place_of(tree, path)
+
+
+def merged(base: Keys, own: Keys) -> Keys:
+    """Return the keys of two files together: groups are merged, anything else of `own` replaces."""
+    entries = dict(base.entries)
+    for key, entry in own.entries.items():
+        value = entry.value
+        inherited = entries.get(key)
+        if inherited and isinstance(inherited.value, Keys) and isinstance(value, Keys):
+            value = merged(inherited.value, value)
+        entries[key] = Entry(key, entry.place, value)
+    return Keys(own.place, MappingProxyType(entries))

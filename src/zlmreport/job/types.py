@@ -1,0 +1,103 @@
+"""Types of values in a job file: for the job's own keys, and for those of plugins.
+
+What is written without quotes and reads as a number comes as a number where a key takes one, and as it is
+spelt where a key takes text: so ``serial: 00123`` stays what it is.
+"""
+
+from __future__ import annotations
+
+import datetime as dt
+import re
+from typing import Annotated, Any
+
+from pydantic import AfterValidator, BeforeValidator, Field, StringConstraints
+
+from zlmreport.job.text import quoted
+
+_LONGEST_LINE = 500
+_LONGEST_TEXT = 5000
+_EARLIEST_YEAR = 1900
+
+_FILE_STEM = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,99}")
+_ISO_DATE = re.compile(r"\d{4}-\d{2}-\d{2}", re.ASCII)
+_GERMAN_DATE = re.compile(r"(\d{1,2})\.(\d{1,2})\.(\d{4})", re.ASCII)
+_NUMBER = re.compile(r"[-+]?(\d+([.,]\d*)?|[.,]\d+)([eE][-+]?\d+)?", re.ASCII)
+
+
+def with_decimal_point(text: str) -> str | None:
+    """Return a number that is written with a decimal comma as it should be written.
+
+    >>> with_decimal_point("0,5"), with_decimal_point("0.5"), with_decimal_point("a, b")
+    ('0.5', None, None)
+    """
+    return text.replace(",", ".") if "," in text and _NUMBER.fullmatch(text) else None
+
+
+def _one_line(text: str) -> str:
+    for character, name in (("\n", "a line break"), ("\t", "a tab")):
+        if character in text:
+            raise ValueError(f"there is {name} in a text of one line; write a space instead")
+    return text
+
+
+def _without_tabs(text: str) -> str:
+    if "\t" in text:
+        raise ValueError("there is a tab in the text; write a space instead")
+    return text
+
+
+def _in_words(text: str) -> str:
+    if _NUMBER.fullmatch(text):
+        raise ValueError(
+            f"{quoted(text)} is not a number with a decimal point; write {text.replace(',', '.')}"
+        )
+    return text
+
+
+def file_stem(text: str) -> str:
+    """Refuse a text that cannot be the stem of a file's name on every system."""
+    if not _FILE_STEM.fullmatch(text):
+        raise ValueError(
+            f"{quoted(text)} cannot name files: a number has letters A to Z, digits, '.', '_' and '-', and "
+            "begins with a letter or digit, such as CAL-2026-0117"
+        )
+    return text
+
+
+def _date(value: Any) -> Any:
+    """Take a date only as ISO 8601 writes it: other spellings mean different days in different countries."""
+    if isinstance(value, dt.date):
+        return value
+    text = str(value)
+    if _ISO_DATE.fullmatch(text):
+        try:
+            date = dt.date.fromisoformat(text)
+        except ValueError:
+            raise ValueError(f"there is no day {text} in the calendar") from None
+        if date.year < _EARLIEST_YEAR:
+            raise ValueError(f"{text} lies before the year {_EARLIEST_YEAR}")
+        return date
+    german = _GERMAN_DATE.fullmatch(text)
+    if german:
+        day, month, year = german.groups()
+        raise ValueError(f"{text!r} is not a date as it is written here; write {year}-{month:0>2}-{day:0>2}")
+    raise ValueError(f"{quoted(text)} is not a date; write year-month-day, such as 2026-11-20")
+
+
+#: A line of text as it is printed; long enough for any name, short enough for a page.
+Text = Annotated[
+    str,
+    StringConstraints(min_length=1, max_length=_LONGEST_LINE, strip_whitespace=True),
+    AfterValidator(_one_line),
+]
+#: Text of several lines.
+Lines = Annotated[
+    str,
+    StringConstraints(min_length=1, max_length=_LONGEST_TEXT, strip_whitespace=True),
+    AfterValidator(_without_tabs),
+]
+#: Text in a key that takes a number too: what looks like a number must be one.
+InWords = Annotated[Text, AfterValidator(_in_words)]
+Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
+Finite = Annotated[float, Field(allow_inf_nan=False)]
+Date = Annotated[dt.date, BeforeValidator(_date)]

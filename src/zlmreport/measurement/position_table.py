@@ -1,0 +1,159 @@
+"""Tables over the position of an axis that belong to the machine: its compensation, its angular errors."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from zlmreport.errors import InputError, Place, Problem
+from zlmreport.measurement.axis import PositionTable
+from zlmreport.measurement.numeral import parse_number
+from zlmreport.measurement.reading_units import unit_named
+from zlmreport.measurement.text_file import TextFile, quoted, read_text
+from zlmreport.quantities.formatting import DecimalSign
+from zlmreport.quantities.units import Unit
+
+_BRACKETED = re.compile(r"(.*?)\s*[(\[]\s*([^()\[\]]+?)\s*[)\]]")
+_DELIMITERS = ("\t", ";", ",")
+
+
+@dataclass(frozen=True, slots=True)
+class TableColumn:
+    """A column that such a table has.
+
+    Attributes
+    ----------
+    name
+        As the header names it; a unit may follow in brackets.
+    unit
+        Of its numbers where the header names none.
+    units
+        That the header may name, by their spellings.
+    """
+
+    name: str
+    unit: Unit
+    units: Mapping[str, Unit]
+
+
+@dataclass(frozen=True, slots=True)
+class _Cell:
+    text: str
+    place: Place
+
+
+def read_position_table(path: Path, position: TableColumn, value: TableColumn) -> PositionTable:
+    """Read a table of two columns: a header that names them, then one position a row, rising.
+
+    Tab, semicolon or comma parts the columns; a decimal comma is taken where no comma parts columns; lines
+    that begin with ``#`` and empty lines are left out.
+
+    Raises
+    ------
+    AccessError
+        If the file cannot be read.
+    InputError
+        With every defect and its place.
+    """
+    text = read_text(path)
+    header, *rows = _rows(text) or [[]]
+    order = _order(text, header, (position, value))
+    units = [_unit(column, header[index]) for column, index in zip((position, value), order, strict=True)]
+    problems: list[Problem] = []
+    sign = _decimal_sign(rows)
+    found = [list(_numbers(row, order, len(header), sign, problems)) for row in rows]
+    if not problems:
+        problems.extend(_not_rising([row[order[0]] for row in rows], [numbers[0] for numbers in found]))
+    if len(rows) < 2 and not problems:
+        problems.append(Problem(text.place(), "has less than two rows of numbers; a table has two at least"))
+    if problems:
+        raise InputError(problems)
+    positions, values = (
+        tuple(unit.to_si(number) for number in column)
+        for unit, column in zip(units, zip(*found, strict=True), strict=True)
+    )
+    return PositionTable(positions, values, text.source)
+
+
+def _rows(text: TextFile) -> list[list[_Cell]]:
+    """Return the cells of each line that holds any, with their places."""
+    lines = [
+        (number, line)
+        for number, line in enumerate(text.lines, 1)
+        if line.strip() and not line.lstrip().startswith("#")
+    ]
+    if not lines:
+        return []
+    delimiter = next((each for each in _DELIMITERS if each in lines[0][1]), ",")
+    return [list(_cells(text, number, line, delimiter)) for number, line in lines]
+
+
+def _cells(text: TextFile, number: int, line: str, delimiter: str) -> Iterator[_Cell]:
+    start = 0
+    for part in line.split(delimiter):
+        lead = len(part) - len(part.lstrip())
+        yield _Cell(part.strip(), text.place(number, start + lead + 1))
+        start += len(part) + 1
+
+
+def _order(text: TextFile, header: Sequence[_Cell], columns: Sequence[TableColumn]) -> list[int]:
+    """Return the index of each column; the header has these and no others."""
+    names = [_split(cell.text)[0].casefold() for cell in header]
+    wanted = [column.name for column in columns]
+    if sorted(names) != sorted(wanted):
+        example = ",".join(f"{column.name} ({column.unit.symbol})" for column in columns)
+        found = quoted(", ".join(cell.text for cell in header)) if header else "none"
+        raise InputError.at(
+            header[0].place if header else text.place(),
+            f"the first row names the columns, as in {example}; found {found}",
+        )
+    return [names.index(name) for name in wanted]
+
+
+def _split(heading: str) -> tuple[str, str | None]:
+    match = _BRACKETED.fullmatch(heading)
+    return (match[1], match[2]) if match else (heading, None)
+
+
+def _unit(column: TableColumn, cell: _Cell) -> Unit:
+    spelling = _split(cell.text)[1]
+    try:
+        return unit_named(spelling, column.units) if spelling else column.unit
+    except ValueError as error:
+        raise InputError.at(cell.place, f"column {quoted(cell.text)}: {error}") from error
+
+
+def _decimal_sign(rows: Sequence[Sequence[_Cell]]) -> DecimalSign:
+    """Return the comma if there is one in a cell: then it parts no cells."""
+    has_comma = any("," in cell.text for row in rows for cell in row)
+    return DecimalSign.COMMA if has_comma else DecimalSign.POINT
+
+
+def _numbers(
+    row: Sequence[_Cell], order: Sequence[int], width: int, sign: DecimalSign, problems: list[Problem]
+) -> Iterator[float]:
+    """Yield the numbers of a row; what is wrong with it is noted."""
+    if len(row) != width:
+        problems.append(Problem(row[0].place, f"a row has {width} cells, and this one {len(row)}"))
+        return
+    for index in order:
+        try:
+            yield parse_number(row[index].text, sign)
+        except ValueError as error:
+            problems.append(
+                Problem(row[index].place, str(error) if row[index].text else "a number is missing")
+            )
+
+
+def _not_rising(cells: Sequence[_Cell], positions: Sequence[float]) -> Iterator[Problem]:
+    for later in (np.flatnonzero(np.diff(positions) <= 0) + 1).tolist():
+        cell = cells[later]
+        yield Problem(
+            cell.place,
+            f"position {quoted(cell.text)} does not lie above the one before it, {cells[later - 1].text}; "
+            "positions rise from row to row",
+        )

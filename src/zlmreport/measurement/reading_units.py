@@ -1,0 +1,129 @@
+"""Units as files spell them, and the way from them to SI."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import TypeVar
+
+from zlmreport.errors import did_you_mean
+from zlmreport.measurement.axis import AxisKind
+from zlmreport.measurement.text_file import quoted
+from zlmreport.quantities.units import (
+    ARCSECOND,
+    DEGREE,
+    INCH,
+    METRE,
+    MICROINCH,
+    MICROMETRE,
+    MICRORADIAN,
+    MILLIMETRE,
+    MILLIRADIAN,
+    NANOMETRE,
+    RADIAN,
+    Unit,
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Scale:
+    """A unit of time or of a condition, which may have a zero of its own.
+
+    Attributes
+    ----------
+    symbol
+        As printed.
+    si
+        How many SI units (s, K, Pa, 1) one of the unit is.
+    zero
+        What the zero of the scale is in SI.
+    """
+
+    symbol: str
+    si: float = 1.0
+    zero: float = 0.0
+
+    def to_si(self, value: float) -> float:
+        """Convert from this unit to SI."""
+        return value * self.si + self.zero
+
+
+CELSIUS = Scale("°C", zero=273.15)
+KELVIN = Scale("K")
+FAHRENHEIT = Scale("°F", si=5 / 9, zero=459.67 * 5 / 9)
+HECTOPASCAL = Scale("hPa", si=100.0)
+KILOPASCAL = Scale("kPa", si=1000.0)
+PERCENT = Scale("%", si=0.01)
+SECOND = Scale("s")
+
+_U = TypeVar("_U", bound=Unit | Scale)
+
+
+def _spelled(units: Mapping[str, _U]) -> Mapping[str, _U]:
+    """Return units by each spelling that a key lists; folding makes the two micro signs one."""
+    return MappingProxyType(
+        {spelling.casefold(): unit for spellings, unit in units.items() for spelling in spellings.split()}
+    )
+
+
+LENGTH_UNITS = _spelled(
+    {
+        "m": METRE,
+        "mm": MILLIMETRE,
+        "µm um micron microns": MICROMETRE,
+        "nm": NANOMETRE,
+        "in inch inches": INCH,
+        "µin uin microinch microinches": MICROINCH,
+    }
+)
+ANGLE_UNITS = _spelled(
+    {
+        "° deg degree degrees": DEGREE,
+        "″ arcsec arcseconds": ARCSECOND,
+        "mrad": MILLIRADIAN,
+        "µrad urad": MICRORADIAN,
+        "rad": RADIAN,
+    }
+)
+#: Of positions and deviations of any axis.
+POSITION_UNITS: Mapping[str, Unit] = MappingProxyType({**LENGTH_UNITS, **ANGLE_UNITS})
+TEMPERATURE_UNITS = _spelled({"°C degC C": CELSIUS, "K": KELVIN, "°F degF F": FAHRENHEIT})
+PRESSURE_UNITS = _spelled(
+    {
+        "Pa": Scale("Pa"),
+        "hPa": HECTOPASCAL,
+        "mbar": Scale("mbar", si=100.0),
+        "kPa": KILOPASCAL,
+        "mmHg": Scale("mmHg", si=133.322),
+    }
+)
+RATIO_UNITS = _spelled({"% %RH percent": PERCENT, "1": Scale("1")})
+TIME_UNITS = _spelled(
+    {
+        "s sec seconds": SECOND,
+        "ms": Scale("ms", si=1e-3),
+        "min": Scale("min", si=60.0),
+        "h": Scale("h", si=3600.0),
+    }
+)
+
+
+def position_units(kind: AxisKind) -> Mapping[str, Unit]:
+    """Return the units in which positions and deviations of an axis may be given."""
+    return LENGTH_UNITS if kind is AxisKind.LINEAR else ANGLE_UNITS
+
+
+def unit_named(spelling: str, units: Mapping[str, _U]) -> _U:
+    """Return the unit of a spelling, with either micro sign; raise ValueError if it is none of the units.
+
+    >>> unit_named("µm", LENGTH_UNITS).ascii
+    'um'
+    """
+    found = units.get(spelling.strip().casefold())
+    if found is None:
+        symbols = sorted({unit.symbol for unit in units.values()})
+        raise ValueError(
+            f"{quoted(spelling.strip())} is no unit of this quantity; {did_you_mean(spelling[:40], symbols)}"
+        )
+    return found

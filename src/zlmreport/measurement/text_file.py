@@ -1,0 +1,228 @@
+"""Text files of measurements: whatever is wrong with a file is said before anything is made of it."""
+
+from __future__ import annotations
+
+import codecs
+import difflib
+import hashlib
+import re
+import stat
+import unicodedata
+from dataclasses import dataclass
+from pathlib import Path
+
+from zlmreport.errors import AccessError, InputError, Place
+from zlmreport.measurement.provenance import SourceFile
+
+#: Of a measurement file, in bytes.
+LARGEST = 64 * 1024 * 1024
+#: A test of an axis has some hundred readings; continuous logs have more, and are no tests.
+MOST_LINES = 250_000
+LONGEST_LINE = 100_000
+
+#: The first bytes of files that people take for tables.
+_NO_TEXT = {
+    b"\x1f\x8b": "a compressed file",
+    b"PK\x03\x04": "a spreadsheet or an archive",
+    b"\xd0\xcf\x11\xe0": "a spreadsheet",
+    b"%PDF": "a PDF document",
+}
+#: Byte order marks; the longer one first where one begins like another.
+_MARKS = {
+    codecs.BOM_UTF32_LE: "utf-32",
+    codecs.BOM_UTF32_BE: "utf-32",
+    codecs.BOM_UTF16_LE: "utf-16",
+    codecs.BOM_UTF16_BE: "utf-16",
+}
+#: Control characters, overrides of the writing direction, and separators that split lines where an editor
+#: does not: with them a text reads otherwise than it is stored.
+_UNSEEN = re.compile(
+    "[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\u202a-\u202e\u2066-\u2069\u2028\u2029\ufeff\ud800-\udfff]"
+)
+#: Closes text files of DOS.
+_END_OF_FILE = "\x1a"
+
+
+@dataclass(frozen=True, slots=True)
+class TextFile:
+    """A text file that was read.
+
+    Attributes
+    ----------
+    name
+        The file as the job names it, for places in messages.
+    lines
+        Its lines without their ends; the first line of the file is ``lines[0]``.
+    source
+        Its name and digest, for the provenance.
+    """
+
+    name: str
+    lines: tuple[str, ...]
+    source: SourceFile
+
+    def place(self, line: int = 0, column: int = 0) -> Place:
+        """Return a place in this file; lines and columns count from 1."""
+        return Place(self.name, line, column)
+
+
+def read_text(path: Path, encoding: str | None = None) -> TextFile:
+    """Read a text file of measurements.
+
+    Parameters
+    ----------
+    path
+        The file.
+    encoding
+        As the job states it; None for UTF-8, with or without byte order mark.
+
+    Raises
+    ------
+    AccessError
+        If there is no such file, or it cannot be read.
+    InputError
+        If it is empty, too large, binary, or in another encoding; with the place, and with what would be
+        right.
+    """
+    file = Place(str(path))
+    content = _content(path, file)
+    if not content.strip():
+        raise InputError.at(file, "is empty; a measurement file holds readings")
+    for beginning, kind in _NO_TEXT.items():
+        if content.startswith(beginning):
+            raise InputError.at(file, f"is {kind}, not text; export the readings as text (CSV, UTF-8)")
+    text = _decoded(content, file, encoding).rstrip(_END_OF_FILE)
+    unseen = _UNSEEN.search(text)
+    if unseen:
+        raise InputError.at(_place_after(text[: unseen.start()], file), _described(unseen[0]))
+    lines = _lines(text)
+    if not lines[-1]:
+        lines.pop()
+    _refuse_continuous_logs(lines, file)
+    source = SourceFile(path.name, hashlib.sha256(content).hexdigest(), len(content))
+    return TextFile(file.file, tuple(lines), source)
+
+
+def known_encoding(name: str) -> str:
+    """Return the name of an encoding of text; raise ValueError if there is none of that name."""
+    try:
+        b"\xff".decode(name, "replace")
+    except (LookupError, ValueError) as error:
+        raise ValueError(
+            f"{quoted(name)} is no encoding of text; for example utf-8, utf-16, cp1252 or gbk"
+        ) from error
+    return name
+
+
+def quoted(text: str) -> str:
+    """Return a piece of a file as a message shows it: in quotation marks, on one line, and not too long.
+
+    >>> quoted("12,5"), quoted("x" * 60)
+    ("'12,5'", "'xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx…'")
+    """
+    return repr(text if len(text) <= 40 else f"{text[:39]}…")
+
+
+def _content(path: Path, file: Place) -> bytes:
+    try:
+        status = path.stat()
+        if stat.S_ISDIR(status.st_mode):
+            raise AccessError.at(file, "cannot be read: it is a folder; name the file in it")
+        if not stat.S_ISREG(status.st_mode):
+            raise AccessError.at(file, "cannot be read: it is no file but a device or a pipe")
+        if status.st_size <= LARGEST:
+            with path.open("rb") as stream:
+                content = stream.read(LARGEST + 1)
+            if len(content) <= LARGEST:
+                return content
+    except FileNotFoundError as error:
+        raise AccessError.at(file, f"cannot be read: there is no such file{_nearest(path)}") from error
+    except (OSError, ValueError) as error:  # ValueError: a name that no file system takes
+        reason = getattr(error, "strerror", None) or error
+        raise AccessError.at(file, f"cannot be read: {reason}") from error
+    raise InputError.at(
+        file,
+        f"is {status.st_size} bytes long; measurement files are read up to {LARGEST} bytes (64 MiB): "
+        "name a file that holds the readings of one test only",
+    )
+
+
+def _nearest(path: Path) -> str:
+    try:
+        beside = [entry.name for entry in path.parent.iterdir() if entry.is_file()]
+    except OSError:
+        return f", and no folder {path.parent}"
+    nearest = difflib.get_close_matches(path.name, beside, n=1)
+    return f"; did you mean {quoted(nearest[0])}?" if nearest else ""
+
+
+def _decoded(content: bytes, file: Place, encoding: str | None) -> str:
+    if encoding is None:
+        _refuse_wide_characters(content, file)
+        encoding = "utf-8"
+    if codecs.lookup(encoding).name == "utf-8":
+        content = content.removeprefix(codecs.BOM_UTF8)
+    try:
+        return content.decode(encoding)
+    except UnicodeDecodeError as error:
+        place = _place_after(content[: error.start].decode(encoding, "replace"), file)
+        wrong = f"byte 0x{content[error.start]:02X} is not {encoding.upper()}"
+        if b"\0" in content:
+            raise InputError.at(
+                place, f"{wrong}: this is no text file; export the readings as text"
+            ) from error
+        raise InputError.at(
+            place,
+            f"{wrong}; save the file as UTF-8, or name its encoding in the job, as in 'encoding: cp1252'",
+        ) from error
+
+
+def _refuse_wide_characters(content: bytes, file: Place) -> None:
+    """Refuse text of two or four bytes a character, which nothing in the job says."""
+    found = next((name for mark, name in _MARKS.items() if content.startswith(mark)), None)
+    if found is None:
+        sample = content[:4096]
+        first, second = sample[::2], sample[1::2]
+        if second and first.count(0) == 0 and second.count(0) > 0.6 * len(second):
+            found = "utf-16-le"
+        elif second and second.count(0) == 0 and first.count(0) > 0.6 * len(first):
+            found = "utf-16-be"
+    if found:
+        raise InputError.at(
+            Place(file.file, 1, 1),
+            f"is {found[:6].upper()} text; save it as UTF-8, or say 'encoding: {found}' in the job",
+        )
+
+
+def _refuse_continuous_logs(lines: list[str], file: Place) -> None:
+    if len(lines) > MOST_LINES:
+        raise InputError.at(
+            Place(file.file, MOST_LINES + 1, 1),
+            f"the file goes on for {len(lines)} lines, and measurement files are read up to {MOST_LINES}; "
+            "is it a continuous log?",
+        )
+    for number, line in enumerate(lines, 1):
+        if len(line) > LONGEST_LINE:
+            raise InputError.at(
+                Place(file.file, number, LONGEST_LINE + 1),
+                f"the line has {len(line)} characters; is this a file of readings?",
+            )
+
+
+def _described(character: str) -> str:
+    code = f"U+{ord(character):04X}"
+    name = unicodedata.name(character, "").lower()
+    if name:
+        return f"invisible character {code} ({name}); remove it"
+    return f"control character {code}; is this a text file, and in the encoding that the job states?"
+
+
+def _place_after(text: str, file: Place) -> Place:
+    """Return the place of the character that follows a text."""
+    lines = _lines(text)
+    return Place(file.file, len(lines), len(lines[-1]) + 1)
+
+
+def _lines(text: str) -> list[str]:
+    """Split where editors do: `str.splitlines` knows more line ends than they."""
+    return text.replace("\r\n", "\n").replace("\r", "\n").split("\n")

@@ -1,0 +1,1 @@
+"""Physics that measurements of length rest on: the refractive index of air, the reference temperature."""

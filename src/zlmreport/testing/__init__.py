@@ -1,0 +1,37 @@
+"""The conformance kit: what a plugin must do, as checks that its author runs.
+
+Each kind of plugin has a tuple of checks, which the built-in plugins pass too, and a function that runs
+all of them and reports everything at once::
+
+    from zlmreport.testing import check_standard
+
+    def test_conforms() -> None:
+        check_standard(HouseAcceptance())
+
+or, with pytest, one test for each check::
+
+    @pytest.mark.parametrize("check", STANDARD_CHECKS)
+    def test_conforms(check) -> None:
+        check(HouseAcceptance(), HouseAcceptanceOptions())
+
+A check that fails raises an `AssertionError` whose sentence names the plugin, the part of it, and what was
+expected. The kit needs no test framework.
+"""
+
+from zlmreport.testing.certificates import sample_certificate
+from zlmreport.testing.measurements import bidirectional_test, simulated_test
+from zlmreport.testing.renderers import RENDERER_CHECKS, check_renderer
+from zlmreport.testing.sources import SOURCE_CHECKS, check_source
+from zlmreport.testing.standards import STANDARD_CHECKS, check_standard
+
+__all__ = [
+    "RENDERER_CHECKS",
+    "SOURCE_CHECKS",
+    "STANDARD_CHECKS",
+    "bidirectional_test",
+    "check_renderer",
+    "check_source",
+    "check_standard",
+    "sample_certificate",
+    "simulated_test",
+]

@@ -1,0 +1,225 @@
+"""What the formulas of every standard must do."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Mapping
+
+import numpy as np
+
+from zlmreport.evaluation.evaluation import Arithmetic
+from zlmreport.evaluation.statistics import PositionStatistics, position_statistics
+from zlmreport.job.options import Options
+from zlmreport.measurement.approach import Approach
+from zlmreport.protocols import Standard
+from zlmreport.quantities.arrays import FloatArray
+from zlmreport.testing.expectations import expect, same_value
+
+_POSITIONS, _RUNS = 7, 5
+_SPREAD = 5e-6  # m: readings of a machine tool
+#: Between two ways of adding some hundred doubles there are a few units in the last place.
+_RELATIVE, _ABSOLUTE = 1e-9, 1e-9 * _SPREAD
+
+
+def gives_every_quantity(standard: Standard, options: Options) -> None:
+    """Check that there is one value for each parameter, and one at each position for each own column."""
+    arithmetic = _arithmetic(standard, options, _readings(3))
+    for owner, given, declared, shape in (
+        ("quantities", arithmetic.parameters, standard.quantities, (3,)),
+        ("position_quantities", arithmetic.positions, standard.position_quantities, (3, _POSITIONS)),
+    ):
+        symbols = {quantity.symbol for quantity in declared}
+        missing, unknown = sorted(symbols - given.keys()), sorted(given.keys() - symbols)
+        expect(not missing, f"{standard.identifier}: arithmetic gives no {', '.join(missing)} of its {owner}")
+        expect(not unknown, f"{standard.identifier}: arithmetic gives {', '.join(unknown)}, not in {owner}")
+        for symbol, value in given.items():
+            expect(
+                np.shape(value) == shape,
+                f"{standard.identifier}: {symbol} of a stack of 3 tests at {_POSITIONS} positions has shape "
+                f"{np.shape(value)}; expected {shape}",
+            )
+
+
+def stack_equals_loop(standard: Standard, options: Options) -> None:
+    """Check that a stack of tests, complete or not, gives what each test gives alone: batch first."""
+    stack = _readings(2, 4)
+    stack[0, 1, Approach.NEGATIVE.index, 3, 2] = np.nan
+    stack[0, 2, Approach.NEGATIVE.index] = np.nan
+    stack[1, 0, Approach.POSITIVE.index] = np.nan
+    stack[1, 1, ..., 1:] = np.nan
+    stack[1, 2] = np.nan
+    together = _values(_arithmetic(standard, options, stack))
+    for place in np.ndindex(2, 4):
+        alone = _values(_arithmetic(standard, options, stack[place]))
+        for symbol, value in alone.items():
+            _expect_close(
+                together[symbol][place],
+                value,
+                f"{standard.identifier}: {symbol} of test {place} in a stack differs from the test alone",
+            )
+
+
+def order_of_runs_is_irrelevant(standard: Standard, options: Options) -> None:
+    """Check that numbering the runs another way changes nothing."""
+    readings = _readings()
+    before = _values(_arithmetic(standard, options, readings))
+    after = _values(_arithmetic(standard, options, readings[..., [3, 0, 4, 1, 2]]))
+    for symbol, value in before.items():
+        _expect_close(
+            after[symbol], value, f"{standard.identifier}: {symbol} depends on the order of the runs"
+        )
+
+
+def scales_with_the_readings(standard: Standard, options: Options) -> None:
+    """Check that deviations twice as large give parameters twice as large: they are lengths or angles."""
+    readings = _readings()
+    before = _values(_arithmetic(standard, options, readings))
+    after = _values(_arithmetic(standard, options, 2 * readings))
+    for symbol, value in before.items():
+        _expect_close(
+            after[symbol], 2 * value, f"{standard.identifier}: {symbol} does not double with the readings"
+        )
+
+
+def moves_no_more_than_an_offset(standard: Standard, options: Options) -> None:
+    """Check that an offset of all readings moves no parameter by more than itself."""
+    readings, offset = _readings(), 2 * _SPREAD
+    before = _values(_arithmetic(standard, options, readings))
+    after = _values(_arithmetic(standard, options, readings + offset))
+    for symbol, value in before.items():
+        moved = np.max(np.abs(after[symbol] - value), initial=0.0, where=~np.isnan(value))
+        expect(
+            moved <= offset * (1 + _RELATIVE),
+            f"{standard.identifier}: {symbol} moves by {moved:.3g} m when all readings move {offset:.3g} m",
+        )
+
+
+def one_missing_reading_takes_nothing_away(standard: Standard, options: Options) -> None:
+    """Check that one missing reading leaves every parameter defined that the complete test defines."""
+    readings = _readings()
+    complete = _arithmetic(standard, options, readings)
+    readings[Approach.NEGATIVE.index, 2, 3] = np.nan
+    for symbol, value in _arithmetic(standard, options, readings).parameters.items():
+        expect(
+            np.isfinite(value) or np.isnan(complete.parameters[symbol]),
+            f"{standard.identifier}: {symbol} is {value} when one of {_RUNS} readings at a target is missing",
+        )
+
+
+def undefined_is_nan(standard: Standard, options: Options) -> None:
+    """Check that what a test does not define is NaN: not zero, not infinite, no warning, no exception."""
+    for kind, readings in _incomplete().items():
+        where = f"{standard.identifier}: arithmetic of {kind}"
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            arithmetic = _arithmetic(standard, options, readings)
+        for symbol, value in _values(arithmetic).items():
+            expect(not np.any(np.isinf(value)), f"{where}: {symbol} is infinite; expected NaN")
+            expect(
+                not np.any(value == 0.0),
+                f"{where}: {symbol} is exactly zero, which no readings with scatter give; expected NaN",
+            )
+
+
+def nothing_gives_nothing(standard: Standard, options: Options) -> None:
+    """Check that a test without a reading defines no parameter."""
+    readings = np.full_like(_readings(), np.nan)
+    for symbol, value in _values(_arithmetic(standard, options, readings)).items():
+        expect(
+            np.all(np.isnan(value)),
+            f"{standard.identifier}: {symbol} of a test without readings is {value}; expected NaN",
+        )
+
+
+def alters_no_input(standard: Standard, options: Options) -> None:
+    """Check that the statistics are as they were after the arithmetic has used them."""
+    statistics = position_statistics(_readings(3))
+    kept = position_statistics(_readings(3))
+    _of(standard, options, statistics)
+    expect(
+        same_value(statistics, kept), f"{standard.identifier}: arithmetic alters the statistics it is given"
+    )
+
+
+def gives_the_same_again(standard: Standard, options: Options) -> None:
+    """Check that the same readings give the same bits."""
+    first, second = (_arithmetic(standard, options, _readings()) for _ in range(2))
+    expect(
+        same_value(_values(first), _values(second)),
+        f"{standard.identifier}: arithmetic gives other values the second time",
+    )
+
+
+def _readings(*batch: int) -> FloatArray:
+    """Return deviations of shape (*batch, approach, position, run), m."""
+    random = np.random.default_rng(20)
+    means = random.normal(0.0, 2 * _SPREAD, (*batch, 2, _POSITIONS, 1))
+    return means + random.normal(0.0, _SPREAD, (*batch, 2, _POSITIONS, _RUNS))
+
+
+def _incomplete() -> Mapping[str, FloatArray]:
+    tests = {
+        kind: _readings()
+        for kind in (
+            "the positive direction only",
+            "the negative direction only",
+            "a test with a single run",
+            "a test with a single run in one direction",
+            "a test with a target approached from one side only",
+            "a test with a target never reached",
+        )
+    }
+    positive, negative, run, run_positive, one_sided, unreached = tests.values()
+    positive[Approach.NEGATIVE.index] = np.nan
+    negative[Approach.POSITIVE.index] = np.nan
+    run[..., 1:] = np.nan
+    run_positive[..., 1:] = np.nan
+    run_positive[Approach.NEGATIVE.index] = np.nan
+    one_sided[Approach.POSITIVE.index, 1] = np.nan
+    unreached[:, 4] = np.nan
+    return tests
+
+
+def _arithmetic(standard: Standard, options: Options, readings: FloatArray) -> Arithmetic:
+    return _of(standard, options, position_statistics(readings))
+
+
+def _of(standard: Standard, options: Options, statistics: PositionStatistics) -> Arithmetic:
+    try:
+        return standard.arithmetic(statistics, options)
+    except Exception as error:
+        message = (
+            f"{standard.identifier}: arithmetic raised {error!r} on readings of {statistics.deviations.shape}"
+        )
+        raise AssertionError(message) from error
+
+
+def _values(arithmetic: Arithmetic) -> dict[str, FloatArray]:
+    """Return all values by symbol; own columns under ``symbol by position``."""
+    columns = {f"{symbol} by position": values for symbol, values in arithmetic.positions.items()}
+    return {
+        symbol: np.asarray(value, dtype=float)
+        for symbol, value in {**arithmetic.parameters, **columns}.items()
+    }
+
+
+def _expect_close(found: FloatArray, expected: FloatArray, sentence: str) -> None:
+    expect(
+        np.allclose(found, expected, rtol=_RELATIVE, atol=_ABSOLUTE, equal_nan=True),
+        f"{sentence}: {found} instead of {expected}",
+    )
+
+
+#: Every check of a standard's formulas.
+ARITHMETIC_CHECKS = (
+    gives_every_quantity,
+    stack_equals_loop,
+    order_of_runs_is_irrelevant,
+    scales_with_the_readings,
+    moves_no_more_than_an_offset,
+    one_missing_reading_takes_nothing_away,
+    undefined_is_nan,
+    nothing_gives_nothing,
+    alters_no_input,
+    gives_the_same_again,
+)

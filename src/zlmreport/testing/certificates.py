@@ -1,0 +1,155 @@
+"""A certificate with one of everything, for the tests of renderers."""
+
+from __future__ import annotations
+
+from datetime import date
+
+import numpy as np
+
+from zlmreport.certificate.document import (
+    Align,
+    Block,
+    Certificate,
+    Column,
+    Facts,
+    Formulas,
+    Graph,
+    Letterhead,
+    Mark,
+    Notice,
+    PageWords,
+    Paragraph,
+    Party,
+    RowGroup,
+    Section,
+    Symbol,
+    Table,
+    Verdict,
+)
+from zlmreport.evaluation.evaluation import Evaluation, Parameter, PositionColumn
+from zlmreport.evaluation.quantity import Group, PositionQuantity, Quantity
+from zlmreport.evaluation.requirements import Finding
+from zlmreport.evaluation.statistics import position_statistics
+from zlmreport.figures.figure import Arrow, Band, Bracket, Curve, Figure, Level, Panel, Readings, Role
+from zlmreport.language import Language, Words, same
+from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.testing.measurements import simulated_test
+
+#: Text that a renderer must set as it stands: it would be a tag, an entity, or a template's expression.
+MARKUP = '<zlm-markup a="1">&amp;{{7*7}}{%x%}</zlm-markup>'
+NUMBER = "KIT-2026-0001"
+_PAGE_WORDS = {
+    Language.ENGLISH: PageWords("Certificate number", "page", "of", "End", "Figure", "Table"),
+    Language.GERMAN: PageWords("Nummer", "Seite", "von", "Ende", "Bild", "Tabelle"),
+}
+
+
+def sample_certificate(language: Language = Language.ENGLISH, text: str = "Example") -> Certificate:
+    """Return a certificate with every kind of block and every kind of mark on its graph.
+
+    Parameters
+    ----------
+    language
+        Of the document.
+    text
+        Stands wherever a user's own words can stand.
+    """
+    measurements = simulated_test()
+    evaluation = _evaluation(measurements, text)
+    return Certificate(
+        number=NUMBER,
+        title=text,
+        subtitle=text,
+        language=language,
+        issued=date(2026, 11, 20),
+        paper="A4",
+        letterhead=Letterhead(Party(text, (text,)), accreditation=text),
+        cover=(Facts((("Machine", text),), heading=text), Paragraph(text)),
+        sections=(
+            Section("results", text, _blocks(evaluation, text), new_page=True),
+            Section("nothing", text, ()),
+        ),
+        page_words=_PAGE_WORDS[language],
+        description=text,
+        measurements=measurements,
+        evaluations=(evaluation,),
+        generator="zlmreport",
+        keywords=(text,),
+        plugins={"kit": "1"},
+    )
+
+
+def _blocks(evaluation: Evaluation, text: str) -> tuple[Block, ...]:
+    return (
+        Notice(text, (text,)),
+        Table(
+            text,
+            (Column(Symbol("x̄_{i}↑"), "µm", Align.RIGHT), Column(text, align=Align.CENTRE), Column("")),
+            (
+                RowGroup((("1.5", text, Verdict(Mark.MET, text)),), heading=text, note=text),
+                RowGroup((("−", Symbol("R_{i}"), Verdict(Mark.NOT_MET, text)),)),
+                RowGroup((("", "", Verdict(Mark.OPEN, text)),)),
+            ),
+        ),
+        Table(text, (Column(text),), (), dense=True),
+        Graph(_figure(evaluation, text)),
+        Formulas(text, ((Symbol("D"), Symbol("max(x̄_{i}) − min(x̄_{i})"), text),)),
+    )
+
+
+def _evaluation(measurements: MeasurementSet, text: str) -> Evaluation:
+    statistics = position_statistics(measurements.deviations())
+    mean = statistics.mean_bidirectional
+    words = same(text)
+    quantity = Quantity("D", "D", words, Group.SYSTEMATIC, "max(x̄_{i}) − min(x̄_{i})", words)
+    return Evaluation(
+        standard="kit:1",
+        designation=text,
+        title=words,
+        position_index="i",
+        measurements=measurements,
+        statistics=statistics,
+        parameters=(Parameter(quantity, float(np.ptp(mean)), limit=1e-5, conforms=False),),
+        columns=(PositionColumn(PositionQuantity("half", "x̄_{i}/2", words), mean / 2),),
+        findings=(Finding(words, words, met=None),),
+        notes=(words,),
+    )
+
+
+def _figure(evaluation: Evaluation, text: str) -> Figure:
+    measurements, statistics = evaluation.measurements, evaluation.statistics
+    axis = measurements.axis
+    x = axis.position_unit.from_si(measurements.target_positions)
+    mean = axis.deviation_unit.from_si(statistics.mean_bidirectional)
+    lowest, highest = int(np.argmin(mean)), int(np.argmax(mean))
+    low, high = float(mean[lowest]), float(mean[highest])
+    panel = Panel(
+        heading=same(text),
+        curves=tuple(Curve("x̄_{i}", role, x, mean) for role in Role),
+        bands=(Band("x̄_{i} ± 1", Role.SPREAD, x, mean - 1, mean + 1),),
+        readings=tuple(
+            Readings(
+                approach,
+                x[measurements.target[measurements.approach == approach]],
+                axis.deviation_unit.from_si(measurements.deviation[measurements.approach == approach]),
+            )
+            for approach in measurements.approaches
+        ),
+        arrows=(Arrow("B_{i}", float(x[1]), low, high), Arrow("B_{i}", float(x[2]), low, low)),
+        brackets=(Bracket("D", low, high, float(x[lowest]), float(x[highest])),),
+        levels=(Level("0", Role.TOLERANCE, 0.0),),
+    )
+    gap = np.where(np.arange(len(x)) == 1, np.nan, mean)
+    interrupted = Panel(curves=(Curve("x̄_{i}", Role.MEAN_BIDIRECTIONAL, x, gap),))
+    return Figure(
+        key="everything",
+        title=same(text),
+        alternative=Words(en="From {low} to {high}: {text}", de="Von {low} bis {high}: {text}").given(
+            low=low, high=high, text=text
+        ),
+        x_title=same(text),
+        y_title=same(text),
+        x_unit=axis.position_unit.symbol,
+        y_unit=axis.deviation_unit.symbol,
+        panels=(panel, interrupted),
+    )

@@ -1,0 +1,92 @@
+"""How a check says what it expects."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable
+from dataclasses import fields, is_dataclass
+from typing import Any
+
+import numpy as np
+
+from zlmreport.job.options import Options
+from zlmreport.language import Language, Words
+
+_IDENTIFIER = re.compile(r"[a-z0-9]+([-.:][a-z0-9]+)*")
+
+
+def expect(condition: object, sentence: str) -> None:
+    """Raise an `AssertionError` with the sentence unless the condition holds."""
+    if not condition:
+        raise AssertionError(sentence)
+
+
+def run_all(checks: Iterable[Callable[..., None]], *subject: object) -> None:
+    """Run every check on the subject; raise one `AssertionError` with the sentences of all that fail."""
+    failures = []
+    for check in checks:
+        try:
+            check(*subject)
+        except AssertionError as failure:
+            failures.append(f"{check.__name__}: {failure}")
+    expect(not failures, "\n".join(failures))
+
+
+def expect_members(offered: object, protocol: type) -> None:
+    """Expect that an object has every member of a protocol."""
+    members = (name for name in (*protocol.__annotations__, *vars(protocol)) if not name.startswith("_"))
+    missing = [name for name in members if not hasattr(offered, name)]
+    where = f"{protocol.__module__}.{protocol.__qualname__}"
+    expect(not missing, f"{offered!r} has no {', '.join(missing)} (see {where})")
+
+
+def expect_identifier(identifier: object, owner: str) -> None:
+    """Expect a name that can be typed into a job: lower-case ASCII words joined by ``-``, ``.`` or ``:``."""
+    expect(
+        isinstance(identifier, str) and _IDENTIFIER.fullmatch(identifier),
+        f"{owner}: identifier {identifier!r} must be lower-case ASCII letters and digits, "
+        "joined by '-', '.' or ':', as 'iso230-2:2014' is",
+    )
+
+
+def expect_words(words: object, owner: str) -> None:
+    """Expect a phrase that says something in every language, with all its places filled."""
+    expect(isinstance(words, Words), f"{owner} must be Words(en=…, de=…), not {words!r}")
+    for language in Language:
+        try:
+            text = words.in_language(language)  # type: ignore[attr-defined]  # said above
+        except (KeyError, IndexError, ValueError) as error:
+            message = f"{owner} cannot be written in '{language}': place {error} has no value"
+            raise AssertionError(message) from error
+        expect(text.strip(), f"{owner} says nothing in '{language}'")
+
+
+def expect_options(options: object, owner: str) -> None:
+    """Expect a subclass of `Options` whose keys are all described."""
+    expect(
+        isinstance(options, type) and issubclass(options, Options),
+        f"{owner}: options must be a subclass of zlmreport.job.options.Options, not {options!r}",
+    )
+    for key, field in options.model_fields.items():  # type: ignore[attr-defined]  # said above
+        expect(field.description, f"{owner}: job key '{key}' needs a description (Field(description=…))")
+
+
+def expect_own_keys(options: type[Options], taken: frozenset[str], owner: str) -> None:
+    """Expect that none of a plugin's job keys is one of those that every plugin of its kind has."""
+    clashes = sorted(taken & set(options.model_fields))
+    expect(not clashes, f"{owner}: job keys {', '.join(clashes)} belong to the core; choose other names")
+
+
+def same_value(one: Any, other: Any) -> bool:
+    """Return whether two results are alike to the last bit, arrays and NaN included."""
+    if is_dataclass(one):
+        return type(one) is type(other) and all(
+            same_value(getattr(one, field.name), getattr(other, field.name)) for field in fields(one)
+        )
+    if isinstance(one, tuple | list):
+        return len(one) == len(other) and all(map(same_value, one, other))
+    if isinstance(one, dict):
+        return one.keys() == other.keys() and all(same_value(one[key], other[key]) for key in one)
+    if isinstance(one, float | np.ndarray):
+        return bool(np.array_equal(one, other, equal_nan=np.asarray(one).dtype.kind == "f"))
+    return bool(one == other)

@@ -1,0 +1,211 @@
+"""What every data source must do."""
+
+from __future__ import annotations
+
+import hashlib
+import tempfile
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from zlmreport.errors import Place, ZlmreportError
+from zlmreport.measurement.axis import Axis
+from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.protocols import DataSource, SourceContext
+from zlmreport.testing.expectations import (
+    expect,
+    expect_identifier,
+    expect_members,
+    expect_options,
+    expect_own_keys,
+    expect_words,
+    run_all,
+    same_value,
+)
+
+_CORE_KEYS = frozenset({"plugin"})
+
+
+def is_named(source: DataSource, _keys: Mapping[str, Any], _axis: Axis) -> None:
+    """Check that it has an identifier that can be typed, and a title in every language."""
+    expect_members(source, DataSource)
+    expect_identifier(source.identifier, repr(source))
+    expect_words(source.title, f"{source.identifier}: title")
+
+
+def options_are_described(source: DataSource, _keys: Mapping[str, Any], _axis: Axis) -> None:
+    """Check that its job keys are described, and none is a key of the core."""
+    expect_options(source.options, source.identifier)
+    expect_own_keys(source.options, _CORE_KEYS, source.identifier)
+
+
+def reads_a_measurement_set(source: DataSource, keys: Mapping[str, Any], axis: Axis) -> None:
+    """Check that what it reads is whole: rising targets, directions, runs from 1, arrays of one length."""
+    measurements = _read(source, keys, axis)
+    where = source.identifier
+    expect(isinstance(measurements, MeasurementSet), f"{where}: read must return a MeasurementSet")
+    targets = measurements.target_positions
+    expect(targets.size > 0, f"{where}: there is no target position")
+    expect(np.all(np.diff(targets) > 0), f"{where}: target_positions must rise: {targets}")
+    readings = measurements.deviation.shape
+    arrays = {
+        "target": measurements.target,
+        "approach": measurements.approach,
+        "run": measurements.run,
+        "time": measurements.time,
+        **{f"conditions[{name!r}]": values for name, values in measurements.conditions.items()},
+    }
+    for name, values in arrays.items():
+        if values is not None:
+            expect(values.shape == readings, f"{where}: {name} has shape {values.shape}; expected {readings}")
+    expect(not np.any(np.isinf(measurements.deviation)), f"{where}: a deviation is infinite")
+    expect(
+        np.all((measurements.target >= 0) & (measurements.target < targets.size)),
+        f"{where}: target must hold indices of the {targets.size} target positions",
+    )
+    expect(np.all(np.isin(measurements.approach, (1, -1))), f"{where}: approach must be 1 or -1")
+    expect(np.all(measurements.run >= 1), f"{where}: runs are numbered from 1")
+
+
+def keeps_the_axis(source: DataSource, keys: Mapping[str, Any], axis: Axis) -> None:
+    """Check that the measurement set is of the axis that the job describes."""
+    read = _read(source, keys, axis).axis
+    expect(read == axis, f"{source.identifier}: the axis read is {read}; expected the job's, {axis}")
+
+
+def values_are_read_only(source: DataSource, keys: Mapping[str, Any], axis: Axis) -> None:
+    """Check that nobody can alter a reading."""
+    measurements = _read(source, keys, axis)
+    arrays = {
+        "target_positions": measurements.target_positions,
+        "deviation": measurements.deviation,
+        "target": measurements.target,
+        "approach": measurements.approach,
+        "run": measurements.run,
+        **measurements.conditions,
+    }
+    for name, values in arrays.items():
+        expect(not values.flags.writeable, f"{source.identifier}: {name} can be altered; make it read-only")
+
+
+def reads_the_same_again(source: DataSource, keys: Mapping[str, Any], axis: Axis) -> None:
+    """Check that the same file gives the same measurement set."""
+    first, second = (_read(source, keys, axis) for _ in range(2))
+    expect(same_value(first, second), f"{source.identifier}: reading the same data again gives another set")
+
+
+def names_its_files(source: DataSource, keys: Mapping[str, Any], axis: Axis) -> None:
+    """Check that the provenance names the source, and each file read with its digest, without its folder."""
+    provenance = _read(source, keys, axis).provenance
+    expect(
+        provenance.source == source.identifier,
+        f"{source.identifier}: provenance.source is {provenance.source!r}; expected the identifier",
+    )
+    named = {file.name: file for file in provenance.files}
+    for key, path in _files(source, keys):
+        where = f"{source.identifier}: provenance of '{key}'"
+        expect(path.name in named, f"{where}: files do not name {path.name!r} (they name {sorted(named)})")
+        content = path.read_bytes()
+        expect(named[path.name].size == len(content), f"{where}: size is not that of the file")
+        expect(
+            named[path.name].sha256 == hashlib.sha256(content).hexdigest(),
+            f"{where}: sha256 is not the digest of the file",
+        )
+
+
+def remarks_are_worded(source: DataSource, keys: Mapping[str, Any], axis: Axis) -> None:
+    """Check that what it has to say of the file is said in every language."""
+    for number, remark in enumerate(_read(source, keys, axis).provenance.remarks, 1):
+        expect_words(remark, f"{source.identifier}: provenance: remark {number}")
+
+
+def damaged_files_are_refused(source: DataSource, keys: Mapping[str, Any], axis: Axis) -> None:
+    """Check that a file that is no such file is refused by name: no other exception, no measurement set."""
+    for key, path in _files(source, keys):
+        for damage, content in _damaged(path.read_bytes()).items():
+            with tempfile.TemporaryDirectory() as folder:
+                copy = Path(folder, path.name)
+                if content is not None:
+                    copy.write_bytes(content)
+                where = f"{source.identifier}: '{key}' names {damage}"
+                try:
+                    _read(source, {**keys, key: copy}, axis)
+                except ZlmreportError as error:
+                    places = {problem.place.file for problem in error.problems}
+                    expect(
+                        any(Path(place).name == path.name for place in places),
+                        f"{where}: the message does not name the file: {error}",
+                    )
+                except Exception as error:
+                    message = (
+                        f"{where}: {error!r}; expected an InputError or AccessError with the file's place"
+                    )
+                    raise AssertionError(message) from error
+                else:
+                    expect(damage == _CUT, f"{where}, and it reads measurements from that")
+
+
+_CUT = "a file cut off in the middle"
+
+
+def _damaged(content: bytes) -> Mapping[str, bytes | None]:
+    return {
+        "a file that is not there": None,
+        "an empty file": b"",
+        "a file of blank lines": b"\n \n\t\n\r\n",
+        "a binary file": bytes(range(256)) * 16,
+        "a file of words": "Über die Messung ist nichts bekannt.\n".encode() * 5,
+        _CUT: content[: len(content) // 2],
+    }
+
+
+def _files(source: DataSource, keys: Mapping[str, Any]) -> Iterator[tuple[str, Path]]:
+    """Yield the keys whose values are existing files."""
+    options = source.options.model_validate(dict(keys))
+    for key in type(options).model_fields:
+        value = getattr(options, key)
+        if isinstance(value, Path) and value.is_file():
+            yield key, value
+
+
+def _read(source: DataSource, keys: Mapping[str, Any], axis: Axis) -> MeasurementSet:
+    options = source.options.model_validate(dict(keys))
+    return source.read(options, SourceContext(axis, Place("job.yaml", 1, 1)))
+
+
+#: Every check of a data source, each called with the source, its job keys, and the axis.
+SOURCE_CHECKS = (
+    is_named,
+    options_are_described,
+    reads_a_measurement_set,
+    keeps_the_axis,
+    values_are_read_only,
+    reads_the_same_again,
+    names_its_files,
+    remarks_are_worded,
+    damaged_files_are_refused,
+)
+
+
+def check_source(source: DataSource, keys: Mapping[str, Any], *, axis: Axis | None = None) -> None:
+    """Run every check on a data source.
+
+    Parameters
+    ----------
+    source
+        The object that the plugin's hook returns.
+    keys
+        Its job keys for data that it reads without complaint, as a job file would give them.
+    axis
+        The axis that the data are of; a linear one, X, if it is not given.
+
+    Raises
+    ------
+    AssertionError
+        With a line for every check that fails.
+    """
+    axis = axis or Axis("X")
+    is_named(source, keys, axis)
+    run_all(SOURCE_CHECKS, source, keys, axis)

@@ -1,0 +1,197 @@
+"""How a table's columns share the page, and how its numbers stand under each other.
+
+The tables have a fixed layout, which a page takes in a fraction of the time of one that measures every
+cell; so the widths are estimated here, from the characters in the cells.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import ceil
+from unicodedata import combining
+
+from zlmreport.certificate.document import Align, Cell, Column, Symbol, Table, Verdict
+from zlmreport.quantities.notation import plain
+
+#: Number, with its decimals apart; a dash stands for a value that does not exist.
+_NUMBER = re.compile(r"(?:[−+-]?\d+(?:[.,](?P<decimals>\d+))?|–)")
+
+#: Advance widths of the regular face in em, to a twentieth; what is not named is as wide as a figure.
+_WIDTHS = {
+    character: width
+    for width, characters in (
+        (0.25, " ',.ijl′"),
+        (0.3, "!:;[]f|"),
+        (0.35, "()rt{}·²"),
+        (0.4, '"-/I\\″'),
+        (0.5, "?JLcsvxyz*°"),
+        (0.55, "FTaeghknouäöüéµ"),
+        (0.65, "ABDKRÄß"),
+        (0.7, "#&GHNOQUÖÜ"),
+        (0.75, "w"),
+        (0.8, "M—…↑↓"),
+        (0.85, "m½"),
+        (0.9, "@W"),
+        (0.95, "%"),
+    )
+    for character in characters
+}
+_FIGURE = 0.6
+_FULL = 1.0
+_FIRST_FULL_WIDTH_CHARACTER = "\u2e80"
+#: Headings are set in semi-bold, which is wider.
+_SEMIBOLD = 1.04
+
+#: Space at both sides of a cell, and the mark before a verdict's word, in em of the cell.
+_PADDING_EM = 0.9
+_VERDICT_EM = 1.9
+#: Further space before words that follow a number.
+_APART_EM = 1.15
+#: A longer word is broken rather than given the page.
+_LONGEST_WORD_EM = 16.0
+
+
+@dataclass(frozen=True, slots=True)
+class Size:
+    """A type size: its class name, and how many em of it a page is wide (A4 and Letter alike)."""
+
+    name: str
+    page_em: float
+
+
+#: From large to small, as the style sheet has them.
+SIZES = (Size("regular", 56.0), Size("dense", 66.0), Size("finest", 78.0))
+
+
+@dataclass(frozen=True, slots=True)
+class Measure:
+    """What a column needs, in em: to stay on one line, and at least, when its words part."""
+
+    natural: float
+    least: float
+
+
+def text_of(cell: Cell) -> str:
+    """Return what a cell shows, as a plain line."""
+    match cell:
+        case Symbol(notation):
+            return plain(notation)
+        case Verdict(word=word):
+            return word
+        case _:
+            return cell
+
+
+def measures(table: Table) -> tuple[Measure, ...]:
+    """Return what each column of a table needs."""
+    rows = [row for group in table.groups for row in group.rows]
+    gaps = [_APART_EM if apart else 0.0 for apart in stands_apart(table.columns)]
+    return tuple(
+        _measure(column, [row[index] for row in rows], gaps[index])
+        for index, column in enumerate(table.columns)
+    )
+
+
+def stands_apart(columns: Sequence[Column]) -> tuple[bool, ...]:
+    """Return which columns are words that follow a column of numbers: the two need a gap between them."""
+    alignments = [column.align for column in columns]
+    return tuple(
+        align is Align.LEFT and before is Align.RIGHT
+        for before, align in zip([Align.LEFT, *alignments], alignments, strict=False)
+    )
+
+
+def size(table: Table, needs: Sequence[Measure]) -> Size:
+    """Return the largest size in which the table's words need not be broken; the smallest if none is."""
+    sizes = SIZES[1:] if table.dense else SIZES
+    needed = sum(need.least for need in needs)
+    return next((each for each in sizes if needed <= each.page_em), sizes[-1])
+
+
+def widths(needs: Sequence[Measure], available: float) -> tuple[float, ...]:
+    """Share the available width (em) among columns; the result is in per cent and adds up to 100.
+
+    Columns with room for their lines share what is left over in proportion; columns without it get what
+    they need at least, and share the rest in proportion to what they lack.
+    """
+    natural = sum(need.natural for need in needs)
+    least = sum(need.least for need in needs)
+    if natural <= available:
+        shares = [need.natural for need in needs]
+    elif least < available:
+        part = (available - least) / (natural - least)
+        shares = [need.least + part * (need.natural - need.least) for need in needs]
+    else:
+        shares = [need.least for need in needs]
+    return tuple(100 * share / sum(shares) for share in shares)
+
+
+def lines(table: Table, available: Sequence[float]) -> int:
+    """Estimate how many lines a table's body takes, its columns being so wide (em)."""
+    headings = sum(bool(group.heading) for group in table.groups)
+    rows = (row for group in table.groups for row in group.rows)
+    return headings + sum(max(map(_lines, row, available)) for row in rows)
+
+
+def decimal_padding(table: Table) -> tuple[tuple[str, ...], ...]:
+    """Return for each row the class names that bring the decimal signs of a column under each other.
+
+    Figures are all of one width, so a number that lacks ``n`` decimals is moved left by as many figures
+    (``short-n``), and by a decimal sign too if it has none (``whole-n``).
+    """
+    rows = [row for group in table.groups for row in group.rows]
+    by_column = [
+        _padding([row[index] for row in rows]) if column.align is Align.RIGHT else ("",) * len(rows)
+        for index, column in enumerate(table.columns)
+    ]
+    return tuple(zip(*by_column, strict=True))
+
+
+def _padding(cells: Sequence[Cell]) -> tuple[str, ...]:
+    numbers = [_NUMBER.fullmatch(text_of(cell)) for cell in cells]
+    decimals = [len(number["decimals"] or "") if number else None for number in numbers]
+    most = max((count for count in decimals if count is not None), default=0)
+    return tuple(
+        "" if count is None or count == most else f"{'short' if count else 'whole'}-{most - count}"
+        for count in decimals
+    )
+
+
+def _measure(column: Column, cells: Sequence[Cell], gap: float) -> Measure:
+    is_words = column.align is Align.LEFT
+    heading = _SEMIBOLD * _width(text_of(column.heading))
+    least = max(_SEMIBOLD * _longest_word(text_of(column.heading)), _width(column.unit))
+    natural = heading if is_words else least
+    for cell in cells:
+        text = text_of(cell)
+        width = _width(text)
+        match cell:
+            case Verdict():
+                width = unbroken = _SEMIBOLD * width + _VERDICT_EM
+            case Symbol():
+                unbroken = min(width, _LONGEST_WORD_EM)
+            case _:
+                unbroken = _longest_word(text) if is_words else width
+        natural = max(natural, width)
+        least = max(least, unbroken)
+    return Measure(natural + _PADDING_EM + gap, least + _PADDING_EM + gap)
+
+
+def _lines(cell: Cell, available: float) -> int:
+    return max(1, ceil(_width(text_of(cell)) / max(available - _PADDING_EM, _FULL)))
+
+
+def _longest_word(text: str) -> float:
+    return min(max(map(_width, text.split()), default=0.0), _LONGEST_WORD_EM)
+
+
+def _width(text: str) -> float:
+    return sum(map(_character_width, text))
+
+
+def _character_width(character: str) -> float:
+    if character >= _FIRST_FULL_WIDTH_CHARACTER:
+        return _FULL
+    return 0.0 if combining(character) else _WIDTHS.get(character, _FIGURE)

@@ -1,0 +1,218 @@
+"""What each template is given: one dataclass a template, and a test that compares the two."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar, TypeAlias
+
+from markupsafe import Markup
+
+from zlmreport.certificate.document import Facts, Letterhead
+from zlmreport.quantities.notation import Span
+
+
+@dataclass(frozen=True, slots=True)
+class CellContext:
+    """A table's cell or heading.
+
+    Attributes
+    ----------
+    content
+        Text, or a symbol that is set already.
+    style
+        Class names: alignment, distance from the decimal sign, shape of a verdict.
+    unit
+        Below a heading; empty elsewhere.
+    """
+
+    content: str
+    style: str
+    unit: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class SymbolContext:
+    """A symbol or formula, each stretch with its way of being set."""
+
+    template: ClassVar[str] = "symbol.html"
+    spans: tuple[Span, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class RowGroupContext:
+    """Rows under a heading of their own; no heading for plain rows."""
+
+    heading: str
+    note: str
+    rows: tuple[tuple[CellContext, ...], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class TableContext:
+    """A table.
+
+    Attributes
+    ----------
+    label
+        ``Table 2``.
+    caption
+        What it shows.
+    size
+        Class name of its type size.
+    whole
+        Whether it is short enough to stay on one page.
+    widths
+        Of the columns, in per cent of the page's.
+    headings
+        One for each column.
+    groups
+        The rows.
+    """
+
+    template: ClassVar[str] = "table.html"
+    label: str
+    caption: str
+    size: str
+    whole: bool
+    widths: tuple[str, ...]
+    headings: tuple[CellContext, ...]
+    groups: tuple[RowGroupContext, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class FormulasContext:
+    """Definitions: symbol and formula, set already, and name of each; the rest as in a table."""
+
+    template: ClassVar[str] = "formulas.html"
+    label: str
+    caption: str
+    whole: bool
+    widths: tuple[str, ...]
+    rows: tuple[tuple[Markup, Markup, str], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class FactsContext:
+    """Groups of names and values, in one column or two."""
+
+    template: ClassVar[str] = "facts.html"
+    columns: tuple[tuple[Facts, ...], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class ParagraphContext:
+    """A paragraph."""
+
+    template: ClassVar[str] = "paragraph.html"
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class NoticeContext:
+    """A statement that nobody may overlook."""
+
+    template: ClassVar[str] = "notice.html"
+    heading: str
+    items: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class GraphContext:
+    """A graph with its caption.
+
+    Attributes
+    ----------
+    label
+        ``Figure 3``.
+    caption
+        Its title.
+    alternative
+        What it shows, for those who cannot see it.
+    address
+        Where the renderer finds the drawing: ``graph:2``.
+    drawing
+        The drawing itself as markup; empty where it stands at its address.
+    """
+
+    template: ClassVar[str] = "graph.html"
+    label: str
+    caption: str
+    alternative: str
+    address: str
+    drawing: Markup
+
+
+@dataclass(frozen=True, slots=True)
+class SectionContext:
+    """A section: its anchor, number, title, and its blocks as markup."""
+
+    template: ClassVar[str] = "section.html"
+    key: str
+    number: int
+    title: str
+    new_page: bool
+    blocks: tuple[Markup, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class LetterheadContext:
+    """Who issues the document; `logo` is the address of the logo, empty without one."""
+
+    template: ClassVar[str] = "letterhead.html"
+    letterhead: Letterhead
+    logo: str
+
+
+@dataclass(frozen=True, slots=True)
+class DocumentContext:
+    """The whole document.
+
+    Attributes
+    ----------
+    language
+        ISO 639-1 code.
+    title, subtitle, number
+        As printed on the cover.
+    author, description, keywords, generator, issued
+        Metadata of the file; `issued` as ISO 8601, empty where not stated.
+    running_number, page, of, end
+        Words of the page margins, and of the mark at the end.
+    style
+        Style sheets in the document's head; empty where the renderer hands them over otherwise.
+    letterhead, cover, sections
+        Markup, in this order.
+    """
+
+    template: ClassVar[str] = "document.html"
+    language: str
+    title: str
+    subtitle: str
+    number: str
+    author: str
+    description: str
+    keywords: str
+    generator: str
+    issued: str
+    running_number: str
+    page: str
+    of: str
+    end: str
+    style: Markup
+    letterhead: Markup
+    cover: tuple[Markup, ...]
+    sections: tuple[Markup, ...]
+
+
+#: What a template is rendered with.
+Context: TypeAlias = (
+    DocumentContext
+    | LetterheadContext
+    | SectionContext
+    | TableContext
+    | FormulasContext
+    | FactsContext
+    | ParagraphContext
+    | NoticeContext
+    | GraphContext
+    | SymbolContext
+)

@@ -1,0 +1,130 @@
+"""Complete documents for the tests of their sections: a job with everything in it, and real readings."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from zlmreport import pipeline
+from zlmreport.certificate.document import (
+    Block,
+    Cell,
+    Certificate,
+    Facts,
+    Formulas,
+    Graph,
+    Notice,
+    Paragraph,
+    Symbol,
+    Table,
+    Verdict,
+)
+from zlmreport.job.job import Job
+from zlmreport.job.loading import load
+from zlmreport.plugins import Registry, find_plugins
+from zlmreport.quantities.notation import plain
+
+ROOT = Path(__file__).parents[2]
+
+COMPLETE: Mapping[str, Any] = {
+    "schema": "zlmreport/job/1",
+    "certificate": {
+        "number": "CAL-1",
+        "issued": "2026-11-20",
+        "authorised_by": {"name": "A. Person", "function": "Head"},
+    },
+    "laboratory": {"name": "Some Laboratory", "address": "Street 1, 12345 Town"},
+    "customer": {"name": "A Customer", "address": "Lane 2, 54321 Village"},
+    "machine": {"manufacturer": "Maker", "model": "M1", "serial": "S-1"},
+    "axis": {"name": "Y", "travel": [-20, 20]},
+    "measurement": {
+        "date": "2022-04-07",
+        "source": {"plugin": "laser-csv", "file": str(ROOT / "configs" / "linear-axis" / "y-axis.csv")},
+    },
+    "instrument": {"name": "Sensor", "certificate": "C-1", "expanded_uncertainty": 2},
+    "environment": {"air_temperature": 20.5},
+    "evaluate": [{"standard": "iso230-2:2014", "tolerances": {"A": 150, "E": 100}}],
+}
+
+
+@cache
+def registry() -> Registry:
+    """Return what is installed; found once for all tests of this folder."""
+    return find_plugins()
+
+
+def job(folder: Path, keys: Mapping[str, Any] = COMPLETE) -> Job:
+    """Write the keys as a job file and load it."""
+    path = folder / "job.yaml"
+    path.write_text(yaml.safe_dump(dict(keys), sort_keys=False), encoding="utf-8")
+    return load(path, registry())
+
+
+def certificate(folder: Path, keys: Mapping[str, Any] = COMPLETE) -> Certificate:
+    """Return the document that a job with these keys composes."""
+    return pipeline.compose(job(folder, keys), registry())
+
+
+def without(dotted: str) -> dict[str, Any]:
+    """Return the complete keys without one of them."""
+    group, _, key = dotted.partition(".")
+    keys = dict(COMPLETE)
+    if key:
+        keys[group] = {name: value for name, value in COMPLETE[group].items() if name != key}
+    else:
+        del keys[group]
+    return keys
+
+
+def text_of(document: Certificate) -> str:
+    """Return a document as plain lines, block by block, as a reader would read it aloud."""
+    lines = [document.title, document.subtitle, document.number, ""]
+    lines.extend(line for block in document.cover for line in _lines(block))
+    for section in document.sections:
+        lines.extend(["", f"# {section.title}"])
+        lines.extend(line for block in section.blocks for line in _lines(block))
+    return "\n".join(lines) + "\n"
+
+
+def _lines(block: Block) -> list[str]:
+    match block:
+        case Paragraph(text):
+            return [text]
+        case Facts(pairs, heading):
+            return [heading, *(f"  {name}: {value}" for name, value in pairs)]
+        case Notice(heading, items):
+            return [f"! {heading}", *(f"  - {item}" for item in items)]
+        case Formulas(caption, rows):
+            return [
+                caption,
+                *(f"  {plain(s.notation)} = {plain(f.notation)} ({name})" for s, f, name in rows),
+            ]
+        case Table(caption, columns, groups):
+            head = " | ".join(_cell(column.heading) + f" {column.unit}".rstrip() for column in columns)
+            rows = [
+                line
+                for group in groups
+                for line in (
+                    *([f"  [{group.heading}] {group.note}".rstrip()] if group.heading else []),
+                    *("  " + " | ".join(map(_cell, row)) for row in group.rows),
+                )
+            ]
+            return [caption, f"  {head}", *rows]
+        case Graph(figure):
+            return [f"({figure.key})"]
+        case _:
+            raise AssertionError(block)
+
+
+def _cell(cell: Cell) -> str:
+    match cell:
+        case Symbol(notation):
+            return plain(notation)
+        case Verdict(_, word):
+            return word
+        case _:
+            return str(cell)

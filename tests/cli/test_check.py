@@ -1,0 +1,71 @@
+"""``zlmreport check``."""
+
+from __future__ import annotations
+
+from cli.commands import Shop
+
+
+def test_sound_job_is_told_with_every_requirement(shop: Shop) -> None:
+    shop.job()
+    run = shop.run("check", "job.yaml")
+    assert (run.code, run.messages) == (0, "")
+    assert run.output.splitlines() == [
+        "job.yaml  the job and its data are sound",
+        "  EX 1",
+        "    not met  At least 5 positions: 3 positions",
+    ]
+
+
+def test_nothing_is_written(shop: Shop) -> None:
+    shop.job()
+    before = sorted(shop.folder.rglob("*"))
+    shop.run("check", "job.yaml")
+    assert sorted(shop.folder.rglob("*")) == before
+
+
+def test_missing_readings_are_told(shop: Shop) -> None:
+    shop.job()
+    shop.write("six.txt", "1 nan 3 -1 -2 -3")
+    assert "1 of 6 readings are missing" in shop.run("check", "job.yaml").output
+
+
+def test_mistakes_of_all_jobs_are_told(shop: Shop) -> None:
+    shop.job(("name: X", "nam: X"), name="a.yaml")
+    shop.job(("kind: report", "kind: rapport"), name="b.yaml")
+    run = shop.run("check", "a.yaml", "b.yaml")
+    assert run.code == 2
+    assert "a.yaml:7:8: " in run.messages
+    assert "b.yaml:4:9: " in run.messages
+
+
+def test_wrong_readings_are_a_mistake(shop: Shop) -> None:
+    shop.job()
+    shop.write("six.txt", "1 2")
+    run = shop.run("check", "job.yaml")
+    assert (run.code, run.output, run.messages) == (2, "", "six.txt: must hold 6 numbers, not 2\n")
+
+
+def test_what_a_certificate_must_state_is_checked(shop: Shop) -> None:
+    shop.job(("  kind: report\n", ""))
+    run = shop.run("check", "job.yaml")
+    assert run.code == 2
+    assert "customer.name" in run.messages
+
+
+def test_limit_that_is_not_met_is_no_mistake(shop: Shop) -> None:
+    shop.job(("{E: 20}", "{E: 1}"))
+    assert shop.run("check", "job.yaml").code == 0
+
+
+def test_quiet_prints_nothing_on_a_sound_job(shop: Shop) -> None:
+    shop.job()
+    assert shop.run("check", "--quiet", "job.yaml").output == ""
+
+
+def test_summary_has_requirements_and_no_files(shop: Shop) -> None:
+    shop.job()
+    (job,) = shop.run("check", "--json", "job.yaml").summary["jobs"]
+    assert job["files"] == []
+    assert job["evaluations"][0]["requirements"] == [
+        {"requirement": "At least 5 positions", "found": "3 positions", "met": False}
+    ]

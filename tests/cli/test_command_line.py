@@ -1,0 +1,157 @@
+"""The command line itself: what it answers to what it does not know, and how it ends."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from cli.commands import Shop
+from zlmreport import __version__
+
+COMMANDS = ["check", "init", "plugins", "schema"]
+
+
+def _process(*arguments: str, **settings: object) -> subprocess.CompletedProcess[str]:
+    command = [sys.executable, "-W", "error", "-m", "zlmreport", *arguments]
+    return subprocess.run(command, capture_output=True, encoding="utf-8", check=False, **settings)  # type: ignore[call-overload,no-any-return]
+
+
+def test_version_is_printed(shop: Shop) -> None:
+    run = shop.run("--version")
+    assert (run.code, run.output) == (0, f"zlmreport {__version__}\n")
+
+
+def test_help_names_every_command_and_the_exit_codes(shop: Shop) -> None:
+    run = shop.run("--help")
+    assert run.code == 0
+    for word in [*COMMANDS, "--output", "--format", "--quiet", "--json", "--fail-on-nonconformity"]:
+        assert word in run.output
+    assert "3 a file could not be read or written" in run.output
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_every_command_has_its_help(command: str, shop: Shop) -> None:
+    run = shop.run(command, "--help")
+    assert run.code == 0
+    assert run.output.startswith(f"usage: zlmreport {command}")
+
+
+def test_help_fits_a_terminal(shop: Shop, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("COLUMNS", "80")
+    for command in [[], *([command] for command in COMMANDS)]:
+        lines = shop.run(*command, "--help").output.splitlines()
+        assert max(map(len, lines)) <= 92
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ([], "zlmreport: the following arguments are required: JOB.yaml (see zlmreport --help)"),
+        (["chek", "job.yaml"], "zlmreport: 'chek' is neither a file nor a command; did you mean 'check'?"),
+        (["--quiet", "check"], "zlmreport: the command comes first: zlmreport check …"),
+        (["job.yaml", "--formt", "pdf"], "zlmreport: unknown option '--formt'; did you mean '--format'?"),
+        (["job.yaml", "--form=pdf"], "zlmreport: unknown option '--form'; did you mean '--format'?"),
+        (["job.yaml", "--output"], "zlmreport: argument -o/--output: expected one argument"),
+        (["job.yaml", "-x"], "zlmreport: unknown option '-x'; known: --fail-on-nonconformity, --format"),
+        (["check"], "zlmreport check: the following arguments are required: JOB.yaml"),
+        (["check", "job.yaml", "--format=pdf"], "zlmreport check: unknown option '--format'; known: --help"),
+        (["init"], "zlmreport init: the following arguments are required: DIR"),
+        (["init", "a", "b"], "zlmreport init: 'b' is one argument too many"),
+    ],
+)
+def test_wrong_command_line_is_answered_with_what_would_be_right(
+    arguments: list[str], message: str, shop: Shop
+) -> None:
+    run = shop.run(*arguments)
+    assert run.code == 2
+    assert run.output == ""
+    assert run.messages.startswith(message)
+
+
+def test_job_may_be_called_like_a_command(shop: Shop) -> None:
+    shop.job(name="check")
+    assert shop.run("./check").code == 0
+
+
+def test_job_needs_no_suffix(shop: Shop) -> None:
+    shop.job(name="axis")
+    assert shop.run("axis").code == 0
+
+
+def test_interruption_ends_quietly(shop: Shop, monkeypatch: pytest.MonkeyPatch) -> None:
+    def interrupted(**_: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("zlmreport.cli.plugins.find_plugins", interrupted)
+    run = shop.run("plugins")
+    assert (run.code, run.output, run.messages) == (128 + signal.SIGINT, "", "")
+
+
+def test_reader_that_goes_away_ends_quietly(tmp_path: Path) -> None:
+    read_end, write_end = os.pipe()
+    os.close(read_end)
+    done = subprocess.run(
+        [sys.executable, "-m", "zlmreport", "schema"],
+        stdout=write_end,
+        stderr=subprocess.PIPE,
+        encoding="utf-8",
+        check=False,
+        cwd=tmp_path,
+    )
+    os.close(write_end)
+    assert (done.returncode, done.stderr) == (128 + signal.SIGPIPE, "")
+
+
+def test_full_disk_under_the_output_is_an_access_error() -> None:
+    full = Path("/dev/full")
+    if not full.exists():
+        pytest.skip("there is no /dev/full here")
+    with full.open("w") as sink:
+        done = subprocess.run(
+            [sys.executable, "-m", "zlmreport", "schema"],
+            stdout=sink,
+            stderr=subprocess.PIPE,
+            encoding="utf-8",
+            check=False,
+        )
+    assert done.returncode == 3
+    assert "No space left on device" in done.stderr
+    assert "Traceback" not in done.stderr
+
+
+def test_terminal_without_the_letters_gets_escapes() -> None:
+    environment = {**os.environ, "PYTHONIOENCODING": "ascii", "PYTHONUTF8": "0"}
+    done = _process("µ.yaml", env=environment)
+    assert done.returncode == 3
+    assert done.stderr.startswith("\\xb5.yaml: cannot be read")
+
+
+def test_name_that_is_no_text_is_printed_as_an_escape(tmp_path: Path) -> None:
+    done = _process(os.fsdecode(b"a\xff.yaml"), cwd=tmp_path)
+    assert done.returncode == 3
+    assert "\\udcff" in done.stderr
+    assert "Traceback" not in done.stderr
+
+
+def test_version_loads_nothing_that_is_slow() -> None:
+    code = (
+        "import sys; from zlmreport.cli import main; main(['--version']);"
+        "print(*sorted({'numpy', 'pydantic', 'yaml', 'pluggy', 'matplotlib', 'weasyprint', 'jinja2'}"
+        " & sys.modules.keys()))"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, encoding="utf-8", check=True)
+    assert done.stdout == f"zlmreport {__version__}\n\n"
+
+
+def test_listing_plugins_loads_no_library_that_draws_or_prints() -> None:
+    code = (
+        "import sys; from zlmreport.cli import main; main(['plugins']);"
+        "print(*sorted({'matplotlib', 'weasyprint', 'jinja2'} & sys.modules.keys()), file=sys.stderr)"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, encoding="utf-8", check=True)
+    assert done.stderr == "\n"

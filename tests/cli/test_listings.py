@@ -1,0 +1,52 @@
+"""``zlmreport plugins`` and ``zlmreport schema``."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+
+from cli.commands import Shop, use
+from offers import exemplary_registry, offering
+from zlmreport.job.schema import job_schema
+from zlmreport.plugins import Plugin, collect
+
+
+def test_plugins_are_listed_by_kind_with_title_and_distribution(shop: Shop) -> None:
+    run = shop.run("plugins")
+    assert run.code == 0
+    assert run.output.splitlines() == [
+        "standards",
+        "  exemplary:1  An exemplary standard  exemplary-plugins 1.2",
+        "data sources",
+        "  exemplary-text  Six numbers in a line  exemplary-plugins 1.2",
+        "formats",
+        "  exemplary  Words in JSON  exemplary-plugins 1.2",
+        "effects",
+        "  exemplary-wave  A wave over the travel  exemplary-plugins 1.2",
+    ]
+
+
+def test_plugins_that_do_not_work_are_listed_with_the_reason(
+    shop: Shop, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    broken = (Plugin("broken", "broken", "acme", "0.1"), offering([object()]))
+    use(monkeypatch, collect([broken], disabled=["resting"]))
+    run = shop.run("plugins")
+    assert run.code == 0
+    assert run.output.splitlines()[:2] == ["standards", "  none"]
+    assert "  broken  acme 0.1  standard 'object' lacks identifier" in run.output
+    assert run.output.endswith("switched off by ZLMREPORT_DISABLE_PLUGINS\n  resting\n")
+
+
+def test_schema_is_printed_with_the_keys_of_the_installed_plugins(shop: Shop) -> None:
+    run = shop.run("schema")
+    assert run.code == 0
+    assert json.loads(run.output) == json.loads(json.dumps(job_schema(exemplary_registry())))
+
+
+@pytest.mark.parametrize("command", ["plugins", "schema"])
+def test_listings_take_no_arguments(command: str, shop: Shop) -> None:
+    run = shop.run(command, "job.yaml")
+    assert run.code == 2
+    assert run.messages.startswith(f"zlmreport {command}: 'job.yaml' is one argument too many")

@@ -1,0 +1,94 @@
+"""Every example job gives its documents, and together they show every standard."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from environments import ROOT
+from zlmreport import pipeline
+from zlmreport.job.job import Job
+from zlmreport.job.loading import load
+from zlmreport.plugins import Registry, find_plugins
+
+CONFIGS = ROOT / "configs"
+#: What other jobs extend is no job by itself.
+JOBS = sorted(
+    path for path in CONFIGS.rglob("*.yaml") if "schema: zlmreport/job/1" in path.read_text(encoding="utf-8")
+)
+DATA = sorted(CONFIGS.rglob("*.csv"))
+
+
+def name(path: Path) -> str:
+    return path.relative_to(CONFIGS).as_posix()
+
+
+@pytest.fixture(scope="module")
+def registry() -> Registry:
+    return find_plugins()
+
+
+@pytest.fixture(scope="module")
+def jobs(registry: Registry) -> list[Job]:
+    return [load(path, registry) for path in JOBS]
+
+
+@pytest.mark.parametrize("path", JOBS, ids=name)
+def test_a_job_gives_each_of_its_formats_and_each_of_its_standards(
+    path: Path, registry: Registry, tmp_path: Path
+) -> None:
+    job = replace(load(path, registry), directory=tmp_path)
+    written = pipeline.write(pipeline.run(job, registry).documents)
+    stem = job.keys.certificate.number
+    assert {file.name for file in written} == {f"{stem}.{identifier}" for identifier in job.formats}
+    results = json.loads((tmp_path / f"{stem}.json").read_bytes())
+    stated = [choice.identifier for choice in job.standards]
+    assert [evaluation["standard"] for evaluation in results["evaluations"]] == stated
+
+
+def test_each_standard_is_shown_by_a_job(jobs: list[Job], registry: Registry) -> None:
+    shown = {choice.identifier for job in jobs for choice in job.standards}
+    built_in = {
+        identifier
+        for (_, identifier), plugin in registry.origins.items()
+        if plugin.module.startswith("zlmreport_plugins.standards.")
+    }
+    assert built_in == shown
+
+
+def test_numbers_of_certificates_are_unique(jobs: list[Job]) -> None:
+    numbers = [job.keys.certificate.number for job in jobs]
+    assert sorted(numbers) == sorted(set(numbers))
+
+
+@pytest.mark.parametrize("path", DATA, ids=name)
+def test_readings_name_their_source(path: Path) -> None:
+    comments = [line for line in path.read_text(encoding="utf-8").splitlines() if line.startswith("#")]
+    assert any("Source: github.com/" in line or "Quelle: github.com/" in line for line in comments)
+
+
+@pytest.mark.parametrize("path", DATA, ids=name)
+def test_readings_are_those_of_the_published_set(path: Path) -> None:
+    published = [set(readings(file)) for file in (ROOT / "tests" / "data" / "published").glob("*.csv")]
+    assert set(readings(path)) in published
+
+
+def test_invented_parties_are_named_examples(jobs: list[Job]) -> None:
+    for job in jobs:
+        keys = job.keys
+        parties = [keys.laboratory, keys.customer, keys.certificate.authorised_by]
+        invented = [party.name for party in parties if party] + [keys.machine.manufacturer or "Example"]
+        assert all("Example" in each or "Beispiel" in each for each in invented)
+
+
+def readings(path: Path) -> Iterator[tuple[float, str, int, float]]:
+    """Yield (target, direction, run, deviation) of each row, whatever the decimal sign."""
+    lines = [line for line in path.read_text(encoding="utf-8").splitlines() if not line.startswith("#")]
+    separator = ";" if ";" in lines[0] else ","
+    for line in lines[1:]:
+        target, direction, run, deviation = line.split(separator)
+        yield float(target.replace(",", ".")), direction, int(run), float(deviation.replace(",", "."))

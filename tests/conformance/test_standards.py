@@ -1,0 +1,32 @@
+"""Every installed standard passes every check that a third party's author runs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import pytest
+
+from zlmreport.plugins import find_plugins
+from zlmreport.protocols import Standard
+from zlmreport.testing import STANDARD_CHECKS
+
+STANDARDS = find_plugins().standards
+
+
+@pytest.mark.parametrize("standard", STANDARDS, ids=lambda standard: standard.identifier)
+@pytest.mark.parametrize("check", STANDARD_CHECKS)
+def test_conforms(standard: Standard, check: Callable[..., None]) -> None:
+    check(standard, standard.options())
+
+
+def test_the_standards_that_users_are_promised_are_there() -> None:
+    promised = {
+        "iso230-2:1988",
+        "iso230-2:1997",
+        "iso230-2:2006",
+        "iso230-2:2014",
+        "vdi-dgq-3441",
+        "vdi-vde-2617",
+        "nmtba",
+    }
+    assert promised <= {standard.identifier for standard in STANDARDS}

@@ -1,0 +1,74 @@
+"""Every example in the README, the tutorial and the how-tos does what the page says."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from documents.examples import commands, matches, patched, run_page
+from documents.pages import DOCS, ROOT, Block, blocks, name
+
+_ELSEWHERE = {DOCS / "how-to" / "add-a-standard.md"}  # its examples have a test of their own
+_EXECUTED = [
+    ROOT / "README.md",
+    *sorted(
+        {*DOCS.glob("tutorial/*.md"), *DOCS.glob("how-to/*.md"), *DOCS.glob("explanation/*.md")} - _ELSEWHERE
+    ),
+    *sorted(DOCS.glob("reference/*.md")),
+]
+
+
+@pytest.mark.parametrize("page", _EXECUTED, ids=name)
+def test_the_examples_of_a_page_work(page: Path, tmp_path: Path) -> None:
+    run_page(page, tmp_path)
+
+
+@pytest.mark.parametrize("page", _EXECUTED, ids=name)
+def test_commands_that_are_only_shown_exist(page: Path) -> None:
+    known = set(re.findall(r"^  ([a-z]+) {2,}", (ROOT / "run").read_text(), re.MULTILINE))
+    shown = [line for block in blocks(page) if block.language == "sh" for line in block.text.splitlines()]
+    assert {line.split()[1] for line in shown if line.startswith("./run")} <= known
+
+
+@pytest.mark.parametrize(
+    ("expected", "printed"),
+    [
+        (["A = 3.1 µm"], "A = 3.1 µm\n"),
+        (["A = … µm"], "A = 3.2 µm\n"),
+        (["first", "…", "last"], "first\nlast\n"),
+        (["first", "…", "last"], "first\nsecond\nthird\nlast\n"),
+    ],
+)
+def test_the_runner_takes_what_the_page_says(expected: list[str], printed: str) -> None:
+    assert matches(expected, printed)
+
+
+@pytest.mark.parametrize(
+    ("expected", "printed"),
+    [
+        (["A = 3.1 µm"], "A = 3.2 µm\n"),
+        (["A = … µm"], "A = 3.2 nm\n"),
+        (["first"], "first\nsecond\n"),
+        (["first", "second"], "first\n"),
+    ],
+)
+def test_the_runner_refuses_what_the_page_does_not_say(expected: list[str], printed: str) -> None:
+    assert not matches(expected, printed)
+
+
+def test_the_runner_refuses_a_change_of_lines_that_are_not_there() -> None:
+    block = Block(ROOT / "README.md", 1, "diff", "job.yaml", "-language: fr\n+language: de\n")
+    with pytest.raises(AssertionError, match="not there once"):
+        patched(block, "certificate:\n  language: en\n")
+
+
+def test_the_runner_makes_a_change_in_place() -> None:
+    block = Block(ROOT / "README.md", 1, "diff", "job.yaml", " a: 1\n-b: 2\n+b: 3\n")
+    assert patched(block, "z: 0\na: 1\nb: 2\nc: 4\n") == "z: 0\na: 1\nb: 3\nc: 4\n"
+
+
+def test_the_runner_takes_a_console_block_apart() -> None:
+    block = Block(ROOT / "README.md", 1, "console", "", "$ false\n$ echo $?\n1\n")
+    assert [(each.text, each.expected) for each in commands(block)] == [("false", []), ("echo $?", ["1"])]

@@ -1,0 +1,55 @@
+"""The generated parts of the pages are what the code says today."""
+
+from __future__ import annotations
+
+import difflib
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from documents.pages import DOCS, name, pages
+
+_PART = re.compile(r"<!-- generated: ([a-z0-9-]+) -->")
+_END = re.compile(r"<!-- end: ([a-z0-9-]+) -->")
+_GENERATED = [page for page in pages() if _PART.search(page.read_text(encoding="utf-8"))]
+
+
+@pytest.fixture(scope="module")
+def regenerated(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return a copy of the documentation in which the generated parts are written anew."""
+    folder = tmp_path_factory.mktemp("regenerated") / "docs"
+    shutil.copytree(DOCS, folder, ignore=shutil.ignore_patterns("__pycache__", "*.png"))
+    done = subprocess.run(
+        [sys.executable, str(DOCS / "generate"), str(folder)],
+        capture_output=True,
+        encoding="utf-8",
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    return folder
+
+
+@pytest.mark.parametrize("page", _GENERATED, ids=name)
+def test_a_page_is_up_to_date(page: Path, regenerated: Path) -> None:
+    stands = page.read_text(encoding="utf-8").splitlines()
+    should = (regenerated / page.relative_to(DOCS)).read_text(encoding="utf-8").splitlines()
+    difference = "\n".join(
+        difflib.unified_diff(stands, should, "as it stands", "as it should be", lineterm="", n=0)
+    )
+    assert not difference, f"{name(page)}: run 'python docs/generate'\n{difference}"
+
+
+@pytest.mark.parametrize("page", _GENERATED, ids=name)
+def test_every_generated_part_has_an_end(page: Path) -> None:
+    text = page.read_text(encoding="utf-8")
+    assert _PART.findall(text) == _END.findall(text)
+
+
+def test_every_part_that_can_be_generated_stands_in_a_page() -> None:
+    source = (DOCS / "generate" / "__main__.py").read_text(encoding="utf-8")
+    known = set(re.findall(r'^    "([a-z0-9-]+)": ', source, re.MULTILINE))
+    assert known == {part for page in _GENERATED for part in _PART.findall(page.read_text(encoding="utf-8"))}

@@ -1,0 +1,57 @@
+"""Every hook, protocol member and exit code that the program has stands in the reference, and no other."""
+
+from __future__ import annotations
+
+import inspect
+import re
+
+import pytest
+
+from documents.pages import DOCS
+from zlmreport import errors, hookspecs, protocols
+
+_PAGE = (DOCS / "reference" / "plugin-interfaces.md").read_text(encoding="utf-8")
+_LIVE_HOOKS = [
+    name
+    for name, function in inspect.getmembers(hookspecs, inspect.isfunction)
+    if hasattr(function, f"{hookspecs.PROJECT}_spec")
+]
+_MEMBERS = [
+    f"{protocol.__name__}.{member}"
+    for protocol in (protocols.Standard, protocols.DataSource, protocols.SourceContext, protocols.Renderer)
+    for member in (
+        *protocol.__annotations__,
+        *(name for name in vars(protocol) if inspect.isfunction(vars(protocol)[name])),
+    )
+    if not member.startswith("_")
+]
+
+
+def _section(heading: str) -> str:
+    return _PAGE.partition(f"### {heading}\n")[2].partition("\n### ")[0].partition("\n## ")[0]
+
+
+@pytest.mark.parametrize("hook", _LIVE_HOOKS)
+def test_a_live_hook_is_documented(hook: str) -> None:
+    assert f"`{hook}(" in _PAGE
+
+
+def test_no_hook_is_documented_that_does_not_live() -> None:
+    assert set(re.findall(r"`(zlmreport_[a-z_]+)\(", _PAGE)) == set(_LIVE_HOOKS)
+
+
+@pytest.mark.parametrize("member", _MEMBERS)
+def test_a_member_of_a_protocol_is_documented(member: str) -> None:
+    protocol, _, name = member.partition(".")
+    assert re.search(rf"^\| `{name}[:(]", _section(protocol), re.MULTILINE)
+
+
+def test_every_exit_code_of_an_error_is_documented() -> None:
+    page = (DOCS / "reference" / "exit-codes.md").read_text(encoding="utf-8")
+    documented = {int(code) for code in re.findall(r"^\| (\d) \|", page, re.MULTILINE)}
+    raised = {
+        error.exit_code
+        for _, error in inspect.getmembers(errors, inspect.isclass)
+        if issubclass(error, errors.ZlmreportError)
+    }
+    assert raised <= documented

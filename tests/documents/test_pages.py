@@ -1,0 +1,69 @@
+"""Links lead somewhere, pictures are there, and the map knows every page."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+import zlmreport
+from documents.pages import DOCS, ROOT, anchors, links, name, pages
+
+_LARGEST_PICTURE = 250_000
+_MACHINE_PATH = re.compile(r"(?<![\w.~-])/(?:work|home|root|tmp|Users|mnt|srv)/|[A-Z]:\\\\")
+
+
+def _inside(page: Path) -> list[tuple[str, Path, str]]:
+    """Return the links of a page into the project: as written, the file, the anchor."""
+    found = []
+    for link in links(page):
+        if not re.match(r"[a-z]+:", link):
+            path, _, anchor = link.partition("#")
+            found.append((link, (page.parent / path).resolve() if path else page, anchor))
+    return found
+
+
+@pytest.mark.parametrize("page", pages(), ids=name)
+def test_links_lead_to_files_and_headings(page: Path) -> None:
+    broken = [
+        link
+        for link, target, anchor in _inside(page)
+        if not target.exists() or (anchor and anchor not in anchors(target))
+    ]
+    assert not broken
+
+
+@pytest.mark.parametrize("page", pages(), ids=name)
+def test_links_stay_inside_the_project(page: Path) -> None:
+    assert [link for link, target, _ in _inside(page) if not target.is_relative_to(ROOT)] == []
+
+
+@pytest.mark.parametrize("page", pages(), ids=name)
+def test_no_page_knows_a_machine(page: Path) -> None:
+    assert _MACHINE_PATH.findall(page.read_text(encoding="utf-8")) == []
+
+
+@pytest.mark.parametrize("page", pages(), ids=name)
+def test_a_page_begins_with_its_only_title(page: Path) -> None:
+    text = re.sub(r"```.*?```", "", page.read_text(encoding="utf-8"), flags=re.DOTALL)
+    titles = re.findall(r"^# .+$", text, re.MULTILINE)
+    assert len(titles) == 1
+    assert page == ROOT / "README.md" or text.startswith(titles[0])
+
+
+def test_the_map_leads_to_every_page() -> None:
+    mapped = {target for _, target, _ in _inside(DOCS / "README.md")}
+    assert set(DOCS.rglob("*.md")) - mapped - {DOCS / "README.md"} == set()
+
+
+def test_pictures_are_shown_and_small() -> None:
+    shown = {target for page in pages() for _, target, _ in _inside(page) if target.suffix == ".png"}
+    assert shown == set(DOCS.glob("images/*"))
+    assert all(picture.stat().st_size < _LARGEST_PICTURE for picture in shown)
+
+
+def test_the_changelog_speaks_of_this_version() -> None:
+    assert re.search(
+        rf"^## .*{re.escape(zlmreport.__version__)}", (ROOT / "CHANGELOG.md").read_text(), re.MULTILINE
+    )

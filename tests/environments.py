@@ -1,0 +1,71 @@
+"""What users install: distributions built from the tree, and virtual environments that hold only them."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import sysconfig
+import venv
+from dataclasses import dataclass
+from pathlib import Path
+
+ROOT = Path(__file__).parents[1]
+HOUSE_STANDARD = ROOT / "plugins" / "zlmreport-house-standard"
+
+
+@dataclass(frozen=True, slots=True)
+class Distribution:
+    """The two files of a release: sources, and the wheel that was built from those sources."""
+
+    sdist: Path
+    wheel: Path
+
+
+def build(project: Path, folder: Path) -> Distribution:
+    """Build a project's source distribution, and its wheel from that."""
+    done = subprocess.run(
+        [sys.executable, "-m", "build", "--no-isolation", "--outdir", folder, project],
+        capture_output=True,
+        encoding="utf-8",
+        check=False,
+    )
+    assert done.returncode == 0, f"{project} cannot be built:\n{done.stdout}{done.stderr}"
+    (sdist,), (wheel,) = folder.glob("*.tar.gz"), folder.glob("*.whl")
+    return Distribution(sdist, wheel)
+
+
+class Environment:
+    """A fresh virtual environment with a few wheels; the libraries they need come from the one of the tests.
+
+    That those libraries are the declared ones is a test of its own, so nothing has to be downloaded here.
+    """
+
+    def __init__(self, folder: Path, *wheels: Path) -> None:
+        venv.create(folder, symlinks=True)
+        self.bin = folder / "bin"
+        self.python = self.bin / "python"
+        self._environment = {
+            name: value
+            for name, value in os.environ.items()
+            if name not in {"PYTHONPATH", "VIRTUAL_ENV", "PYTHONHOME"}
+        }
+        self._environment["PATH"] = f"{self.bin}{os.pathsep}{os.environ['PATH']}"
+        installed = subprocess.run(
+            [
+                *(sys.executable, "-m", "pip", "--python", self.python),
+                *("install", "--quiet", "--no-deps", "--no-index", *wheels),
+            ],
+            capture_output=True,
+            encoding="utf-8",
+            check=False,
+        )
+        assert installed.returncode == 0, installed.stderr
+        (site,) = folder.glob("lib/python*/site-packages")
+        (site / "libraries.pth").write_text(f"{sysconfig.get_path('purelib')}\n", encoding="utf-8")
+
+    def run(self, *command: str | Path, folder: Path) -> subprocess.CompletedProcess[str]:
+        """Run a command that is found here first."""
+        return subprocess.run(
+            command, cwd=folder, env=self._environment, capture_output=True, encoding="utf-8", check=False
+        )

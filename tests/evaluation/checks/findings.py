@@ -1,0 +1,12 @@
+"""Reading findings in tests."""
+
+from __future__ import annotations
+
+from zlmreport.evaluation.requirements import Finding
+from zlmreport.language import Language
+
+
+def said(finding: Finding) -> tuple[str, str, bool | None]:
+    """Return requirement, what was found, and whether it is met, in English."""
+    english = Language.ENGLISH
+    return finding.requirement.in_language(english), finding.found.in_language(english), finding.met

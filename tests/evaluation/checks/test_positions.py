@@ -1,0 +1,205 @@
+"""How many target positions a standard asks for, and where."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from evaluation.checks.findings import said
+from zlmreport.evaluation.checks.positions import (
+    exceeds,
+    positions_by_angle,
+    positions_in_all,
+    positions_over_travel,
+    positions_per_metre,
+    positions_per_scale_element,
+    principal_angles,
+)
+from zlmreport.evaluation.requirements import Basis
+from zlmreport.measurement.axis import Axis, AxisKind
+from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.testing import bidirectional_test
+
+BY_ANGLE = {math.pi / 2: 3, math.pi: 5}
+
+
+def measured_at(*targets: float, axis: Axis | None = None) -> MeasurementSet:
+    """Return a test at these targets, mm (°)."""
+    readings = np.zeros((len(targets), 1))
+    return bidirectional_test(targets, readings, readings, axis=axis)
+
+
+def evenly(first: float, last: float, number: int, axis: Axis | None = None) -> MeasurementSet:
+    return measured_at(*np.linspace(first, last, number), axis=axis)
+
+
+def rotary(*targets: float) -> MeasurementSet:
+    return measured_at(*targets, axis=Axis("C", AxisKind.ROTARY))
+
+
+@pytest.mark.parametrize(("number", "met"), [(10, False), (11, True)])
+def test_positions_in_all(number: int, met: bool) -> None:  # noqa: FBT001 - a column of a table
+    found = positions_in_all(evenly(0, 300, number), 11, Basis.PUBLISHED)
+
+    assert said(found) == ("At least 11 positions", f"{number} positions", met)
+
+
+@pytest.mark.parametrize(
+    ("length", "number", "met"),
+    [
+        (100, 4, False),  # 5 in all
+        (100, 5, True),
+        (1000, 5, True),
+        (1001, 5, False),  # 5.005 counts up
+        (1001, 6, True),
+        (1400, 7, True),  # 1.4 · 5 is 7 and a rounding of the double
+        (2000, 9, False),
+        (2000, 10, True),
+    ],
+)
+def test_five_positions_per_metre_and_five_in_all(length: float, number: int, met: bool) -> None:  # noqa: FBT001 - a column of a table
+    found = positions_per_metre(evenly(0, length, number), 5, Basis.PUBLISHED, minimum=5)
+
+    assert found.met is met
+
+
+@pytest.mark.parametrize(("length", "number", "met"), [(1000, 10, False), (1000, 11, True), (700, 8, True)])
+def test_ten_positions_per_metre_and_one_more(length: float, number: int, met: bool) -> None:  # noqa: FBT001 - a column of a table
+    found = positions_per_metre(evenly(0, length, number), 10, Basis.PUBLISHED, further=1)
+
+    assert found.met is met
+
+
+def test_positions_per_metre_say_what_they_ask_for_and_what_there_is() -> None:
+    found = positions_per_metre(evenly(-50, 250, 9), 10, Basis.PUBLISHED, further=1, minimum=5)
+
+    assert said(found) == (
+        "At least 10 positions per metre and 1 more, 5 in all",
+        "9 positions on 300 mm",
+        True,
+    )
+
+
+def test_positions_per_metre_are_open_beyond_the_length_for_which_they_are_stated() -> None:
+    found = positions_per_metre(evenly(0, 2500, 40), 10, Basis.PUBLISHED, further=1)
+
+    assert said(found)[1:] == ("40 positions on 2500 mm; the rule is stated up to 2000 mm", None)
+
+
+def test_positions_per_metre_are_open_on_a_rotary_axis() -> None:
+    found = positions_per_metre(rotary(0, 120, 240), 10, Basis.PUBLISHED)
+
+    assert said(found)[1:] == ("3 positions; the rule is stated for lengths only", None)
+
+
+def scale_of(element: float, travel: tuple[float, float] | None = None) -> Axis:
+    return Axis("X", travel=travel, scale_element=element)
+
+
+@pytest.mark.parametrize(
+    ("targets", "minimum", "met"),
+    [
+        ([50, 150, 250, 350], 1, True),
+        ([50, 150, 350], 1, False),  # none between 200 and 300 mm
+        ([0, 100, 200, 300, 400], 2, True),  # a target at a joint belongs to both elements
+        ([50, 150, 250, 350], 2, False),
+    ],
+)
+def test_each_scale_element_of_the_travel_holds_its_positions(
+    targets: list[float],
+    minimum: int,
+    met: bool,  # noqa: FBT001 - a column of a table
+) -> None:
+    axis = scale_of(0.1, travel=(0.0, 0.4))
+    found = positions_per_scale_element(measured_at(*targets, axis=axis), minimum, Basis.PUBLISHED)
+
+    assert found.met is met
+
+
+def test_scale_elements_count_from_the_first_target_where_no_travel_is_stated() -> None:
+    measurements = measured_at(10, 60, 110, 160, axis=scale_of(0.1))
+
+    assert said(positions_per_scale_element(measurements, 3, Basis.PUBLISHED)) == (
+        "At least 3 positions on each scale element",
+        "3 positions on the element of 100 mm that has fewest",
+        True,
+    )
+
+
+def test_targets_of_one_random_fraction_on_each_element_satisfy_one_for_each() -> None:
+    measurements = measured_at(3, 195, 201, 399, axis=scale_of(0.1, travel=(0.0, 0.4)))
+    one_in_each = measured_at(3, 195, 201, 301, axis=scale_of(0.1, travel=(0.0, 0.4)))
+
+    assert positions_per_scale_element(measurements, 1, Basis.PUBLISHED).met is True
+    assert positions_per_scale_element(one_in_each, 2, Basis.PUBLISHED).met is False
+
+
+def test_a_scale_without_stated_elements_is_one_piece_and_says_so() -> None:
+    found = positions_per_scale_element(measured_at(0, 100), 2, Basis.PUBLISHED)
+
+    assert said(found)[1:] == ("2 positions; scale taken as one piece, no element stated", True)
+
+
+@pytest.mark.parametrize(
+    ("angle", "number", "met"),
+    [
+        (90, 2, False),
+        (90, 3, True),
+        (91, 3, False),
+        (180, 4, False),
+        (180, 5, True),
+        (360, 7, False),
+        (360, 8, True),
+    ],
+)
+def test_positions_by_angle(angle: float, number: int, met: bool) -> None:  # noqa: FBT001 - a column of a table
+    measurements = rotary(*np.linspace(0, angle, number))
+
+    assert positions_by_angle(measurements, BY_ANGLE, 8, Basis.APPLIED).met is met
+
+
+@pytest.mark.parametrize(
+    ("targets", "found", "met"),
+    [
+        ([0, 45, 90, 135, 180, 225, 270, 315], "they are", True),
+        ([0, 50, 90, 180, 250, 310, 360], "lacking: 270°", False),
+        ([-90, 0, 90], "they are", True),
+        ([-100, 10, 100], "lacking: 0°, 90°, 270°", False),
+        ([10, 40, 80], "they are", True),  # none of them lies in the measured angle
+        ([0, 90, 180, 270, 330, 360.001], "they are", True),  # 360° is 0° again
+    ],
+)
+def test_principal_angles_are_among_the_targets(
+    targets: list[float],
+    found: str,
+    met: bool,  # noqa: FBT001 - a column of a table
+) -> None:
+    assert said(principal_angles(rotary(*targets), Basis.APPLIED))[1:] == (found, met)
+
+
+@pytest.mark.parametrize(
+    ("travel", "met"),
+    [((-0.01, 0.11), True), ((0.11, -0.01), True), ((-0.05, 0.15), True), ((-0.06, 0.1), False)],
+)
+def test_targets_are_spread_when_no_more_is_left_at_an_end_than_between_two(
+    travel: tuple[float, float],
+    met: bool,  # noqa: FBT001 - a column of a table
+) -> None:
+    measurements = measured_at(0, 50, 100, axis=Axis("X", travel=travel))
+
+    assert positions_over_travel(measurements).met is met
+
+
+def test_the_spread_over_the_travel_is_open_where_no_travel_is_stated() -> None:
+    assert said(positions_over_travel(measured_at(0, 50, 100)))[1:] == (
+        "0 mm to 100 mm; travel not stated",
+        None,
+    )
+
+
+def test_a_length_exceeds_a_limit_by_more_than_the_rounding_of_its_digits() -> None:
+    assert not exceeds(2.1 - 0.1, 2.0)
+    assert not exceeds(2.3 - 0.3, 2.0)
+    assert exceeds(2.000001, 2.0)

@@ -1,0 +1,110 @@
+"""From a test and a standard to an evaluation."""
+
+from __future__ import annotations
+
+import pytest
+
+from plugins.standards.installed import STANDARDS
+from zlmreport.evaluation.evaluate import evaluate
+from zlmreport.evaluation.evaluation import Evaluation
+from zlmreport.job.options import Options
+from zlmreport.language import Language
+from zlmreport.measurement.approach import Approach
+from zlmreport.testing import bidirectional_test, simulated_test
+
+ISO = STANDARDS["iso230-2:2014"]
+
+
+def of_one_direction(tolerances: dict[str, float]) -> Evaluation:
+    return evaluate(ISO, simulated_test(approaches=[Approach.POSITIVE]), Options(), tolerances)
+
+
+def test_parameters_that_the_test_does_not_define_are_left_out_and_not_zero() -> None:
+    found = of_one_direction({})
+
+    assert [each.quantity.symbol for each in found.parameters] == ["A_fwd", "E_fwd", "R_fwd"]
+    assert found.value("A") is None
+    assert found.parameter("A") is None
+
+
+def test_parameters_keep_the_order_of_the_standard() -> None:
+    found = evaluate(ISO, simulated_test(), Options(), {})
+
+    assert [each.quantity for each in found.parameters] == list(ISO.quantities)
+
+
+def test_a_limit_is_decided_by_the_unrounded_value() -> None:
+    value = evaluate(ISO, simulated_test(), Options(), {}).value("A")
+    assert value is not None
+
+    below = evaluate(ISO, simulated_test(), Options(), {"A": value * (1 - 1e-8)}).parameter("A")
+    exact = evaluate(ISO, simulated_test(), Options(), {"A": value}).parameter("A")
+
+    assert (below is not None and below.conforms) is False
+    assert exact is not None
+    assert exact.conforms is True
+
+
+def test_a_range_of_exactly_the_limit_conforms_in_spite_of_binary_rounding() -> None:
+    assert 3e-6 - 1e-6 > 2e-6  # what a bare comparison would stumble over
+    first, second = [1.0, 1.0], [3.0, 3.0]
+    measurements = bidirectional_test([0, 100], [first, second], [first, second])
+    found = evaluate(ISO, measurements, Options(), {"E": 2e-6}).parameter("E")
+
+    assert found is not None
+    assert found.conforms is True
+
+
+def test_a_parameter_without_limit_has_no_verdict() -> None:
+    found = evaluate(ISO, simulated_test(), Options(), {"A": 1.0}).parameter("E")
+
+    assert found is not None
+    assert (found.limit, found.conforms) == (None, None)
+
+
+def test_a_rule_that_needs_the_uncertainty_leaves_the_verdict_open() -> None:
+    found = evaluate(
+        ISO, simulated_test(), Options(), {"A": 1.0}, decides_without_uncertainty=False
+    ).parameter("A")
+
+    assert found is not None
+    assert (found.limit, found.conforms) == (1.0, None)
+
+
+def test_a_signed_parameter_is_held_against_its_limit_by_amount() -> None:
+    measurements = simulated_test()
+    found = evaluate(ISO, measurements, Options(), {"B_mean": 1e-9}).parameter("B_mean")
+
+    assert found is not None
+    assert found.conforms is False
+
+
+def test_a_limit_on_a_parameter_that_the_test_does_not_define_is_said() -> None:
+    said = [
+        finding
+        for finding in of_one_direction({"A": 20e-6}).findings
+        if "limit" in finding.requirement.in_language(Language.ENGLISH)
+    ]
+
+    assert [(each.requirement.in_language(Language.ENGLISH), each.met) for each in said] == [
+        ("A test that defines A, for which a limit is stated", False)
+    ]
+
+
+def test_a_column_by_position_is_found_by_its_symbol() -> None:
+    found = evaluate(ISO, simulated_test(targets=7), Options(), {})
+
+    assert found.column("R").shape == (7,)
+    assert not found.column("R").flags.writeable
+    with pytest.raises(KeyError, match="no column 'U' by position"):
+        found.column("U")
+
+
+def test_the_printed_value_has_the_sign_of_the_edition() -> None:
+    measurements = simulated_test()
+    old = evaluate(STANDARDS["iso230-2:1988"], measurements, Options(), {}).parameter("B_mean")
+    new = evaluate(ISO, measurements, Options(), {}).parameter("B_mean")
+
+    assert old is not None
+    assert new is not None
+    assert old.value == new.value == new.printed_value == -old.printed_value

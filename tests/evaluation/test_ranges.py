@@ -1,0 +1,29 @@
+"""Extremes and means over the positions, with positions that take no part."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from zlmreport.evaluation.ranges import average, largest, smallest, width
+
+NAN = math.nan
+STACK = np.array([[1.0, NAN, -4.0], [NAN, NAN, 5.0]])
+
+
+def test_a_position_without_value_takes_no_part() -> None:
+    assert largest(STACK).tolist() == [1.0, 5.0]
+    assert smallest(STACK).tolist() == [-4.0, 5.0]
+    assert average(STACK).tolist() == [-1.5, 5.0]
+
+
+@pytest.mark.parametrize("over_positions", [largest, smallest, average])
+def test_without_any_value_the_result_is_undefined_and_not_zero(over_positions: object) -> None:
+    assert callable(over_positions)
+    assert math.isnan(over_positions(np.array([NAN, NAN])))
+
+
+def test_width_runs_from_the_smallest_lower_to_the_largest_upper_value() -> None:
+    assert width(np.array([2.0, 7.0, NAN]), np.array([-1.0, 0.0, -3.0])) == 10.0

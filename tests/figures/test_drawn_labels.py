@@ -1,0 +1,155 @@
+"""What is written in a drawing: in the document's language, as the standard prints it, without collisions."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from figures.samples import ALL, ORDINARY, both_directions, drawn, each_direction, figure, pairs
+from zlmreport.figures.canvas import Face
+from zlmreport.figures.draw import figure_size
+from zlmreport.figures.figure import Figure
+from zlmreport.language import Language
+
+by_name = pytest.mark.parametrize("sample", ALL.values(), ids=ALL.keys())
+DIMENSIONS = ("arrow", "bracket", "level")
+
+
+def _texts(language: Language, kind: str) -> list[str]:
+    return [text.text for text in drawn(figure(both_directions()), language).texts_of(kind)]
+
+
+def test_axis_titles_have_their_units_in_english() -> None:
+    assert _texts(Language.ENGLISH, "title") == ["Target position in mm", "Deviation in µm"]
+
+
+def test_axis_titles_have_their_units_in_german() -> None:
+    assert _texts(Language.GERMAN, "title") == ["Sollposition in mm", "Abweichung in µm"]
+
+
+def test_negative_numbers_have_a_minus_sign() -> None:
+    assert "−4" in _texts(Language.ENGLISH, "tick y")
+
+
+@pytest.mark.parametrize(("language", "number"), [(Language.ENGLISH, "0.0002"), (Language.GERMAN, "0,0002")])
+def test_decimals_follow_the_sign_of_the_language(language: Language, number: str) -> None:
+    canvas = drawn(ALL["a nanometre"], language)
+    assert number in [text.text for text in canvas.texts_of("tick y")]
+
+
+def test_positions_are_written_at_the_targets() -> None:
+    assert _texts(Language.ENGLISH, "tick x") == ["0", "250", "500", "750", "1000"]
+
+
+def test_very_many_targets_are_counted_in_round_steps() -> None:
+    texts = [text.text for text in drawn(ORDINARY["200 targets"]).texts_of("tick x")]
+    assert texts[:3] == ["0", "200", "400"]
+
+
+def test_only_the_lowest_panel_writes_the_positions() -> None:
+    canvas = drawn(figure(*each_direction()))
+    assert [text.text for text in canvas.texts_of("tick x")] == ["0", "250", "500", "750", "1000"]
+
+
+def test_panels_have_their_headings_in_the_language() -> None:
+    canvas = drawn(figure(*each_direction()), Language.GERMAN)
+    assert [text.text for text in canvas.texts_of("heading")] == ["Richtung ↑", "Richtung ↓"]
+
+
+def test_a_legend_names_every_symbol_once() -> None:
+    assert _texts(Language.ENGLISH, "legend") == [
+        "x̄i↑",
+        "x̄i↓",
+        "x̄i",
+        "x̄i↑ ± 2si↑",
+        "x̄i↓ ± 2si↓",
+        "single readings ↑ ↓",
+    ]
+
+
+def test_a_curve_without_a_symbol_is_not_in_the_legend() -> None:
+    panel = both_directions()
+    nameless = replace(panel.curves[0], notation="")
+    canvas = drawn(figure(replace(panel, curves=(nameless,), bands=(), readings=())))
+    assert canvas.texts_of("legend") == []
+
+
+def test_the_readings_are_named_in_german() -> None:
+    assert _texts(Language.GERMAN, "legend")[-1] == "Einzelmesswerte ↑ ↓"
+
+
+def test_a_symbol_is_set_in_italics_and_subscript() -> None:
+    label = drawn(figure(both_directions())).texts_of("legend")[0]
+    assert [(run.text, run.face) for run in label.runs] == [
+        ("x̄", Face.ITALIC),
+        ("i", Face.ITALIC),
+        ("↑", Face.REGULAR),
+    ]
+    letter, index, arrow = label.runs
+    assert index.size < letter.size == arrow.size
+    assert index.y > letter.y == arrow.y
+
+
+def test_the_runs_of_a_symbol_follow_one_another_without_overlap() -> None:
+    label = drawn(figure(both_directions())).texts_of("legend")[3]
+    assert [run.x for run in label.runs] == sorted(run.x for run in label.runs)
+
+
+def test_the_title_of_the_values_reads_upwards() -> None:
+    _, y_title = drawn(figure(both_directions())).texts_of("title")
+    assert y_title.angle == 90.0
+
+
+@by_name
+def test_labels_stay_inside_the_drawing(sample: Figure) -> None:
+    width, height = figure_size(sample)
+    for text in drawn(sample, Language.GERMAN).texts:
+        box = text.box
+        assert box.left >= 0, text
+        assert box.right <= width, text
+        assert box.bottom >= 0, text
+        assert box.top <= height, text
+
+
+@by_name
+def test_labels_of_dimensions_do_not_overlap(sample: Figure) -> None:
+    boxes = [text.box for text in drawn(sample).texts_of(*DIMENSIONS)]
+    assert not [pair for pair in pairs(boxes) if pair[0].overlaps(pair[1])]
+
+
+@by_name
+def test_labels_beside_the_axes_and_above_the_frame_do_not_overlap(sample: Figure) -> None:
+    canvas = drawn(sample, Language.GERMAN)
+    boxes = [text.box for text in canvas.texts_of("tick x", "tick y", "legend", "heading", "title")]
+    assert not [pair for pair in pairs(boxes) if pair[0].overlaps(pair[1])]
+
+
+@by_name
+def test_no_dimension_line_runs_through_a_label(sample: Figure) -> None:
+    canvas = drawn(sample)
+    for text in canvas.texts_of(*DIMENSIONS):
+        for line in (*canvas.of("arrow"), *canvas.of("bracket")):
+            x, y = line.points[:, 0], line.points[:, 1]
+            passes = text.box.left < x.max() and x.min() < text.box.right
+            assert not (passes and text.box.bottom < y.max() and y.min() < text.box.top), text
+
+
+def test_no_extension_line_runs_through_the_label_of_a_bracket() -> None:
+    canvas = drawn(figure(both_directions()))
+    (extensions,) = canvas.of("extension")
+    for text in canvas.texts_of("bracket"):
+        for part in extensions.parts:
+            if part[:, 0].min() < text.box.left < part[:, 0].max():
+                assert not text.box.bottom < part[0, 1] < text.box.top, text
+
+
+@by_name
+def test_everything_drawn_is_finite_and_inside(sample: Figure) -> None:
+    width, height = figure_size(sample)
+    for outline in drawn(sample).outlines:
+        assert np.isfinite(outline.points).all(), outline
+        assert outline.points.min() >= 0, outline
+        assert outline.points[:, 0].max() <= width, outline
+        assert outline.points[:, 1].max() <= height, outline

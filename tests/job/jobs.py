@@ -1,0 +1,57 @@
+"""A sound job, to be spoilt line by line."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from offers import exemplary_registry
+from zlmreport.errors import ZlmreportError
+from zlmreport.job.job import Job
+from zlmreport.job.loading import load
+
+SOUND = """\
+schema: zlmreport/job/1
+certificate:
+  number: CAL-1
+  kind: report
+  language: en
+machine: {serial: 17}
+axis: {name: X, kind: linear, travel: [0, 300]}
+measurement:
+  date: 2026-11-18
+  source:
+    plugin: exemplary-text
+    file: six.txt
+evaluate:
+  - {standard: "exemplary:1", tolerances: {E: 20}}
+output: {directory: out, formats: [exemplary]}
+"""
+REGISTRY = exemplary_registry()
+
+
+def with_line(number: int, line: str) -> str:
+    """Return the sound job with one of its lines replaced."""
+    lines = SOUND.splitlines()
+    lines[number - 1] = line
+    return "\n".join(lines) + "\n"
+
+
+def with_lines(*lines: str) -> str:
+    """Return the sound job with lines after its last."""
+    return SOUND + "\n".join(lines) + "\n"
+
+
+def loaded(text: str | bytes, folder: Path) -> Job:
+    """Load a job of this text."""
+    path = folder / "job.yaml"
+    path.write_bytes(text.encode() if isinstance(text, str) else text)
+    return load(path, REGISTRY)
+
+
+def mistakes(text: str | bytes, folder: Path) -> list[str]:
+    """Return the messages on a job, without its folder; none if it is sound."""
+    try:
+        loaded(text, folder)
+    except ZlmreportError as error:
+        return [str(problem).removeprefix(f"{folder}/") for problem in error.problems]
+    return []

@@ -1,0 +1,47 @@
+"""Plugins made on the spot, for tests that need to know exactly which there are."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import Any
+
+from testing.exemplary import ExemplaryRenderer, ExemplarySource, ExemplaryStandard
+from testing.exemplary_effect import ExemplaryEffect
+from zlmreport.hookspecs import hookimpl
+from zlmreport.plugins import Plugin, Registry, collect
+
+
+def offering(
+    standards: Any = (), sources: Any = (), renderers: Any = (), effects: Any = ()
+) -> SimpleNamespace:
+    """Return a plugin that offers these objects."""
+
+    @hookimpl
+    def zlmreport_standards() -> Any:
+        return standards
+
+    @hookimpl
+    def zlmreport_sources() -> Any:
+        return sources
+
+    @hookimpl
+    def zlmreport_renderers() -> Any:
+        return renderers
+
+    @hookimpl
+    def zlmreport_effects() -> Any:
+        return effects
+
+    return SimpleNamespace(
+        zlmreport_standards=zlmreport_standards,
+        zlmreport_sources=zlmreport_sources,
+        zlmreport_renderers=zlmreport_renderers,
+        zlmreport_effects=zlmreport_effects,
+    )
+
+
+def exemplary_registry() -> Registry:
+    """Return a registry of one standard, one data source, one format and one effect, all fast."""
+    plugin = Plugin("exemplary", "exemplary_module", "exemplary-plugins", "1.2")
+    offers = offering([ExemplaryStandard()], [ExemplarySource()], [ExemplaryRenderer()], [ExemplaryEffect()])
+    return collect([(plugin, offers)])

@@ -1,0 +1,158 @@
+"""What is in the files that users download."""
+
+from __future__ import annotations
+
+import ast
+import pkgutil
+import re
+import sys
+import tarfile
+import tomllib
+import zipfile
+from collections.abc import Iterable, Iterator
+from importlib.metadata import entry_points, packages_distributions, requires
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import zlmreport_plugins.renderers
+import zlmreport_plugins.sources
+import zlmreport_plugins.standards
+from environments import HOUSE_STANDARD, ROOT, Distribution
+
+#: Packages of the project's own wheel.
+OWN = {"zlmreport", "zlmreport_plugins", "zlmreport_templates"}
+#: Imported inside functions, where the user is told what to install: for tests of PDF renderers.
+OPTIONAL = {"pypdf"}
+
+
+@pytest.fixture(scope="module")
+def metadata() -> dict[str, Any]:
+    return tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+
+
+@pytest.fixture(scope="module")
+def in_wheel(zlmreport_distribution: Distribution) -> set[str]:
+    with zipfile.ZipFile(zlmreport_distribution.wheel) as wheel:
+        return set(wheel.namelist())
+
+
+@pytest.fixture(scope="module")
+def in_sdist(zlmreport_distribution: Distribution) -> set[str]:
+    with tarfile.open(zlmreport_distribution.sdist) as sdist:
+        return {name.partition("/")[2] for name in sdist.getnames()}
+
+
+def files(folder: Path, *suffixes: str) -> Iterator[str]:
+    """Yield the files under a folder, as a wheel names them."""
+    for path in folder.rglob("*"):
+        name = path.relative_to(folder.parent)
+        made_by_tools = any(part == "__pycache__" or part.startswith(".") for part in name.parts)
+        if path.is_file() and not made_by_tools and (not suffixes or path.suffix in suffixes):
+            yield name.as_posix()
+
+
+@pytest.mark.parametrize(
+    "package",
+    ["src/zlmreport", "plugins/zlmreport_plugins", "report_templates/zlmreport_templates"],
+)
+def test_the_wheel_holds_every_file_of_its_packages(package: str, in_wheel: set[str]) -> None:
+    assert set(files(ROOT / package)) <= in_wheel
+
+
+@pytest.mark.parametrize(
+    "suffix", [".html", ".css", ".woff2", ".txt"], ids=["templates", "styles", "fonts", "licence of the fonts"]
+)
+def test_the_wheel_holds_what_pages_are_made_of(suffix: str, in_wheel: set[str]) -> None:
+    assert [name for name in in_wheel if name.startswith("zlmreport_templates/") and name.endswith(suffix)]
+
+
+def test_the_wheel_tells_type_checkers_that_it_is_typed(in_wheel: set[str]) -> None:
+    assert {"zlmreport/py.typed", "zlmreport_plugins/py.typed"} <= in_wheel
+
+
+def test_the_wheel_holds_nothing_else(in_wheel: set[str]) -> None:
+    roots = {name.partition("/")[0] for name in in_wheel}
+    others = {root for root in roots if not root.endswith(".dist-info")}
+    assert others == {"zlmreport", "zlmreport_plugins", "zlmreport_templates"}
+
+
+@pytest.mark.parametrize(
+    "folder", ["tests", "configs", "docs", "benchmarks", "plugins/zlmreport-house-standard"]
+)
+def test_the_sources_hold_what_a_packager_runs_and_reads(folder: str, in_sdist: set[str]) -> None:
+    inside = files(ROOT / folder, ".py", ".md", ".yaml", ".csv")
+    present = {f"{folder}/{name.partition('/')[2]}" for name in inside}
+    assert present
+    assert present <= in_sdist
+
+
+def test_every_built_in_plugin_is_declared_as_an_entry_point(metadata: dict[str, Any]) -> None:
+    kinds = [zlmreport_plugins.renderers, zlmreport_plugins.sources, zlmreport_plugins.standards]
+    present = {
+        f"{kind.__name__}.{module.name}" for kind in kinds for module in pkgutil.iter_modules(kind.__path__)
+    }
+    declared = set(metadata["entry-points"]["zlmreport"].values())
+    assert present == declared, (
+        f"not declared in pyproject.toml: {sorted(present - declared)}; "
+        f"declared, but not there: {sorted(declared - present)}"
+    )
+
+
+def test_the_installed_entry_points_are_those_of_this_tree(metadata: dict[str, Any]) -> None:
+    installed = {
+        each.name: each.value
+        for each in entry_points(group="zlmreport")
+        if each.value.startswith("zlmreport_plugins.")
+    }
+    assert installed == metadata["entry-points"]["zlmreport"], "entry points are metadata: install again"
+
+
+@pytest.mark.parametrize(
+    ("project", "roots"),
+    [(ROOT, ["src", "plugins/zlmreport_plugins"]), (HOUSE_STANDARD, ["src"])],
+    ids=["zlmreport", "house standard"],
+)
+def test_every_library_that_is_imported_comes_with_the_dependencies(project: Path, roots: list[str]) -> None:
+    declared = tomllib.loads((project / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    lacking = undeclared([project / root for root in roots], declared["dependencies"]) - OPTIONAL
+    assert not lacking, f"imported, but no dependency in {project.name}'s pyproject.toml: {lacking}"
+
+
+def test_every_library_that_development_imports_comes_with_the_group_test() -> None:
+    declared = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+    available = declared["project"]["dependencies"] + declared["dependency-groups"]["test"]
+    lacking = undeclared([ROOT / folder for folder in ("tests", "benchmarks", "docs/generate")], available)
+    assert not lacking, f"imported, but not in the dependency group 'test': {lacking}"
+
+
+def undeclared(roots: list[Path], requirements: list[str]) -> set[str]:
+    """Return the libraries imported that neither are requirements nor come with one."""
+    declared = names_of(requirements)
+    installed = declared.union(*(names_of(requires(each) or []) for each in declared))
+    own = {path.stem for root in roots for path in root.iterdir()} | OWN
+    distributions = packages_distributions()
+    return {
+        name
+        for name in imported(roots) - own - sys.stdlib_module_names
+        if installed.isdisjoint(names_of(distributions.get(name, [name])))
+    }
+
+
+def names_of(requirements: Iterable[str]) -> set[str]:
+    """Return the names in requirements without an extra, in one spelling."""
+    named = (re.match(r"[\w.-]+", each) for each in requirements if "extra ==" not in each)
+    return {re.sub(r"[-_.]+", "-", each[0]).lower() for each in named if each}
+
+
+def imported(roots: Iterable[Path]) -> set[str]:
+    """Return the top-level names of all absolute imports."""
+    names = set()
+    for path in (path for root in roots for path in root.rglob("*.py")):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.Import):
+                names |= {alias.name.partition(".")[0] for alias in node.names}
+            elif isinstance(node, ast.ImportFrom) and node.module and not node.level:
+                names.add(node.module.partition(".")[0])
+    return names

@@ -1,0 +1,290 @@
+"""The results file, as users are promised it."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+from functools import cache
+from importlib.resources import files
+from typing import Any
+
+import numpy as np
+import pytest
+
+from typesetting import samples
+from zlmreport.certificate.document import Certificate
+from zlmreport.language import Language
+from zlmreport.measurement.approach import Approach
+from zlmreport.measurement.axis import AxisKind
+from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport_plugins.renderers.json_results import JsonResultsRenderer
+
+SCHEMA = json.loads((files("zlmreport_plugins.renderers") / "results.schema.json").read_text("utf-8"))
+
+
+def render(certificate: Certificate) -> Any:
+    return json.loads(JsonResultsRenderer().render(certificate), parse_constant=_refuse)
+
+
+def _refuse(constant: str) -> None:
+    raise AssertionError(f"{constant} is no JSON")
+
+
+@cache
+def sample() -> Any:
+    return render(samples.certificate())
+
+
+def results_of(readings: MeasurementSet) -> Any:
+    """The results of these readings by the sample standard."""
+    evaluations = (samples.evaluation(readings),)
+    return render(samples.certificate(readings=readings, standards=0, evaluations=evaluations))
+
+
+def test_it_names_its_format_and_its_certificate() -> None:
+    assert sample()["schema"] == "zlmreport/results/1"
+    assert sample()["certificate"] == {
+        "number": "CAL-2026-0117",
+        "title": "Calibration certificate",
+        "language": "en",
+        "issued": "2026-11-20",
+    }
+
+
+def test_a_report_without_a_date_of_issue_states_none() -> None:
+    assert "issued" not in render(samples.certificate(issued=None))["certificate"]
+
+
+def test_it_has_one_evaluation_for_each_standard_in_order() -> None:
+    assert [evaluation["standard"] for evaluation in sample()["evaluations"]] == ["sample:2026"] * 2
+    assert sample()["evaluations"][0]["designation"] == "SAMPLE 1:2026"
+
+
+def test_a_parameter_with_a_limit_states_it_and_whether_it_conforms() -> None:
+    kept, exceeded, _ = sample()["evaluations"][0]["parameters"]
+    assert (kept["symbol"], kept["limit"], kept["conforms"]) == ("M", 20.0, True)
+    assert (exceeded["symbol"], exceeded["limit"], exceeded["conforms"]) == ("R_fwd", 1.5, False)
+
+
+def test_a_parameter_without_a_limit_has_no_place_for_one() -> None:
+    parameter = sample()["evaluations"][0]["parameters"][2]
+    assert set(parameter) == {"symbol", "name", "value", "unit"}
+
+
+def test_an_undecided_limit_says_so() -> None:
+    certificate = samples.certificate(standards=1)
+    evaluation = certificate.evaluations[0]
+    undecided = tuple(replace(parameter, conforms=None) for parameter in evaluation.parameters)
+    results = render(replace(certificate, evaluations=(replace(evaluation, parameters=undecided),)))
+    assert results["evaluations"][0]["parameters"][0]["conforms"] is None
+
+
+def test_uncertainty_and_coverage_factor_stand_where_they_were_evaluated() -> None:
+    certificate = samples.certificate(standards=1)
+    evaluation = certificate.evaluations[0]
+    first = replace(evaluation.parameters[0], expanded_uncertainty=1.4e-6, coverage_factor=2.0)
+    results = render(replace(certificate, evaluations=(replace(evaluation, parameters=(first,)),)))
+    (parameter,) = results["evaluations"][0]["parameters"]
+    assert (parameter["expanded_uncertainty"], parameter["coverage_factor"]) == (1.4, 2.0)
+
+
+def test_values_are_unrounded_micrometres() -> None:
+    readings = samples.measurements()
+    by_hand = np.max(4 * np.std(1e6 * readings.deviations()[0], axis=-1, ddof=1))
+    parameter = sample()["evaluations"][0]["parameters"][1]
+    assert parameter["unit"] == "um"
+    # Two ways of rounding doubles: a few units of the sixteenth digit.
+    assert parameter["value"] == pytest.approx(by_hand, rel=1e-14)
+
+
+def test_each_target_position_has_its_statistics_and_the_standards_own_column() -> None:
+    rows = sample()["evaluations"][0]["positions"]
+    deviations = 1e6 * samples.measurements().deviations()
+    assert [row["target"] for row in rows] == [50.0 * i for i in range(samples.TARGETS)]
+    forward, backward = deviations.mean(axis=-1)
+    expected = {
+        "mean_fwd": forward,
+        "mean_bwd": backward,
+        "mean": (forward + backward) / 2,
+        "s_fwd": deviations[0].std(axis=-1, ddof=1),
+        "s_bwd": deviations[1].std(axis=-1, ddof=1),
+        "reversal": forward - backward,
+        "R_i_fwd": 4 * deviations[0].std(axis=-1, ddof=1),
+    }
+    for symbol, values in expected.items():
+        assert [row[symbol] for row in rows] == pytest.approx(values.tolist(), rel=1e-12, abs=1e-12), symbol
+    assert {(row["n_fwd"], row["n_bwd"]) for row in rows} == {(5, 5)}
+
+
+def test_targets_are_as_they_were_typed() -> None:
+    typed = [0.1, 0.3, 19.999, 123.456, 1000.000001]
+    readings = samples.measurements(targets=len(typed))
+    shifted = replace(readings, target_positions=np.array(typed) / 1e3)
+    assert [row["target"] for row in results_of(shifted)["evaluations"][0]["positions"]] == typed
+
+
+def test_what_a_test_in_one_direction_does_not_define_is_absent() -> None:
+    results = results_of(samples.measurements(approaches=(Approach.POSITIVE,)))
+    assert {frozenset(row) for row in results["evaluations"][0]["positions"]} == {
+        frozenset({"target", "n_fwd", "mean_fwd", "s_fwd", "R_i_fwd"})
+    }
+
+
+def test_a_single_run_has_no_standard_deviation() -> None:
+    (evaluation,) = results_of(samples.measurements(runs=1))["evaluations"]
+    assert {frozenset(row) for row in evaluation["positions"]} == {
+        frozenset({"target", "n_fwd", "n_bwd", "mean_fwd", "mean_bwd", "mean", "reversal"})
+    }
+
+
+def test_parameters_that_a_test_does_not_define_are_absent() -> None:
+    (evaluation,) = results_of(samples.measurements(runs=1))["evaluations"]
+    assert [parameter["symbol"] for parameter in evaluation["parameters"]] == ["M", "B"]
+
+
+def test_missing_readings_are_named_and_counted() -> None:
+    results = results_of(samples.measurements(missing=(3, 25)))
+    measurements = results["measurements"]
+    assert measurements["readings"] == 2 * samples.TARGETS * samples.RUNS - 2
+    assert measurements["missing"] == [
+        {"target": 150.0, "direction": "fwd", "run": 1},
+        {"target": 800.0, "direction": "bwd", "run": 1},
+    ]
+    rows = {row["target"]: row for row in results["evaluations"][0]["positions"]}
+    assert (rows[150.0]["n_fwd"], rows[150.0]["n_bwd"]) == (4, 5)
+
+
+def test_a_rotary_axis_is_in_degrees_and_seconds_of_arc() -> None:
+    results = results_of(samples.measurements(kind=AxisKind.ROTARY))
+    assert results["measurements"]["units"] == {"position": "deg", "deviation": "arcsec"}
+    evaluation = results["evaluations"][0]
+    assert {parameter["unit"] for parameter in evaluation["parameters"]} == {"arcsec"}
+    assert evaluation["positions"][1]["target"] == 50.0
+    # The sample's readings have the same figures on either kind of axis.
+    linear = sample()["evaluations"][0]["parameters"]
+    for rotary, parameter in zip(evaluation["parameters"], linear, strict=True):
+        assert rotary["value"] == pytest.approx(parameter["value"], rel=1e-12)
+
+
+def test_findings_say_what_is_asked_what_was_found_and_whether_it_is_met() -> None:
+    findings = sample()["evaluations"][0]["findings"]
+    assert findings[0] == {
+        "requirement": "at least five target positions",
+        "found": "21 target positions",
+        "met": True,
+        "basis": "published",
+    }
+    assert [finding["met"] for finding in findings] == [True, False, None]
+
+
+def test_there_is_a_place_for_the_error_model() -> None:
+    assert sample()["model"] == {"effects": [], "parameters": [], "error": {}}
+
+
+def test_provenance_tells_files_programs_and_remarks() -> None:
+    provenance = sample()["provenance"]
+    assert provenance["source"] == "laser-csv"
+    assert provenance["generator"] == "zlmreport 0.1.0"
+    assert provenance["plugins"] == {"laser-csv": "zlmreport 0.1.0", "sample:2026": "zlmreport 0.1.0"}
+    assert [file["name"] for file in provenance["files"]] == ["x-axis.csv"]
+    assert provenance["remarks"] == ["decimal point, comma between cells"]
+
+
+def test_words_are_of_the_documents_language() -> None:
+    results = render(samples.certificate(Language.GERMAN))
+    assert results["evaluations"][0]["parameters"][2]["name"] == "Umkehrspanne"
+
+
+def test_symbols_and_units_are_ascii() -> None:
+    for evaluation in sample()["evaluations"]:
+        for parameter in evaluation["parameters"]:
+            assert (parameter["symbol"] + parameter["unit"]).isascii()
+
+
+@pytest.mark.parametrize("title", ["Ω 🙂 \u202e", "half a pair \ud83d", '"\\\x00'])
+def test_any_text_comes_out_as_it_went_in(title: str) -> None:
+    assert render(samples.certificate(standards=0, title=title))["certificate"]["title"] == title
+
+
+def test_it_is_the_same_twice() -> None:
+    assert JsonResultsRenderer().render(samples.certificate()) == JsonResultsRenderer().render(
+        samples.certificate()
+    )
+
+
+@pytest.mark.parametrize(
+    "readings",
+    [
+        samples.measurements(),
+        samples.measurements(runs=1),
+        samples.measurements(approaches=(Approach.NEGATIVE,)),
+        samples.measurements(kind=AxisKind.ROTARY, missing=(0,)),
+    ],
+    ids=["both directions", "one run", "one direction", "rotary, a reading missing"],
+)
+def test_it_keeps_its_published_schema(readings: MeasurementSet) -> None:
+    assert list(violations(results_of(readings), SCHEMA)) == []
+
+
+@pytest.mark.parametrize(
+    ("change", "complaint"),
+    [
+        ({"schema": "zlmreport/results/2"}, "$.schema"),
+        ({"evaluations": {}}, "$.evaluations"),
+        ({"certificate": {"number": "1"}}, "$.certificate"),
+        ({"extra": 1}, "$"),
+        ({"model": {"effects": [1], "parameters": [], "error": {}}}, "$.model.effects[0]"),
+    ],
+)
+def test_what_breaks_the_schema_is_noticed(change: dict[str, Any], complaint: str) -> None:
+    assert complaint in list(violations({**sample(), **change}, SCHEMA))
+
+
+_TYPES: dict[str, tuple[type, ...]] = {
+    "object": (dict,),
+    "array": (list,),
+    "string": (str,),
+    "boolean": (bool,),
+    "null": (type(None),),
+    "integer": (int,),
+    "number": (int, float),
+}
+
+
+def violations(value: Any, schema: dict[str, Any], path: str = "$") -> Iterator[str]:
+    """Yield the paths at which a value breaks a schema that uses no more than this understands."""
+    known = {"$schema", "$defs", "title", "description", "type", "const", "enum", "required"}
+    assert set(schema) <= known | {"properties", "additionalProperties", "items", "$ref"}
+    if "$ref" in schema:
+        schema = SCHEMA["$defs"][schema["$ref"].removeprefix("#/$defs/")]
+    if (
+        not _is_of_type(value, schema)
+        or value != schema.get("const", value)
+        or ("enum" in schema and value not in schema["enum"])
+    ):
+        yield path
+    elif isinstance(value, dict):
+        yield from _object_violations(value, schema, path)
+    elif isinstance(value, list):
+        for index, item in enumerate(value):
+            yield from violations(item, schema["items"], f"{path}[{index}]")
+
+
+def _is_of_type(value: Any, schema: dict[str, Any]) -> bool:
+    names = schema.get("type", list(_TYPES))
+    types = [python for name in ([names] if isinstance(names, str) else names) for python in _TYPES[name]]
+    if isinstance(value, bool):
+        return bool in types
+    return isinstance(value, tuple(types)) and not (isinstance(value, float) and not math.isfinite(value))
+
+
+def _object_violations(value: dict[str, Any], schema: dict[str, Any], path: str) -> Iterator[str]:
+    properties = schema.get("properties", {})
+    further = schema.get("additionalProperties", True)
+    if set(schema.get("required", ())) - set(value) or (further is False and set(value) - set(properties)):
+        yield path
+    for name, item in value.items():
+        of_item = properties.get(name, further if isinstance(further, dict) else {})
+        yield from violations(item, of_item, f"{path}.{name}")

@@ -1,0 +1,176 @@
+"""The PDF as a file: metadata, structure, fonts, and that it depends on nothing but the certificate."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from dataclasses import replace
+from hashlib import sha256
+from io import BytesIO
+from pathlib import Path
+from typing import Any
+
+import pytest
+from PIL import Image
+from pypdf import PdfReader
+
+from plugins.renderers.pdf_pages import elements, fonts, read, sample
+from typesetting import samples
+from zlmreport.errors import AccessError
+from zlmreport.language import Language
+from zlmreport_plugins.renderers.pdf import PdfRenderer
+
+TESTS = Path(samples.__file__).parents[1]
+
+
+def test_metadata_tell_what_the_document_is() -> None:
+    metadata = sample().metadata
+    assert metadata is not None
+    assert metadata.title == "Calibration certificate CAL-2026-0117"
+    assert metadata.author == "Laboratory for Machine Metrology"
+    assert metadata.subject == "Positioning by SAMPLE 1:2026"
+    assert metadata["/Keywords"] == "positioning, SAMPLE 1:2026"
+    assert metadata.creator == "zlmreport 0.1.0"
+
+
+def test_its_dates_are_the_date_of_issue() -> None:
+    metadata = sample().metadata
+    assert metadata is not None
+    assert (metadata["/CreationDate"], metadata["/ModDate"]) == ("D:20261120", "D:20261120")
+
+
+def test_without_a_date_of_issue_it_has_no_dates() -> None:
+    metadata = read(samples.certificate(standards=0, issued=None)).metadata
+    assert metadata is not None
+    assert not {"/CreationDate", "/ModDate"} & set(metadata)
+
+
+@pytest.mark.parametrize("language", Language)
+def test_it_says_its_language(language: Language) -> None:
+    assert sample(language).trailer["/Root"]["/Lang"] == language.value
+
+
+def test_it_is_for_archives() -> None:
+    metadata = sample().xmp_metadata
+    assert metadata is not None
+    assert (metadata.pdfaid_part, metadata.pdfaid_conformance) == ("3", "A")
+
+
+def test_bookmarks_lead_to_sections_tables_and_figures() -> None:
+    assert _titles(sample().outline) == [
+        "Calibration certificate",
+        "1 Test conditions",
+        ["Table 1 Requirements of the standard"],
+        "2 Results by SAMPLE 1:2026",
+        [
+            "Table 2 Parameters of the axis",
+            "Figure 1 Mean deviations, spread and reversal value of the axis",
+            "Figure 2 Mean deviations, spread and reversal value of the axis",
+            "Table 3 Definitions",
+            "Table 4 Table by position",
+        ],
+        "3 Results by SAMPLE 1:2026",
+        [
+            "Table 5 Parameters of the axis",
+            "Figure 3 Mean deviations, spread and reversal value of the axis",
+            "Figure 4 Mean deviations, spread and reversal value of the axis",
+            "Table 6 Definitions",
+            "Table 7 Table by position",
+        ],
+        "4 Readings",
+        ["Table 8 Deviations, all readings"],
+    ]
+
+
+def test_each_graph_has_its_alternative_text() -> None:
+    expected = [figure.alternative.in_language(Language.GERMAN) for figure in samples.certificate().figures]
+    assert [figure["/Alt"] for figure in elements(sample(Language.GERMAN), "/Figure")] == expected
+
+
+def test_tables_are_tagged_as_tables_with_headings() -> None:
+    reader = sample()
+    headings = len(list(elements(reader, "/TH")))
+    cells = len(list(elements(reader, "/TD")))
+    assert headings > 50
+    assert cells > 700
+
+
+def test_headings_are_tagged_by_their_level() -> None:
+    assert len(list(elements(sample(), "/H1"))) == 1
+    assert len(list(elements(sample(), "/H2"))) == 4
+
+
+def test_every_font_is_embedded_and_of_the_bundled_family() -> None:
+    names = set()
+    for page in sample().pages:
+        for font in fonts(page):
+            descendant = font["/DescendantFonts"][0].get_object()
+            assert "/FontFile2" in descendant["/FontDescriptor"].get_object()
+            names.add(str(font["/BaseFont"]).partition("+")[2].replace("-", ""))
+    assert names == {"IBMPlexSans", "IBMPlexSansItalic", "IBMPlexSansSemiBold"}
+
+
+def test_the_logo_is_printed() -> None:
+    picture = BytesIO()
+    Image.new("RGB", (30, 10), "navy").save(picture, "PNG")
+    plain = samples.certificate(standards=0)
+    assert plain.letterhead is not None
+    with_logo = replace(plain.letterhead, logo=picture.getvalue(), logo_type="image/png")
+    reader = read(replace(plain, letterhead=with_logo))
+    assert [image.image.size for image in reader.pages[0].images if image.image] == [(30, 10)]
+
+
+def test_it_is_the_same_twice() -> None:
+    certificate = samples.certificate()
+    assert PdfRenderer().render(certificate) == PdfRenderer().render(certificate)
+
+
+_IN_ANOTHER_PROCESS = """
+import sys
+opened = []
+from typesetting import samples
+from zlmreport_plugins.renderers.pdf import PdfRenderer
+certificate = samples.certificate(customer="<img src='file:///etc/passwd'> <link href='http://example.com/'>")
+PdfRenderer().render(certificate)
+sys.addaudithook(lambda event, arguments: opened.append((event, str(arguments[0])))
+    if event in {"open", "socket.connect", "socket.getaddrinfo", "urllib.Request"} else None)
+content = PdfRenderer().render(certificate)
+found = [entry for entry in opened if not entry[1].startswith((sys.base_prefix, sys.prefix))]
+from hashlib import sha256
+print(sha256(content).hexdigest(), found)
+"""
+
+
+def _in_another_process(zone: str, seed: str) -> str:
+    environment = {**os.environ, "TZ": zone, "PYTHONHASHSEED": seed, "PYTHONPATH": str(TESTS)}
+    return subprocess.run(
+        [sys.executable, "-c", _IN_ANOTHER_PROCESS],
+        env=environment,
+        capture_output=True,
+        text=True,
+        check=True,
+    ).stdout.strip()
+
+
+def test_it_is_the_same_in_other_processes_and_time_zones_and_opens_no_file() -> None:
+    certificate = samples.certificate(
+        customer="<img src='file:///etc/passwd'> <link href='http://example.com/'>"
+    )
+    digest = sha256(PdfRenderer().render(certificate)).hexdigest()
+    assert _in_another_process("Pacific/Kiritimati", "1") == f"{digest} []"
+    assert _in_another_process("America/Anchorage", "2") == f"{digest} []"
+
+
+def test_without_pango_the_user_is_told_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "zlmreport_plugins.renderers.pdf.press", None)
+    with pytest.raises(AccessError, match=r"WeasyPrint cannot be loaded.*Pango.*apt-get install"):
+        PdfRenderer().render(samples.certificate(standards=0))
+
+
+def _titles(outline: list[Any]) -> list[Any]:
+    return [_titles(entry) if isinstance(entry, list) else entry.title for entry in outline]
+
+
+def test_the_file_opens_without_a_complaint() -> None:
+    PdfReader(BytesIO(PdfRenderer().render(samples.certificate(standards=0))), strict=True)

@@ -1,0 +1,99 @@
+"""What a PDF says is what the certificate says."""
+
+from __future__ import annotations
+
+import unicodedata
+
+import pytest
+
+from plugins.renderers.pdf_pages import (
+    characters,
+    numbers_of,
+    printed_numbers,
+    read,
+    sample,
+    texts,
+)
+from typesetting import samples
+from zlmreport.language import Language
+from zlmreport_plugins.renderers.pdf import press
+
+
+@pytest.mark.parametrize("paper", ["A4", "Letter"])
+@pytest.mark.parametrize("language", Language)
+def test_every_number_of_every_table_is_printed(language: Language, paper: str) -> None:
+    expected = numbers_of(samples.certificate(language, paper))
+    assert expected.total() > 700
+    missing = expected - printed_numbers("\n".join(texts(sample(language, paper))))
+    assert not missing
+
+
+def test_rows_of_numbers_are_read_in_order() -> None:
+    text = "\n".join(texts(sample()))
+    assert "\n4 150.000 5 5 3.3 0.6 1.9 0.7 0.8 2.6 2.9 3.3\n" in text
+
+
+def test_decimals_are_written_as_the_language_writes_them() -> None:
+    assert printed_numbers("\n".join(texts(sample(Language.GERMAN))))["13,8"] == 2
+    assert printed_numbers("\n".join(texts(sample(Language.ENGLISH))))["13.8"] == 2
+
+
+@pytest.mark.parametrize(
+    "customer",
+    [
+        "<b>Müller & Söhne</b> <script>alert(1)</script>",
+        '<img src="file:///etc/passwd">',
+        "{{ 7 * 7 }} {% raw %}",
+        "&lt; &amp; &#65;",
+        "x̄ é ñ",
+        "Ελληνικά Русский Türkçe",
+        "-->]]></style>",
+    ],
+)
+def test_a_customers_name_is_printed_as_it_is_typed(customer: str) -> None:
+    text = "".join(texts(read(samples.certificate(standards=0, customer=customer))))
+    assert _unspaced(customer) in _unspaced(text)
+
+
+def test_a_name_of_500_characters_is_printed_whole() -> None:
+    customer = "".join(chr(ord("a") + n % 26) for n in range(500))
+    text = "".join(texts(read(samples.certificate(standards=0, customer=customer))))
+    assert customer in _unspaced(text)
+
+
+def test_a_name_from_right_to_left_leaves_the_rest_as_it_was() -> None:
+    customer = "שלום \u202eabc עולם"
+    text = "".join(texts(read(samples.certificate(standards=0, customer=customer))))
+    # Readers put right-to-left letters into either order; all of them are there.
+    assert set("שלוםעabc") <= set(text)
+    assert "Sample Works HMC 500" in text
+
+
+@pytest.mark.parametrize("customer", ["中文测试", "🙂", "👩‍🔬"])
+def test_a_letter_without_a_font_is_visibly_missing_and_harms_nothing_else(
+    customer: str, weasyprint_log: list[str], caplog: pytest.LogCaptureFixture
+) -> None:
+    reader = read(samples.certificate(standards=0, customer=f"before {customer} after"))
+    # Where a glyph is missing, pypdf reads each letter of its font as two bytes.
+    text = "".join(texts(reader)).replace("\x00", "")
+    complaints = [record.getMessage() for record in caplog.records if record.name == "weasyprint"]
+    # On a machine with a font for them they are printed, and nothing is complained of.
+    assert all(message.startswith(".notdef glyph rendered") for message in complaints)
+    weasyprint_log.extend(complaints)
+    assert "before " in text
+    assert " after" in text
+
+
+def test_graphs_carry_their_words_as_text() -> None:
+    text = "\n".join(texts(sample(Language.GERMAN)))
+    assert text.count("Zielposition in mm") == 4
+    assert text.count("Abweichung in µm") == 4
+
+
+def test_graphs_by_way_of_svg_say_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(press, "DRAWS_ON_PAGES", False)
+    assert characters(read(samples.certificate())) == characters(sample())
+
+
+def _unspaced(text: str) -> str:
+    return "".join(unicodedata.normalize("NFC", text).split())

@@ -1,0 +1,255 @@
+"""Tables as text: delimiters, decimal signs, quotation marks, comments, damage."""
+
+from __future__ import annotations
+
+import itertools
+import os
+from pathlib import Path
+
+import pytest
+from pydantic import ValidationError
+
+from plugins.sources.reading import File, assert_same_readings
+from zlmreport.errors import AccessError, InputError
+from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport_plugins.sources.laser_csv.source import LaserCsv
+
+HEADER = "target,direction,run,deviation\n"
+TABLE = f"{HEADER}0,+,1,1.5\n100,+,1,-2\n"
+
+
+@pytest.fixture
+def file(tmp_path: Path) -> File:
+    return File(LaserCsv(), tmp_path / "x.csv")
+
+
+@pytest.fixture
+def expected(tmp_path: Path) -> MeasurementSet:
+    return File(LaserCsv(), tmp_path / "expected.csv").read(TABLE)
+
+
+@pytest.mark.parametrize(
+    "content",
+    [
+        TABLE.replace(",", ";"),
+        TABLE.replace(",", "\t"),
+        TABLE.replace(",", ";").replace(".", ","),
+        TABLE.replace(",", "\t").replace(".", ","),
+        TABLE.replace("\n", "\r\n"),
+        TABLE.rstrip("\n"),
+        f"\ufeff{TABLE}",
+        f"# Laser, 18.11.2026\n\n{TABLE}  # end\n\n",
+        TABLE.replace("\n", ",\n"),
+        TABLE.replace("\n", ",,\n"),
+        TABLE.replace("-2\n", "-2,,,\n"),
+        f"{TABLE},,,\n",
+        TABLE.replace(",", " , "),
+        '"target","direction","run","deviation"\n"0","+","1","1.5"\n100, "+" ,1,"-2"\n',
+        '"target","direction","run","deviation"\n0,+,1,"1,5"\n100,+,1,"-2,0"\n',
+        TABLE.replace("-2", "−2.0e0"),
+    ],
+    ids=[
+        "semicolon",
+        "tab",
+        "semicolon and decimal comma",
+        "tab and decimal comma",
+        "cr lf",
+        "no last newline",
+        "byte order mark",
+        "comments and blank lines",
+        "trailing delimiters",
+        "two trailing delimiters",
+        "more trailing delimiters in a row",
+        "row of delimiters",
+        "blanks around cells",
+        "quotation marks",
+        "quoted decimal commas",
+        "true minus and exponent",
+    ],
+)
+def test_the_same_readings_in_every_usual_spelling(
+    file: File, expected: MeasurementSet, content: str
+) -> None:
+    assert_same_readings(file.read(content), expected)
+
+
+def test_a_comma_in_a_name_parts_no_columns_that_semicolons_part(file: File) -> None:
+    table = "Soll, mm;Ist, mm;direction;run\n0;0,001;+;1\n"
+    measurements = file.read(table, columns={"target": "Soll, mm", "position": "Ist, mm"})
+    assert measurements.deviation.tolist() == [0.001 / 1e3]
+
+
+@pytest.mark.parametrize("delimiter", [";", "semicolon"])
+def test_the_delimiter_that_the_job_states_holds(file: File, delimiter: str) -> None:
+    table = "target;direction;run;deviation;a,b\n0;+;1;1;2\n"
+    assert list(file.read(table, delimiter=delimiter).conditions) == ["a,b"]
+
+
+def test_a_header_of_one_column_is_asked_for_its_delimiter(file: File) -> None:
+    assert file.complaint("target direction run deviation\n0 + 1 1\n") == (
+        "x.csv:1:1: the header 'target direction run deviation' has a single column; columns are parted by "
+        "commas, semicolons or tabs"
+    )
+
+
+def test_a_number_that_may_have_a_decimal_comma_or_a_thousands_separator_is_a_question(file: File) -> None:
+    table = "target;direction;run;deviation\n0;+;1;1,234\n100;+;1;2,345\n"
+    assert file.complaint(table) == (
+        "x.csv:2:7: '1,234' may have a decimal comma or a thousands separator, and no other number tells; "
+        "say 'decimal: comma' or 'decimal: point' in the job"
+    )
+    assert file.read(table, decimal="comma").deviation.tolist() == [1.234 / 1e6, 2.345 / 1e6]
+    assert file.complaints(table, decimal="point")[0] == (
+        "x.csv:2:7: '1,234' is no number with a decimal point; write '1.234' if that is meant"
+    )
+
+
+@pytest.mark.parametrize("proof", ["12,5", "0,123", "1234,567", "1,2345", "1,234e1", ",5"])
+def test_one_number_that_tells_the_decimal_comma_is_enough(file: File, proof: str) -> None:
+    table = f"target;direction;run;deviation\n0;+;1;1,234\n9000;+;1;{proof}\n"
+    assert file.read(table).deviation[0] == 1.234 / 1e6
+
+
+def test_both_decimal_signs_in_one_file_are_a_question(file: File) -> None:
+    table = "target;direction;run;deviation\n0;+;1;1,5\n100;+;1;2.5\n"
+    assert file.complaint(table) == (
+        "x.csv:3:9: both decimal signs occur, '2.5' and '1,5', one here and one in line 2; correct the file, "
+        "or say 'decimal: point' or 'decimal: comma' in the job"
+    )
+
+
+def test_thousands_separators_are_refused_with_the_cell_named(file: File) -> None:
+    table = 'target,direction,run,deviation\n"1,000.0",+,1,1.5\n2000.0,+,1,2.5\n'
+    assert file.complaint(table) == (
+        "x.csv:2:1: '1,000.0' has thousands separators; write the digits without them"
+    )
+
+
+@pytest.mark.parametrize(
+    ("row", "complaint"),
+    [
+        (
+            "200,+,1,1,5",
+            (
+                "x.csv:4:11: the row has 5 cells, and the header names 4 columns; is there a decimal comma? "
+                "Then semicolons part columns"
+            ),
+        ),
+        (
+            "200,+,1",
+            "x.csv:4:7: the row ends after 3 of 4 cells; a missing reading is an empty cell, with its comma",
+        ),
+        (
+            '200,+,1,"1',
+            "x.csv:4:9: a quotation mark stands at the beginning of this cell, and not at its end",
+        ),
+        (
+            '200,+,1,"1"5',
+            "x.csv:4:9: a quotation mark stands at the beginning of this cell, and not at its end",
+        ),
+        ("200,+,1,1 mm", "x.csv:4:9: '1 mm' stands where a number belongs"),
+        (
+            '200,"+",1,"inf"',
+            "x.csv:4:11: 'inf' is infinite, and no reading is; a missing reading is an empty cell",
+        ),
+        ("200,+,1,NaN", "x.csv:4:9: 'NaN' is no number; a missing reading is an empty cell"),
+    ],
+)
+def test_a_damaged_row_is_named_by_line_and_column(file: File, row: str, complaint: str) -> None:
+    assert file.complaint(f"{TABLE}{row}\n") == complaint
+
+
+def test_a_damaged_header_is_named_by_line_and_column(file: File) -> None:
+    assert file.complaint('target,"direction,run,deviation\n0,+,1,1\n') == (
+        "x.csv:1:8: a quotation mark stands at the beginning of this cell, and not at its end"
+    )
+    assert file.complaint(f"target,{'x' * 201},direction,run,deviation\n0,0,+,1,1\n").startswith(
+        "x.csv:1:8: 'xxx"
+    )
+
+
+def test_a_file_of_comments_holds_no_table(file: File) -> None:
+    assert file.complaint("# nothing\n\n# yet\n") == (
+        "x.csv: holds no table: every line is blank or a comment"
+    )
+
+
+def test_a_header_alone_holds_no_readings(file: File) -> None:
+    assert file.complaint(HEADER) == "x.csv: holds no readings"
+
+
+def test_a_table_among_other_things_is_read_by_its_lines(file: File, expected: MeasurementSet) -> None:
+    content = f"Work order;17\nOperator;Jo\n{TABLE}Mean;1;2;3\n"
+    assert_same_readings(file.read(content, lines=[3, 5]), expected)
+
+
+def test_lines_beyond_the_file_hold_no_table(file: File) -> None:
+    assert file.complaint(TABLE, lines=[10, 20]) == "x.csv: holds no table: every line is blank or a comment"
+
+
+@pytest.mark.parametrize(
+    ("content", "complaint"),
+    [
+        (b"", "x.csv: is empty"),
+        (b"target,direction\0\xff\n", "x.csv:1:18: byte 0xFF is not UTF-8: this is no text file"),
+        (TABLE.encode("utf-16"), "x.csv:1:1: is UTF-16 text; save it as UTF-8, or say 'encoding: utf-16'"),
+        ("target,Prüfung\n".encode("cp1252"), "x.csv:1:10: byte 0xFC is not UTF-8; save the file as UTF-8"),
+    ],
+    ids=["empty", "binary", "utf-16", "cp1252"],
+)
+def test_a_file_that_is_no_text_in_utf_8_is_refused(file: File, content: bytes, complaint: str) -> None:
+    assert file.complaint(content).startswith(complaint)
+
+
+def test_the_encoding_that_the_job_states_is_used(file: File, expected: MeasurementSet) -> None:
+    assert_same_readings(file.read(TABLE.encode("utf-16"), encoding="utf-16"), expected)
+
+
+def test_a_gigabyte_is_refused(file: File) -> None:
+    file.path.write_text(TABLE)
+    os.truncate(file.path, 10**9)
+    with pytest.raises(InputError, match="is 1000000000 bytes long"):
+        file.read_as_it_is()
+
+
+def test_a_file_that_is_not_there_could_not_be_read(file: File) -> None:
+    with pytest.raises(AccessError, match="there is no such file"):
+        file.read_as_it_is()
+
+
+@pytest.mark.parametrize(
+    ("keys", "complaint"),
+    [
+        (
+            {"columns": {"taget": "Soll"}},
+            "'taget' is no column of a measurement file; did you mean 'target'?",
+        ),
+        ({"units": {"run": "mm"}}, "'run' is no column with a unit; "),
+        ({"units": {"target": "furlong"}}, "'furlong' is no unit of this quantity; "),
+        ({"units": {"air_pressure": "mm"}}, "'mm' is no unit of this quantity; "),
+        ({"encoding": "utf-80"}, "'utf-80' is no encoding of text"),
+        ({"values": "position"}, "'values' is for 'layout: wide'"),
+        ({"lines": [5, 5]}, "'lines' names the header's line and the last line"),
+        ({"colums": {}}, "Extra inputs are not permitted"),
+    ],
+)
+def test_job_keys_are_held_against_what_there_is(keys: dict[str, object], complaint: str) -> None:
+    with pytest.raises(ValidationError) as caught:
+        LaserCsv.options.model_validate({"file": "x.csv", **keys})
+    assert complaint in str(caught.value)
+
+
+def test_unordered_rows_keep_their_order_and_give_the_same_grid(file: File) -> None:
+    rows = ["0,+,1,1", "50,+,1,2", "100,+,1,3"]
+    for order in itertools.permutations(rows):
+        measurements = file.read(HEADER + "\n".join(order) + "\n")
+        assert measurements.deviations()[0, :, 0].tolist() == [1 / 1e6, 2 / 1e6, 3 / 1e6]
+        assert measurements.deviation.tolist() == [float(row[-1]) / 1e6 for row in order]
+
+
+def test_rows_whose_times_contradict_their_order_are_refused(file: File) -> None:
+    table = "target,direction,run,deviation,time\n0,+,1,1,3\n100,+,1,2,1\n"
+    assert file.complaint(table) == (
+        "x.csv:3:9: the time is before that of the reading in line 2; "
+        "readings stand in the order in which they were taken"
+    )

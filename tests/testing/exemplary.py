@@ -1,0 +1,130 @@
+"""A small standard, a source and a renderer that do everything right; the tests of the kit make them sin."""
+
+from __future__ import annotations
+
+import hashlib
+import html
+import json
+from collections.abc import Iterable
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from pydantic import Field
+
+from zlmreport.certificate.document import Certificate
+from zlmreport.errors import AccessError, InputError, Place
+from zlmreport.evaluation.evaluation import Arithmetic, Evaluation
+from zlmreport.evaluation.quantity import Group, PositionQuantity, Quantity
+from zlmreport.evaluation.ranges import largest, smallest
+from zlmreport.evaluation.requirements import Finding
+from zlmreport.evaluation.statistics import PositionStatistics
+from zlmreport.figures.figure import Band, Bracket, Curve, Figure, Panel, Role
+from zlmreport.job.options import JobPath, Options
+from zlmreport.language import Words, same
+from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.measurement.provenance import Provenance, SourceFile
+from zlmreport.protocols import SourceContext
+from zlmreport.testing import bidirectional_test
+
+
+class ExemplaryOptions(Options):
+    factor: float = Field(2.0, gt=0, description="Coverage factor.")
+
+
+class ExemplaryStandard:
+    identifier = "exemplary:1"
+    designation = "EX 1"
+    title = Words(en="An exemplary standard", de="Eine vorbildliche Norm")
+    position_index = "i"
+    options: Any = ExemplaryOptions
+    quantities: Any = (
+        Quantity("E", "E", same("range"), Group.SYSTEMATIC, "max(x̄_{i}↑) − min(x̄_{i}↑)", same("meaning")),
+        Quantity("R", "R", same("scatter"), Group.RANDOM, "max(2k·s_{i}↑)", same("meaning")),
+    )
+    position_quantities: Any = (PositionQuantity("width", "2k·s_{i}↑", same("width")),)
+    notes: Any = (Words(en="A note", de="Eine Bemerkung"),)
+
+    def requirements(self, measurements: MeasurementSet, _options: Any) -> Iterable[Finding]:
+        number = len(measurements.target_positions)
+        yield Finding(same("At least 5 positions"), same(f"{number} positions"), number >= 5)
+
+    def arithmetic(self, statistics: PositionStatistics, options: Any) -> Arithmetic:
+        width = 2 * options.factor * statistics.s_positive
+        mean = statistics.mean_positive
+        return Arithmetic({"E": largest(mean) - smallest(mean), "R": largest(width)}, {"width": width})
+
+    def figures(self, evaluation: Evaluation, _options: Any) -> Iterable[Figure]:
+        axis = evaluation.measurements.axis
+        x = axis.position_unit.from_si(evaluation.measurements.target_positions)
+        mean = axis.deviation_unit.from_si(evaluation.statistics.mean_positive)
+        spread = axis.deviation_unit.from_si(evaluation.statistics.s_positive)
+        if np.all(np.isnan(mean)):
+            return
+        low, high = int(np.nanargmin(mean)), int(np.nanargmax(mean))
+        yield Figure(
+            key="means",
+            title=same("Means"),
+            alternative=same(f"Means from {mean[low]} to {mean[high]}"),
+            x_title=same("Position"),
+            y_title=same("Deviation"),
+            x_unit=axis.position_unit.symbol,
+            y_unit=axis.deviation_unit.symbol,
+            panels=(
+                Panel(
+                    curves=(Curve("x̄_{i}↑", Role.MEAN_POSITIVE, x, mean),),
+                    bands=(Band("x̄_{i}↑ ± s_{i}↑", Role.LIMIT_POSITIVE, x, mean - spread, mean + spread),),
+                    brackets=(
+                        Bracket("E", float(mean[low]), float(mean[high]), float(x[low]), float(x[high])),
+                    ),
+                ),
+            ),
+        )
+
+
+class ExemplarySourceOptions(Options):
+    file: JobPath = Field(description="Deviations at 0, 100 and 200 mm, µm, upwards and downwards.")
+
+
+class ExemplarySource:
+    identifier = "exemplary-text"
+    title = Words(en="Six numbers in a line", de="Sechs Zahlen in einer Zeile")
+    options: Any = ExemplarySourceOptions
+
+    def read(self, options: Any, context: SourceContext) -> MeasurementSet:
+        place = Place(str(options.file))
+        try:
+            content = options.file.read_bytes()
+        except OSError as error:
+            raise AccessError.at(place, "cannot be read") from error
+        try:
+            values = [float(word) for word in content.decode("ascii").split()]
+        except ValueError as error:
+            raise InputError.at(place, "must hold numbers") from error
+        if len(values) != 6:
+            raise InputError.at(place, f"must hold 6 numbers, not {len(values)}")
+        test = bidirectional_test(
+            [0, 100, 200],
+            [[value] for value in values[:3]],
+            [[value] for value in values[3:]],
+            axis=context.axis,
+        )
+        digest = SourceFile(options.file.name, hashlib.sha256(content).hexdigest(), len(content))
+        return replace(test, provenance=Provenance(self.identifier, (digest,), (self.title,)))
+
+
+class ExemplaryRenderer:
+    identifier = "exemplary"
+    title = Words(en="Words in JSON", de="Wörter in JSON")
+    suffix = ".json"
+
+    def render(self, certificate: Certificate) -> bytes:
+        words = [certificate.number, certificate.title, certificate.subtitle]
+        return json.dumps(words, ensure_ascii=False).encode()
+
+
+class ExemplaryPage(ExemplaryRenderer):
+    suffix = ".html"
+
+    def render(self, certificate: Certificate) -> bytes:
+        return f"<h1>{html.escape(certificate.title)}</h1><p>{certificate.number}</p>".encode()

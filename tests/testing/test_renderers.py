@@ -1,0 +1,107 @@
+"""Each check of a renderer passes the exemplary one, and finds the sin it is there for."""
+
+from __future__ import annotations
+
+import itertools
+import time
+from collections.abc import Callable
+from datetime import datetime
+from typing import Any
+
+import pytest
+
+from testing.exemplary import ExemplaryPage, ExemplaryRenderer
+from zlmreport.certificate.document import Block, Certificate
+from zlmreport.language import Language, Words
+from zlmreport.testing import RENDERER_CHECKS, check_renderer, renderers, sample_certificate
+
+COUNTER = itertools.count()
+
+
+def on_paper(change: Callable[[bytes], bytes]) -> Callable[..., bytes]:
+    return lambda _, certificate: change(ExemplaryPage().render(certificate))
+
+
+def german_only(_self: object, certificate: Certificate) -> bytes:
+    assert certificate.language is Language.GERMAN, "English is not written"
+    return b"Deutsch"
+
+
+def unescaped(_self: object, certificate: Certificate) -> bytes:
+    return f"{certificate.title} {certificate.number}".encode()
+
+
+SINS = [
+    (renderers.is_named, {"identifier": "PDF!"}, "lower-case ASCII"),
+    (renderers.is_named, {"title": Words(en="", de="Titel")}, "title says nothing in 'en'"),
+    (renderers.is_named, {"suffix": "html"}, "must be like '.pdf'"),
+    (renderers.writes_every_block, {"render": lambda *_: "text"}, "must return the bytes of a file, not str"),
+    (renderers.writes_every_block, {"render": lambda *_: b""}, "must return the bytes of a file"),
+    (renderers.writes_every_block, {"render": german_only}, "English is not written"),
+    (
+        renderers.reads_no_clock,
+        {"render": lambda *_: time.strftime("%Y-%m-%d").encode()},
+        "other bytes on another date",
+    ),
+    (
+        renderers.reads_no_clock,
+        {"render": lambda *_: str(int(datetime.now().astimezone().timestamp())).encode()},
+        "from byte",
+    ),
+    (
+        renderers.reads_no_clock,
+        {"render": lambda *_: b"x" * next(COUNTER)},
+        "other bytes",
+    ),
+    (
+        renderers.names_the_certificate,
+        {"render": on_paper(lambda page: page.replace(b"KIT-", b""))},
+        "does not carry the certificate's number",
+    ),
+    (renderers.sets_markup_as_text, {"render": unescaped}, "a user's text became an element"),
+    (
+        renderers.sets_markup_as_text,
+        {"render": on_paper(lambda page: page.replace(b"{{7*7}}", b"49"))},
+        "does not come out as it was typed",
+    ),
+]
+
+
+@pytest.mark.parametrize("check", RENDERER_CHECKS)
+@pytest.mark.parametrize("renderer", [ExemplaryRenderer(), ExemplaryPage()], ids=lambda each: each.suffix)
+def test_exemplary_renderers_pass(check: Callable[..., None], renderer: ExemplaryRenderer) -> None:
+    check(renderer)
+
+
+@pytest.mark.parametrize(
+    ("check", "sin", "sentence"), SINS, ids=lambda value: getattr(value, "__name__", None)
+)
+def test_a_check_finds_its_sin(check: Callable[..., None], sin: dict[str, Any], sentence: str) -> None:
+    sinner = type("Sinner", (ExemplaryPage,), sin)()
+    with pytest.raises(AssertionError) as failure:
+        check(sinner)
+    assert sentence in str(failure.value)
+
+
+def test_every_check_has_a_sin() -> None:
+    assert {check for check, *_ in SINS} == set(RENDERER_CHECKS)
+
+
+def test_all_failures_are_reported_at_once() -> None:
+    sinner = type("Sinner", (ExemplaryPage,), {"suffix": "html", "render": lambda *_: b""})()
+    with pytest.raises(AssertionError, match="suffix"):
+        check_renderer(sinner)
+    sinner = type("Sinner", (ExemplaryPage,), {"render": lambda *_: b"nothing"})()
+    with pytest.raises(AssertionError) as failure:
+        check_renderer(sinner)
+    checks = [line.partition(":")[0] for line in str(failure.value).splitlines()]
+    assert checks == ["names_the_certificate", "sets_markup_as_text"]
+
+
+@pytest.mark.parametrize("language", Language)
+def test_the_sample_certificate_has_every_kind_of_block_that_a_certificate_can_have(
+    language: Language,
+) -> None:
+    certificate = sample_certificate(language)
+    blocks = (*certificate.cover, *(block for section in certificate.sections for block in section.blocks))
+    assert {type(block) for block in blocks} == set(Block.__args__)

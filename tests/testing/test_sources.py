@@ -1,0 +1,167 @@
+"""Each check of a data source passes the exemplary one, and finds the sin it is there for."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from pydantic import Field
+
+from testing.exemplary import ExemplarySource, ExemplarySourceOptions
+from zlmreport.errors import InputError, Place
+from zlmreport.job.options import JobPath, Options
+from zlmreport.language import Words, same
+from zlmreport.measurement.axis import Axis
+from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.protocols import SourceContext
+from zlmreport.quantities.arrays import read_only_floats, read_only_integers
+from zlmreport.testing import SOURCE_CHECKS, check_source, simulated_test, sources
+
+
+class UndescribedOptions(Options):
+    file: JobPath
+
+
+class GreedyOptions(ExemplarySourceOptions):
+    plugin: str = Field("x", description="Taken.")
+
+
+def reading(change: Callable[[MeasurementSet], MeasurementSet]) -> dict[str, Any]:
+    """Return the sin of a source whose measurement set has been changed."""
+    return {"read": lambda self, options, context: change(ExemplarySource.read(self, options, context))}
+
+
+def negligent(_self: object, options: Any, context: SourceContext) -> MeasurementSet:
+    try:
+        return ExemplarySource().read(options, context)
+    except Exception:  # noqa: BLE001 - the sin
+        return simulated_test(axis=context.axis)
+
+
+def careless(_self: object, options: Any, _context: SourceContext) -> MeasurementSet:
+    raise ValueError(options.file.read_text(encoding="utf-8"))
+
+
+def nameless(self: Any, options: Any, context: SourceContext) -> MeasurementSet:
+    try:
+        return ExemplarySource.read(self, options, context)
+    except Exception as error:
+        raise InputError.at(Place("somewhere"), "cannot be read") from error
+
+
+def stale(measurements: MeasurementSet) -> MeasurementSet:
+    (file,) = measurements.provenance.files
+    return with_provenance(measurements, files=(replace(file, sha256="0" * 64),))
+
+
+def with_provenance(measurements: MeasurementSet, **changes: Any) -> MeasurementSet:
+    return replace(measurements, provenance=replace(measurements.provenance, **changes))
+
+
+class Fickle(ExemplarySource):
+    factor = 1.0
+
+    def read(self, options: Any, context: SourceContext) -> MeasurementSet:
+        measurements = super().read(options, context)
+        self.factor += 1
+        return replace(measurements, deviation=read_only_floats(measurements.deviation * self.factor))
+
+
+WRITABLE = np.array([1.0, 2.0, 3.0, 4.0, 5.0, 6.0])
+SINS = [
+    (sources.is_named, {"identifier": "Exemplary Text"}, "lower-case ASCII"),
+    (sources.is_named, {"title": Words(en="", de="Titel")}, "title says nothing in 'en'"),
+    (sources.options_are_described, {"options": UndescribedOptions}, "'file' needs a description"),
+    (sources.options_are_described, {"options": GreedyOptions}, "plugin belong to the core"),
+    (sources.reads_a_measurement_set, {"read": lambda *_: None}, "must return a MeasurementSet"),
+    (
+        sources.reads_a_measurement_set,
+        reading(lambda m: replace(m, target_positions=m.target_positions[::-1])),
+        "target_positions must rise",
+    ),
+    (sources.reads_a_measurement_set, reading(lambda m: replace(m, run=m.run[:-1])), "run has shape (5,)"),
+    (
+        sources.reads_a_measurement_set,
+        reading(lambda m: replace(m, conditions={"load": WRITABLE[:2]})),
+        "conditions['load'] has shape (2,)",
+    ),
+    (
+        sources.reads_a_measurement_set,
+        reading(lambda m: replace(m, deviation=m.deviation * np.inf)),
+        "a deviation is infinite",
+    ),
+    (
+        sources.reads_a_measurement_set,
+        reading(lambda m: replace(m, target=m.target + 1)),
+        "target must hold indices of the 3 target positions",
+    ),
+    (sources.reads_a_measurement_set, reading(lambda m: replace(m, approach=m.approach * 2)), "1 or -1"),
+    (sources.reads_a_measurement_set, reading(lambda m: replace(m, run=m.run - 1)), "numbered from 1"),
+    (sources.keeps_the_axis, reading(lambda m: replace(m, axis=Axis("W"))), "expected the job's"),
+    (
+        sources.values_are_read_only,
+        reading(lambda m: replace(m, deviation=WRITABLE)),
+        "deviation can be altered",
+    ),
+    (
+        sources.names_its_files,
+        reading(lambda m: with_provenance(m, source="other")),
+        "provenance.source is 'other'",
+    ),
+    (sources.names_its_files, reading(lambda m: with_provenance(m, files=())), "do not name 'six.txt'"),
+    (sources.names_its_files, reading(stale), "sha256 is not the digest"),
+    (
+        sources.remarks_are_worded,
+        reading(lambda m: with_provenance(m, remarks=(same(""),))),
+        "remark 1 says nothing",
+    ),
+    (sources.damaged_files_are_refused, {"read": negligent}, "a file that is not there, and it reads"),
+    (sources.damaged_files_are_refused, {"read": careless}, "FileNotFoundError"),
+    (sources.damaged_files_are_refused, {"read": nameless}, "does not name the file"),
+]
+
+
+@pytest.fixture
+def keys(tmp_path: Path) -> dict[str, Any]:
+    file = tmp_path / "six.txt"
+    file.write_text("1.5 2.5 3.5 0.5 1.5 2.5\n", encoding="ascii")
+    return {"file": file}
+
+
+@pytest.mark.parametrize("check", SOURCE_CHECKS)
+def test_the_exemplary_source_passes(check: Callable[..., None], keys: dict[str, Any]) -> None:
+    check(ExemplarySource(), keys, Axis("X"))
+
+
+@pytest.mark.parametrize(
+    ("check", "sin", "sentence"), SINS, ids=lambda value: getattr(value, "__name__", None)
+)
+def test_a_check_finds_its_sin(
+    check: Callable[..., None], sin: dict[str, Any], sentence: str, keys: dict[str, Any]
+) -> None:
+    sinner = type("Sinner", (ExemplarySource,), sin)()
+    with pytest.raises(AssertionError) as failure:
+        check(sinner, keys, Axis("X"))
+    assert sentence in str(failure.value)
+
+
+def test_a_source_that_reads_something_else_the_second_time_is_found(keys: dict[str, Any]) -> None:
+    with pytest.raises(AssertionError, match="gives another set"):
+        sources.reads_the_same_again(Fickle(), keys, Axis("X"))
+
+
+def test_every_check_has_a_sin() -> None:
+    assert {check for check, *_ in SINS} | {sources.reads_the_same_again} == set(SOURCE_CHECKS)
+
+
+def test_all_failures_are_reported_at_once(keys: dict[str, Any]) -> None:
+    sin = reading(lambda m: replace(m, axis=Axis("W"), approach=read_only_integers(m.approach * 2)))
+    sinner = type("Sinner", (ExemplarySource,), sin)()
+    with pytest.raises(AssertionError) as failure:
+        check_source(sinner, keys)
+    checks = [line.partition(":")[0] for line in str(failure.value).splitlines()]
+    assert checks == ["reads_a_measurement_set", "keeps_the_axis"]

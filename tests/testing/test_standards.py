@@ -1,0 +1,344 @@
+"""Each check of a standard passes the exemplary one, and finds the sin it is there for."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+from pydantic import Field
+
+from testing.exemplary import ExemplaryOptions, ExemplaryStandard
+from zlmreport.evaluation.evaluation import Arithmetic, Evaluation
+from zlmreport.evaluation.quantity import PositionQuantity
+from zlmreport.evaluation.requirements import Finding
+from zlmreport.evaluation.statistics import PositionStatistics
+from zlmreport.figures.figure import Arrow, Figure, Level, Role
+from zlmreport.job.options import Options
+from zlmreport.language import Words, same
+from zlmreport.testing import STANDARD_CHECKS, arithmetic, check_standard, graphs, standards
+
+E, R = ExemplaryStandard.quantities
+(WIDTH,) = ExemplaryStandard.position_quantities
+GERMAN_ONLY = Words(en=" ", de="Bedeutung")
+UNFILLED = Words(en="{value} and {other}", de="{value} und {other}").given(value=1)
+
+EXEMPLARY = ExemplaryStandard()
+COUNTER = itertools.count()
+
+
+class UndescribedOptions(Options):
+    factor: float = 2.0
+
+
+class GreedyOptions(Options):
+    tolerances: float = Field(2.0, description="Taken.")
+
+
+def requiring(finding: Any) -> Callable[..., Iterable[Any]]:
+    return lambda *_: [finding]
+
+
+def refusing(_self: object, measurements: Any, _options: object) -> Iterator[Finding]:
+    yield Finding(same("Spacing"), same(str(measurements.target_positions[1])), met=None)
+
+
+def fickle_requirement(*_: object) -> Iterator[Finding]:
+    yield Finding(same("Asked"), same(f"{next(COUNTER)} times"), met=True)
+
+
+def with_values(change: Callable[[PositionStatistics, dict[str, Any]], object]) -> Callable[..., Arithmetic]:
+    """Return an arithmetic whose parameters a function has changed in place."""
+
+    def changed(_self: object, statistics: PositionStatistics, options: Any) -> Arithmetic:
+        result = EXEMPLARY.arithmetic(statistics, options)
+        parameters = dict(result.parameters)
+        change(statistics, parameters)
+        return Arithmetic(parameters, result.positions)
+
+    return changed
+
+
+def with_e(formula: Callable[[PositionStatistics], Any]) -> Callable[..., Arithmetic]:
+    """Return an arithmetic with another formula for E."""
+    return with_values(lambda statistics, values: values.update(E=formula(statistics)))
+
+
+def with_figure(change: Callable[[Figure], Figure]) -> Callable[..., Iterable[Figure]]:
+    def changed(_self: object, evaluation: Evaluation, options: Any) -> Iterable[Figure]:
+        return [change(figure) for figure in EXEMPLARY.figures(evaluation, options)]
+
+    return changed
+
+
+def with_panel(**changes: Callable[[Any], Any]) -> Callable[..., Iterable[Figure]]:
+    """Return figures whose panel has been changed field by field."""
+
+    def change(figure: Figure) -> Figure:
+        (panel,) = figure.panels
+        fields = {name: function(panel) for name, function in changes.items()}
+        return replace(figure, panels=(replace(panel, **fields),))
+
+    return with_figure(change)
+
+
+def with_bracket(**ends: Any) -> Callable[..., Iterable[Figure]]:
+    return with_panel(brackets=lambda panel: (replace(panel.brackets[0], **ends),))
+
+
+def no_figures_of_one_target(_self: object, evaluation: Evaluation, options: Any) -> Iterable[Figure]:
+    evaluation.measurements.target_positions[1]
+    return EXEMPLARY.figures(evaluation, options)
+
+
+SINS = [
+    (standards.is_named, {"identifier": "EX 1"}, "lower-case ASCII"),
+    (standards.is_named, {"designation": " "}, "designation"),
+    (standards.is_named, {"title": GERMAN_ONLY}, "title says nothing in 'en'"),
+    (standards.is_named, {"title": "A norm"}, "title must be Words"),
+    (standards.is_named, {"position_index": "k"}, "position_index 'k' must be 'i' or 'j'"),
+    (standards.is_named, {"notes": (UNFILLED,)}, "note 1 cannot be written in 'en'"),
+    (standards.options_are_described, {"options": dict}, "must be a subclass"),
+    (standards.options_are_described, {"options": UndescribedOptions}, "'factor' needs a description"),
+    (standards.options_are_described, {"options": GreedyOptions}, "tolerances belong to the core"),
+    (standards.symbols_are_unique, {"quantities": ()}, "reports no parameter"),
+    (standards.symbols_are_unique, {"quantities": (E, E)}, "'E' is there 2 times"),
+    (standards.symbols_are_unique, {"quantities": (replace(E, symbol="Ē"),)}, "must be ASCII"),
+    (standards.symbols_are_unique, {"position_quantities": (WIDTH, WIDTH)}, "'width' is there 2 times"),
+    (
+        standards.symbols_are_unique,
+        {"position_quantities": (PositionQuantity("mean", "m", same("mean")),)},
+        "'mean' is a column of every table",
+    ),
+    (standards.quantities_are_worded, {"quantities": (replace(E, notation=""),)}, "E: notation"),
+    (
+        standards.quantities_are_worded,
+        {"quantities": (replace(E, name=GERMAN_ONLY),)},
+        "E: name says nothing",
+    ),
+    (standards.quantities_are_worded, {"quantities": (replace(E, meaning=GERMAN_ONLY),)}, "E: meaning says"),
+    (standards.quantities_are_worded, {"quantities": (replace(E, formula=" "),)}, "E: formula"),
+    (standards.quantities_are_worded, {"quantities": (replace(E, group="random"),)}, "E: group"),
+    (
+        standards.requirements_never_refuse,
+        {"requirements": refusing},
+        "on a single reading raised IndexError",
+    ),
+    (standards.requirements_never_refuse, {"requirements": requiring("five")}, "must be a Finding"),
+    (
+        standards.requirements_never_refuse,
+        {"requirements": requiring(Finding(same("a"), same("b"), "yes"))},  # type: ignore[arg-type]
+        "met must be True, False or None",
+    ),
+    (
+        standards.requirements_never_refuse,
+        {"requirements": requiring(Finding(same("a"), GERMAN_ONLY, met=None))},
+        "found says nothing in 'en'",
+    ),
+    (standards.requirements_never_refuse, {"requirements": fickle_requirement}, "the second answer differs"),
+    (
+        arithmetic.gives_every_quantity,
+        {"arithmetic": with_values(lambda _, values: values.pop("E"))},
+        "gives no E",
+    ),
+    (
+        arithmetic.gives_every_quantity,
+        {"arithmetic": with_values(lambda _, values: values.update(X=values["E"]))},
+        "gives X, not in quantities",
+    ),
+    (
+        arithmetic.gives_every_quantity,
+        {"arithmetic": with_e(lambda s: np.ptp(s.mean_positive))},
+        "E of a stack of 3 tests at 7 positions has shape ()",
+    ),
+    (
+        arithmetic.stack_equals_loop,
+        {
+            "arithmetic": with_e(
+                lambda s: np.fmax.reduce(s.mean_positive, axis=-1) - np.nanmin(s.mean_positive)
+            )
+        },
+        "E of test",
+    ),
+    (
+        arithmetic.order_of_runs_is_irrelevant,
+        {"arithmetic": with_e(lambda s: s.deviations[..., 0, 0, 0])},
+        "E depends on the order of the runs",
+    ),
+    (
+        arithmetic.scales_with_the_readings,
+        {"arithmetic": with_values(lambda _, values: values.update(R=values["R"] ** 2))},
+        "R does not double",
+    ),
+    (
+        arithmetic.moves_no_more_than_an_offset,
+        {"arithmetic": with_e(lambda s: np.sum(s.mean_positive, axis=-1))},
+        "E moves by 7e-05 m",
+    ),
+    (
+        arithmetic.one_missing_reading_takes_nothing_away,
+        {"arithmetic": with_e(lambda s: np.ptp(s.deviations, axis=(-3, -2, -1)))},
+        "E is nan when one of 5 readings",
+    ),
+    (
+        arithmetic.undefined_is_nan,
+        {"arithmetic": with_values(lambda _, values: values.update(R=np.nan_to_num(values["R"])))},
+        "R is exactly zero",
+    ),
+    (
+        arithmetic.undefined_is_nan,
+        {"arithmetic": with_e(lambda s: np.fmax.reduce(s.mean_positive, axis=-1, initial=-np.inf))},
+        "E is infinite",
+    ),
+    (
+        arithmetic.undefined_is_nan,
+        {"arithmetic": with_e(lambda s: np.nanmax(s.mean_positive, axis=-1))},
+        "All-NaN",
+    ),
+    (
+        arithmetic.nothing_gives_nothing,
+        {"arithmetic": with_values(lambda _, values: values.update(R=np.nan_to_num(values["R"])))},
+        "R of a test without readings is 0.0",
+    ),
+    (
+        arithmetic.alters_no_input,
+        {"arithmetic": with_e(lambda s: np.abs(s.mean_positive, out=s.mean_positive))},
+        "read-only",
+    ),
+    (
+        arithmetic.gives_the_same_again,
+        {"arithmetic": with_e(lambda s: s.mean_positive[..., 0] + next(COUNTER))},
+        "other values the second time",
+    ),
+    (graphs.figures_of_any_test, {"figures": lambda *_: ()}, "a complete linear test: there is none"),
+    (graphs.figures_of_any_test, {"figures": no_figures_of_one_target}, "a single reading raised IndexError"),
+    (
+        graphs.figures_of_any_test,
+        {"figures": lambda _, *given: [*EXEMPLARY.figures(*given), *EXEMPLARY.figures(*given)]},
+        "key 'means' is there 2 times",
+    ),
+    (
+        graphs.figures_of_any_test,
+        {"figures": with_figure(lambda figure: replace(figure, title=same(f"Figure {next(COUNTER)}")))},
+        "the second time they differ",
+    ),
+    (
+        graphs.figures_are_worded,
+        {"figures": with_figure(lambda figure: replace(figure, key="The means"))},
+        "'The means' must be lower-case",
+    ),
+    (
+        graphs.figures_are_worded,
+        {"figures": with_figure(lambda figure: replace(figure, x_title=GERMAN_ONLY))},
+        "x_title says nothing in 'en'",
+    ),
+    (
+        graphs.figures_are_worded,
+        {"figures": with_figure(lambda figure: replace(figure, y_unit="furlong"))},
+        "unit 'furlong' is none of",
+    ),
+    (
+        graphs.figures_are_worded,
+        {"figures": with_figure(lambda figure: replace(figure, alternative=same("A rising curve")))},
+        "names no value",
+    ),
+    (
+        graphs.marks_stand_at_targets,
+        {"figures": with_panel(curves=lambda panel: (replace(panel.curves[0], x=panel.curves[0].x + 1),))},
+        "curve x̄i↑ stands at positions that are no targets",
+    ),
+    (
+        graphs.marks_stand_at_targets,
+        {"figures": with_panel(arrows=lambda _: (Arrow("B", 0.123, 0.0, 1.0),))},
+        "arrow B stands at 0.123",
+    ),
+    (
+        graphs.marks_stand_at_targets,
+        {"figures": with_bracket(high_at=0.123)},
+        "high_at of bracket E is 0.123",
+    ),
+    (
+        graphs.curves_have_a_value_at_each_position,
+        {"figures": with_panel(curves=lambda panel: (replace(panel.curves[0], y=panel.curves[0].y[:-1]),))},
+        "curve x̄i↑ needs a finite value, or NaN, at each position",
+    ),
+    (
+        graphs.curves_have_a_value_at_each_position,
+        {
+            "figures": with_panel(
+                curves=lambda panel: (replace(panel.curves[0], y=panel.curves[0].y * np.inf),)
+            )
+        },
+        "curve x̄i↑ needs a finite value",
+    ),
+    (
+        graphs.curves_have_a_value_at_each_position,
+        {
+            "figures": with_panel(
+                bands=lambda panel: (replace(panel.bands[0], lower=panel.bands[0].upper + 1),)
+            )
+        },
+        "lower limit above its upper limit",
+    ),
+    (graphs.marks_have_finite_ends, {"figures": with_bracket(low=np.nan)}, "E spans nan to"),
+    (graphs.marks_have_finite_ends, {"figures": with_bracket(low=1e9)}, "the lower one first"),
+    (
+        graphs.marks_have_finite_ends,
+        {"figures": with_panel(levels=lambda _: (Level("0", Role.TOLERANCE, np.nan),))},
+        "level 0 is at nan",
+    ),
+    (
+        graphs.brackets_span_what_is_drawn,
+        {"figures": with_bracket(low=-123.0)},
+        "low end of bracket E is -123.0; nothing is drawn there",
+    ),
+    (
+        graphs.brackets_are_as_long_as_their_parameter,
+        {"figures": with_bracket(low=-123.0)},
+        "but the results table has",
+    ),
+]
+
+
+def sinner(sin: dict[str, Any]) -> Any:
+    return type("Sinner", (ExemplaryStandard,), sin)()
+
+
+@pytest.mark.parametrize("check", STANDARD_CHECKS)
+def test_the_exemplary_standard_passes(check: Callable[..., None]) -> None:
+    check(EXEMPLARY, ExemplaryOptions())
+
+
+@pytest.mark.parametrize(
+    ("check", "sin", "sentence"), SINS, ids=lambda value: getattr(value, "__name__", None)
+)
+def test_a_check_finds_its_sin(check: Callable[..., None], sin: dict[str, Any], sentence: str) -> None:
+    with pytest.raises(AssertionError) as failure:
+        check(sinner(sin), ExemplaryOptions())
+    assert sentence in str(failure.value)
+
+
+def test_an_incomplete_protocol_is_named_member_by_member() -> None:
+    with pytest.raises(AssertionError, match="has no designation, title, position_index, options"):
+        check_standard(type("Stub", (), {"identifier": "stub:1"})())
+
+
+def test_every_check_has_a_sin() -> None:
+    assert {check for check, *_ in SINS} | {standards.has_all_members} == set(STANDARD_CHECKS)
+
+
+def test_all_failures_are_reported_at_once_with_the_standard_s_name() -> None:
+    with pytest.raises(AssertionError) as failure:
+        check_standard(sinner({"designation": "", "figures": lambda *_: ()}))
+    lines = str(failure.value).splitlines()
+    assert [line.split(": ")[:2] for line in lines] == [
+        ["is_named", "exemplary:1"],
+        ["figures_of_any_test", "exemplary:1"],
+    ]
+
+
+def test_job_keys_are_validated_as_a_job_file_would_give_them() -> None:
+    check_standard(ExemplaryStandard(), {"factor": 3})
