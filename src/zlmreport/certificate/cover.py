@@ -6,7 +6,6 @@ from collections.abc import Iterator
 
 from zlmreport.certificate.conditions import AXIS_KINDS, MACHINE_KINDS, MaybeFact, stated
 from zlmreport.certificate.document import (
-    Align,
     Block,
     Column,
     Facts,
@@ -17,7 +16,7 @@ from zlmreport.certificate.document import (
     Table,
 )
 from zlmreport.certificate.readings import missing_readings
-from zlmreport.certificate.results import Evaluated, limit, verdict
+from zlmreport.certificate.results import Evaluated, value_cells, value_columns
 from zlmreport.certificate.scribe import Scribe
 from zlmreport.evaluation.evaluation import Evaluation, Parameter
 from zlmreport.evaluation.quantity import Group
@@ -86,13 +85,11 @@ def lines(address: str | None) -> tuple[str, ...]:
 
 
 def _results(evaluations: tuple[Evaluation, ...], scribe: Scribe) -> Table:
-    unit = scribe.deviation_unit.symbol
+    values = value_columns(evaluations, scribe)
     columns = (
         Column(scribe.say(Words(en="Symbol", de="Zeichen"))),
         Column(scribe.say(Words(en="Parameter", de="Kenngröße"))),
-        Column(scribe.say(Words(en="Value", de="Wert")), unit, Align.RIGHT),
-        Column(scribe.say(Words(en="Limit", de="Grenzwert")), unit, Align.RIGHT),
-        Column(scribe.say(Words(en="Conformity", de="Konformität"))),
+        *values,
     )
     groups = tuple(
         RowGroup(
@@ -100,9 +97,7 @@ def _results(evaluations: tuple[Evaluation, ...], scribe: Scribe) -> Table:
                 (
                     Symbol(parameter.quantity.notation),
                     scribe.say(parameter.quantity.name),
-                    scribe.deviation(parameter.printed_value),
-                    limit(parameter, scribe),
-                    verdict(parameter, scribe),
+                    *value_cells(parameter, values, scribe),
                 )
                 for parameter in _in_brief(evaluation)
             ),

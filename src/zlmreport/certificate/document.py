@@ -41,7 +41,15 @@ class Verdict:
     word: str
 
 
-Cell: TypeAlias = str | Symbol | Verdict
+@dataclass(frozen=True, slots=True)
+class Explained:
+    """A name, and below it in small type what it means."""
+
+    name: str
+    meaning: str
+
+
+Cell: TypeAlias = str | Symbol | Verdict | Explained
 
 
 class Align(Enum):

@@ -9,7 +9,6 @@ from zlmreport.certificate.document import (
     Block,
     Column,
     Facts,
-    Notice,
     Paragraph,
     RowGroup,
     Section,
@@ -36,12 +35,7 @@ def section(
     )
     blocks: list[Block] = [_files(job, measurements, scribe), programs]
     if measurements.provenance.remarks:
-        blocks.append(
-            Notice(
-                scribe.say(Words(en="Remarks on the readings", de="Bemerkungen zu den Messwerten")),
-                tuple(map(scribe.say, measurements.provenance.remarks)),
-            )
-        )
+        blocks.append(_remarks(measurements, scribe))
     blocks.extend(Paragraph(scribe.say(words)) for words in _READING_AIDS)
     return Section("origin", scribe.say(_TITLE), tuple(blocks))
 
@@ -61,6 +55,15 @@ _READING_AIDS = (
         "Anfahrrichtung ↑ − Mittel der negativen Anfahrrichtung ↓.",
     ),
 )
+
+
+def _remarks(measurements: MeasurementSet, scribe: Scribe) -> Table:
+    """Return what the reader of the files has to say of them."""
+    heading = scribe.say(
+        Words(en="How the readings were understood", de="Wie die Messwerte verstanden wurden")
+    )
+    rows = tuple((scribe.say(remark),) for remark in measurements.provenance.remarks)
+    return Table(scribe.say(Words(en="Remarks", de="Bemerkungen")), (Column(heading),), (RowGroup(rows),))
 
 
 def _files(job: Job, measurements: MeasurementSet, scribe: Scribe) -> Table:

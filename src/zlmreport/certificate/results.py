@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from zlmreport.certificate.document import (
@@ -10,6 +10,7 @@ from zlmreport.certificate.document import (
     Block,
     Cell,
     Column,
+    Explained,
     Formulas,
     Graph,
     Mark,
@@ -92,8 +93,26 @@ def section(evaluated: Evaluated, scribe: Scribe) -> Section:
     )
 
 
-def verdict(parameter: Parameter, scribe: Scribe) -> Cell:
-    """Return the cell that says whether a parameter keeps its limit."""
+def value_columns(evaluations: Iterable[Evaluation], scribe: Scribe) -> tuple[Column, ...]:
+    """Return the columns for a parameter's value, and for its limit and conformity if any limit is stated."""
+    unit = scribe.deviation_unit.symbol
+    value = Column(scribe.say(Words(en="Value", de="Wert")), unit, Align.RIGHT)
+    if not any(parameter.limit is not None for each in evaluations for parameter in each.parameters):
+        return (value,)
+    return (
+        value,
+        Column(scribe.say(Words(en="Limit", de="Grenzwert")), unit, Align.RIGHT),
+        Column(scribe.say(Words(en="Conformity", de="Konformität"))),
+    )
+
+
+def value_cells(parameter: Parameter, columns: tuple[Column, ...], scribe: Scribe) -> tuple[Cell, ...]:
+    """Return the cells of a parameter under `value_columns`."""
+    cells = (scribe.deviation(parameter.printed_value), limit(parameter, scribe), _verdict(parameter, scribe))
+    return cells[: len(columns)]
+
+
+def _verdict(parameter: Parameter, scribe: Scribe) -> Cell:
     if parameter.limit is None:
         return NOTHING
     if parameter.conforms is None:
@@ -130,27 +149,19 @@ def _shortfalls(evaluation: Evaluation, scribe: Scribe) -> Iterator[Notice]:
 
 
 def _parameters(evaluation: Evaluation, scribe: Scribe) -> Table:
-    unit = scribe.deviation_unit.symbol
+    values = value_columns([evaluation], scribe)
     columns = (
         Column(scribe.say(Words(en="Symbol", de="Zeichen"))),
         Column(scribe.say(Words(en="Parameter and what it means", de="Kenngröße und ihre Bedeutung"))),
-        Column(scribe.say(Words(en="Value", de="Wert")), unit, Align.RIGHT),
-        Column(scribe.say(Words(en="Limit", de="Grenzwert")), unit, Align.RIGHT),
-        Column(scribe.say(Words(en="Conformity", de="Konformität"))),
+        *values,
     )
     groups = []
     for group, (heading, note) in _GROUPS.items():
         rows = tuple(
             (
                 Symbol(parameter.quantity.notation),
-                scribe.say(
-                    Words("{name}: {meaning}", "{name}: {meaning}").given(
-                        name=parameter.quantity.name, meaning=parameter.quantity.meaning
-                    )
-                ),
-                scribe.deviation(parameter.printed_value),
-                limit(parameter, scribe),
-                verdict(parameter, scribe),
+                Explained(scribe.say(parameter.quantity.name), scribe.say(parameter.quantity.meaning)),
+                *value_cells(parameter, values, scribe),
             )
             for parameter in evaluation.parameters
             if parameter.quantity.group is group

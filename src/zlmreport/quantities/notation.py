@@ -13,8 +13,8 @@ _SUBSCRIPT = re.compile(r"_\{([^}]*)\}")
 # Fractions count as word characters, but they are numbers.
 _LETTERS = re.compile(r"([^\W\d_¼½¾][\u0300-\u036f]*)+")
 _ONE_LETTER = re.compile(r"[^\W\d_][\u0300-\u036f]*")
-# A running index, alone or after the letter of a word: i, ij, sj.
-_INDEX = re.compile(r"([^\W\d_ij]?)([ij]+)")
+# A running index, alone, after the letter of a word, or before its number: i, ij, sj, i1.
+_INDEX = re.compile(r"(?P<word>[^\W\d_ij]?)(?P<index>[ij]+)(?P<number>\d*)")
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,9 +61,9 @@ def _subscript_spans(text: str) -> list[Span]:
     match = _INDEX.fullmatch(text)
     if match is None:
         return [Span(text, italic=False, subscript=True)]
-    word, index = match.groups()
-    spelled = [Span(word, italic=False, subscript=True)] if word else []
-    return [*spelled, Span(index, italic=True, subscript=True)]
+    return [
+        Span(part, italic=name == "index", subscript=True) for name, part in match.groupdict().items() if part
+    ]
 
 
 def _base_spans(text: str) -> list[Span]:

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from math import ceil
 from unicodedata import combining
 
-from zlmreport.certificate.document import Align, Cell, Column, Symbol, Table, Verdict
+from zlmreport.certificate.document import Align, Cell, Column, Explained, Symbol, Table, Verdict
 from zlmreport.quantities.notation import plain
 
 #: Number, with its decimals apart; a dash stands for a value that does not exist.
@@ -43,6 +43,8 @@ _FULL = 1.0
 _FIRST_FULL_WIDTH_CHARACTER = "\u2e80"
 #: Headings are set in semi-bold, which is wider.
 _SEMIBOLD = 1.04
+#: Size of the small type below a name, as the style sheet has it.
+_SMALL = 0.9
 
 #: Space at both sides of a cell, and the mark before a verdict's word, in em of the cell.
 _PADDING_EM = 0.9
@@ -80,6 +82,8 @@ def text_of(cell: Cell) -> str:
             return plain(notation)
         case Verdict(word=word):
             return word
+        case Explained(name=name):
+            return name
         case _:
             return cell
 
@@ -168,6 +172,9 @@ def _measure(column: Column, cells: Sequence[Cell], gap: float) -> Measure:
         text = text_of(cell)
         width = _width(text)
         match cell:
+            case Explained(meaning=meaning):
+                width = max(width, _SMALL * _width(meaning))
+                unbroken = max(_longest_word(text), _SMALL * _longest_word(meaning))
             case Verdict():
                 width = unbroken = _SEMIBOLD * width + _VERDICT_EM
             case Symbol():
@@ -180,7 +187,9 @@ def _measure(column: Column, cells: Sequence[Cell], gap: float) -> Measure:
 
 
 def _lines(cell: Cell, available: float) -> int:
-    return max(1, ceil(_width(text_of(cell)) / max(available - _PADDING_EM, _FULL)))
+    room = max(available - _PADDING_EM, _FULL)
+    note = ceil(_SMALL * _width(cell.meaning) / room) if isinstance(cell, Explained) else 0
+    return max(1, ceil(_width(text_of(cell)) / room)) + note
 
 
 def _longest_word(text: str) -> float:

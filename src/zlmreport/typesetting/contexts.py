@@ -23,11 +23,14 @@ class CellContext:
         Class names: alignment, distance from the decimal sign, shape of a verdict.
     unit
         Below a heading; empty elsewhere.
+    note
+        Below the content, in small type; empty for most.
     """
 
     content: str
     style: str
     unit: str = ""
+    note: str = ""
 
 
 @dataclass(frozen=True, slots=True)

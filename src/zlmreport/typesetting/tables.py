@@ -6,6 +6,7 @@ from zlmreport.certificate.document import (
     Align,
     Cell,
     Column,
+    Explained,
     Formulas,
     Mark,
     RowGroup,
@@ -81,7 +82,8 @@ def _columns(table: Table) -> tuple[str, tuple[str, ...], bool]:
 def _cell(cell: Cell, style: str, padding: str) -> CellContext:
     if isinstance(cell, Verdict):
         return CellContext(cell.word, f"verdict {_SHAPE[cell.mark]} {style}".strip())
-    return CellContext(_content(cell), f"{style} {padding}".strip())
+    note = cell.meaning if isinstance(cell, Explained) else ""
+    return CellContext(_content(cell), f"{style} {padding}".strip(), note=note)
 
 
 def _content(cell: Cell) -> str:
@@ -90,5 +92,7 @@ def _content(cell: Cell) -> str:
             return symbol(notation)
         case Verdict(word=word):
             return word
+        case Explained(name=name):
+            return name
         case _:
             return cell
