@@ -16,6 +16,7 @@ from zlmreport.certificate.document import (
     Block,
     Cell,
     Certificate,
+    Explained,
     Facts,
     Formulas,
     Graph,
@@ -28,7 +29,7 @@ from zlmreport.certificate.document import (
 )
 from zlmreport.figures.figure import Figure, Panel
 from zlmreport.language import Language, Words
-from zlmreport.quantities.notation import plain, spans
+from zlmreport.quantities.notation import Span, plain, spans
 
 Content = dict[str, Any]
 
@@ -173,21 +174,18 @@ def _panel(panel: Panel) -> Content:
     }
 
 
-def _text(cell: Cell) -> str:
+def _markup(cell: Cell) -> str:
     match cell:
         case Symbol(notation):
-            return plain(notation)
+            return "".join(map(_span, spans(notation)))
         case Verdict(word=word):
-            return word
+            return escape(word)
+        case Explained(name, meaning):
+            return f"{escape(name)}<br><small>{escape(meaning)}</small>"
         case _:
-            return cell
+            return escape(cell)
 
 
-def _markup(cell: Cell) -> str:
-    if not isinstance(cell, Symbol):
-        return escape(_text(cell))
-    written = ""
-    for span in spans(cell.notation):
-        text = f"<i>{escape(span.text)}</i>" if span.italic else escape(span.text)
-        written += f"<sub>{text}</sub>" if span.subscript else text
-    return written
+def _span(span: Span) -> str:
+    text = f"<i>{escape(span.text)}</i>" if span.italic else escape(span.text)
+    return f"<sub>{text}</sub>" if span.subscript else text

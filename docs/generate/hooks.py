@@ -7,9 +7,11 @@ from collections.abc import Callable, Iterator
 
 from markdown import code, table
 
-from zlmreport import hookspecs, protocols
+from zlmreport import hookspecs
+from zlmreport.plugins import Kind
+from zlmreport.protocols import SourceContext
 
-_PROTOCOLS = (protocols.Standard, protocols.DataSource, protocols.SourceContext, protocols.Renderer)
+_PROTOCOLS = (*(kind.protocol for kind in Kind), SourceContext)
 
 
 def hooks_text() -> str:

@@ -27,7 +27,9 @@ def make(name: str, pdf: Path, page: int) -> None:
         command = ["pdftoppm", "-r", str(_DOTS_PER_INCH), *only, "-png", pdf, stem]
         subprocess.run(command, check=True)  # noqa: S603 - of our own files
         with Image.open(stem.with_suffix(".png")) as picture:
-            picture.convert("RGB").quantize(_COLOURS).save(_PICTURES / f"{name}.png", optimize=True)
+            picture.convert("RGB").quantize(_COLOURS, Image.Quantize.MAXCOVERAGE).save(
+                _PICTURES / f"{name}.png", optimize=True
+            )
 
 
 def certificate(job: Path, folder: Path) -> Path:

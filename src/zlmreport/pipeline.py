@@ -6,9 +6,10 @@ Each step takes what the step before it made and hands on something new; nothing
 from __future__ import annotations
 
 import contextlib
+import gc
 import os
 import tempfile
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -79,14 +80,32 @@ def _evaluated(job: Job, measurements: MeasurementSet, registry: Registry) -> tu
 def run(job: Job, registry: Registry) -> Outcome:
     """Make every file of a job, in memory: a failure at any step leaves nothing behind."""
     renderers = [registry.renderer(identifier) for identifier in job.formats]
-    certificate = compose(job, registry)
-    return Outcome(
-        certificate,
-        tuple(
+    with _garbage_collected_once():
+        certificate = compose(job, registry)
+        documents = tuple(
             Document(job.directory / f"{certificate.number}{renderer.suffix}", renderer.render(certificate))
             for renderer in renderers
-        ),
-    )
+        )
+    return Outcome(certificate, documents)
+
+
+@contextlib.contextmanager
+def _garbage_collected_once() -> Iterator[None]:
+    """Collect garbage once, after a document, among what the document made.
+
+    Laying out pages makes a growing heap of objects that the collector would walk again and again for
+    nothing: about a fifth of the time of a certificate.
+    """
+    was_enabled = gc.isenabled()
+    gc.freeze()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if was_enabled:
+            gc.enable()
+        gc.collect()
+        gc.unfreeze()
 
 
 def write(documents: Iterable[Document]) -> tuple[Path, ...]:

@@ -138,6 +138,7 @@ class Registry:
         """Return the release of every plugin that a job's results come from, by its identifier."""
         used = [(Kind.SOURCE, job.source.identifier)]
         used.extend((Kind.STANDARD, choice.identifier) for choice in job.standards)
+        used.extend((Kind.EFFECT, choice.identifier) for choice in job.effects)
         return {key[1]: self.origins[key].release for key in used}
 
     def _find(

@@ -67,7 +67,7 @@ def test_a_missing_reading_is_a_dash_in_the_table_and_is_named_above_it():
     section = readings.section(measurements, Scribe.of(measurements, Language.ENGLISH))
     notice, table = section.blocks
     assert isinstance(notice, Notice)
-    assert notice.heading == "1 of 12 readings are missing; nothing was filled in"
+    assert notice.heading == "1 of 12 readings is missing; nothing was filled in"
     assert notice.items == ("target 100 mm ↓, run 2",)
     assert table.groups[0].rows[1][-1] == NOTHING
 

@@ -26,7 +26,7 @@ def test_nothing_is_written(shop: Shop) -> None:
 def test_missing_readings_are_told(shop: Shop) -> None:
     shop.job()
     shop.write("six.txt", "1 nan 3 -1 -2 -3")
-    assert "1 of 6 readings are missing" in shop.run("check", "job.yaml").output
+    assert "1 of 6 readings is missing" in shop.run("check", "job.yaml").output
 
 
 def test_mistakes_of_all_jobs_are_told(shop: Shop) -> None:

@@ -66,12 +66,12 @@ def test_missing_readings_are_told(shop: Shop) -> None:
     shop.write("six.txt", "1 nan 3 -1 -2 -3")
     run = shop.run("job.yaml")
     assert run.code == 0
-    assert "  missing  1 of 6 readings are missing; nothing was filled in" in run.output
+    assert "  missing  1 of 6 readings is missing; nothing was filled in" in run.output
     assert "target 100 mm ↑, run 1" in run.output
 
 
 def test_error_model_of_the_job_is_told_to_wait(shop: Shop) -> None:
-    shop.job(("evaluate:", "model: {effects: [offset]}\nevaluate:"))
+    shop.job(("evaluate:", "model: {effects: [exemplary-wave]}\nevaluate:"))
     assert "note  model.effects is kept as it stands" in shop.run("job.yaml").output
 
 

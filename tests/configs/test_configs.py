@@ -11,6 +11,7 @@ import pytest
 
 from environments import ROOT
 from zlmreport import pipeline
+from zlmreport.cli import main
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
 from zlmreport.plugins import Registry, find_plugins
@@ -20,7 +21,15 @@ CONFIGS = ROOT / "configs"
 JOBS = sorted(
     path for path in CONFIGS.rglob("*.yaml") if "schema: zlmreport/job/1" in path.read_text(encoding="utf-8")
 )
-DATA = sorted(CONFIGS.rglob("*.csv"))
+SIMULATIONS = sorted(
+    path
+    for path in CONFIGS.rglob("*.yaml")
+    if "schema: zlmreport/simulation/1" in path.read_text(encoding="utf-8")
+)
+#: Real readings; beside a simulation stand simulated ones.
+DATA = sorted(
+    path for path in CONFIGS.rglob("*.csv") if path.parent not in {each.parent for each in SIMULATIONS}
+)
 
 
 def name(path: Path) -> str:
@@ -75,6 +84,15 @@ def test_readings_name_their_source(path: Path) -> None:
 def test_readings_are_those_of_the_published_set(path: Path) -> None:
     published = [set(readings(file)) for file in (ROOT / "tests" / "data" / "published").glob("*.csv")]
     assert set(readings(path)) in published
+
+
+@pytest.mark.parametrize("path", SIMULATIONS, ids=name)
+def test_simulated_readings_are_those_that_the_simulation_makes(path: Path, tmp_path: Path) -> None:
+    assert main(["simulate", str(path), "--output", str(tmp_path)]) == 0
+    (made,) = tmp_path.glob("*.csv")
+    stands = (path.parent / made.name).read_text(encoding="utf-8")
+    assert made.read_text(encoding="utf-8") == stands
+    assert stands.startswith("# Simulated readings, not measurements.\n")
 
 
 def test_invented_parties_are_named_examples(jobs: list[Job]) -> None:

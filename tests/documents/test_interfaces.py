@@ -8,7 +8,9 @@ import re
 import pytest
 
 from documents.pages import DOCS
-from zlmreport import errors, hookspecs, protocols
+from zlmreport import errors, hookspecs
+from zlmreport.plugins import Kind
+from zlmreport.protocols import SourceContext
 
 _PAGE = (DOCS / "reference" / "plugin-interfaces.md").read_text(encoding="utf-8")
 _LIVE_HOOKS = [
@@ -18,7 +20,7 @@ _LIVE_HOOKS = [
 ]
 _MEMBERS = [
     f"{protocol.__name__}.{member}"
-    for protocol in (protocols.Standard, protocols.DataSource, protocols.SourceContext, protocols.Renderer)
+    for protocol in (*(kind.protocol for kind in Kind), SourceContext)
     for member in (
         *protocol.__annotations__,
         *(name for name in vars(protocol) if inspect.isfunction(vars(protocol)[name])),

@@ -269,6 +269,36 @@ WRONG_ADDITIONS = {
         "16:23",
         "model.effects.a: 'b' is not a group of keys",
     ),
+    "unknown effect": (
+        "model: {effects: [exemplary-wav]}",
+        "16:19",
+        "no plugin provides effect 'exemplary-wav'; did you mean 'exemplary-wave'?",
+    ),
+    "two effects in one item": (
+        "model: {effects: [{exemplary-wave: {}, height: {}}]}",
+        "16:19",
+        "model.effects: a group of keys is no effect; an effect is its name, or {name: {parameter: value}}",
+    ),
+    "unknown parameter of an effect": (
+        "model: {effects: [{exemplary-wave: {heigth: 3}}]}",
+        "16:37",
+        "unknown key 'heigth' in model.effects.exemplary-wave; did you mean 'height'? (known: height, rect",
+    ),
+    "parameter in words": (
+        "model: {effects: [{exemplary-wave: {height: high}}]}",
+        "16:45",
+        "model.effects.exemplary-wave.height: 'high' is not a number",
+    ),
+    "infinite parameter": (
+        "model: {effects: [{exemplary-wave: {height: .inf}}]}",
+        "16:45",
+        "model.effects.exemplary-wave.height: '.inf' is not a finite number",
+    ),
+    "own key of an effect": (
+        "model: {effects: [{exemplary-wave: {rectified: perhaps}}]}",
+        "16:48",
+        "model.effects.exemplary-wave.rectified: 'perhaps' is not true or false",
+    ),
     "merge key": ("<<: {}", "16:1", "'<<' is not used in a job; shared keys come from a file by 'extends'"),
     "tag": ("laboratory: !!python/object:os.system {}", "16:13", "a job uses no tags"),
     "key that is a list": ("? [a]\n: b", "16:3", "a key is a plain word"),

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from job.jobs import loaded, with_line
+from job.jobs import SOUND, loaded, mistakes, with_line, with_lines
 from zlmreport.measurement.axis import AxisKind
 
 
@@ -47,6 +47,51 @@ def test_bare_identifier_is_a_standard_with_its_usual_keys(tmp_path: Path) -> No
     assert choice.identifier == "exemplary:1"
     assert choice.options.factor == 2.0  # type: ignore[attr-defined]
     assert choice.tolerances == {}
+
+
+def test_bare_name_is_an_effect_with_all_its_parameters_free(tmp_path: Path) -> None:
+    (choice,) = loaded(with_lines("model: {effects: [exemplary-wave]}"), tmp_path).effects
+    assert (choice.identifier, choice.values) == ("exemplary-wave", {})
+
+
+def test_effect_has_its_own_keys_and_the_parameters_that_are_fixed(tmp_path: Path) -> None:
+    text = with_lines("model: {effects: [{exemplary-wave: {wavelength: 12.5, rectified: true}}]}")
+    (choice,) = loaded(text, tmp_path).effects
+    assert choice.values == {"wavelength": 12.5}
+    assert choice.settings.rectified  # type: ignore[attr-defined]
+    assert (choice.place.line, choice.place.column) == (16, 19)
+
+
+def test_effect_whose_group_of_parameters_is_empty_fixes_none(tmp_path: Path) -> None:
+    (choice,) = loaded(with_lines("model:", "  effects:", "  - exemplary-wave:"), tmp_path).effects
+    assert choice.values == {}
+
+
+def test_without_a_model_there_are_no_effects(tmp_path: Path) -> None:
+    assert loaded(SOUND, tmp_path).effects == ()
+
+
+def test_offset_from_the_scale_becomes_metres(tmp_path: Path) -> None:
+    axis = loaded(with_line(7, "axis: {name: X, abbe_offset: -150}"), tmp_path).axis
+    assert axis.abbe_offset == -0.15
+
+
+def test_tables_of_the_axis_are_read_beside_the_file_that_names_them(tmp_path: Path) -> None:
+    (tmp_path / "comp.csv").write_text("position,deviation\n0,0\n100,5\n", encoding="utf-8")
+    (tmp_path / "yaw.csv").write_text("position,angle\n0,0\n100,20\n", encoding="utf-8")
+    axis = loaded(
+        with_line(7, "axis: {name: X, compensation_table: comp.csv, angular_errors: yaw.csv}"), tmp_path
+    ).axis
+    assert axis.compensation_table is not None
+    assert axis.angular_errors is not None
+    assert axis.compensation_table.values == (0.0, 5e-6)
+    assert axis.angular_errors.values == (0.0, 20e-6)
+
+
+def test_mistake_in_a_table_is_told_at_its_line(tmp_path: Path) -> None:
+    (tmp_path / "comp.csv").write_text("position,deviation\n0,0\n100,five\n", encoding="utf-8")
+    (message,) = mistakes(with_line(7, "axis: {name: X, compensation_table: comp.csv}"), tmp_path)
+    assert message == "comp.csv:3:5: 'five' stands where a number belongs"
 
 
 def test_files_go_beside_the_job_unless_it_says_otherwise(tmp_path: Path) -> None:

@@ -59,6 +59,9 @@ def test_sound_job_fits() -> None:
         with_line(14, "  - {standard: 'exemplary:1', tolerances: {A: 1}}"),
         with_line(14, "  - {standard: 'exemplary:1', facto: 1}"),
         with_line(15, "output: {formats: [exemplar]}"),
+        with_lines("model: {effects: [exemplary-waves]}"),
+        with_lines("model: {effects: [{exemplary-wave: {height: high}}]}"),
+        with_lines("model: {effects: [{exemplary-wave: {}, other: {}}]}"),
         "schema: zlmreport/job/1\n",
     ],
 )
@@ -76,7 +79,7 @@ def test_what_the_program_refuses_does_not_fit(text: str) -> None:
         with_line(14, "  - exemplary:1"),
         with_line(14, "  - {standard: 'exemplary:1', factor: 3, tolerances: {R: 0.5}}"),
         with_lines("environment: {air_temperature: 20.5, remarks: none}"),
-        with_lines("laboratory:", "model: {effects: [offset, {backlash: {lost_motion: 3}}]}"),
+        with_lines("laboratory:", "model: {effects: [exemplary-wave, {exemplary-wave: {height: 3}}]}"),
         "extends: base.yaml\nlaboratory: {address: Here}\ncertificate: {issued: 2026-11-20}\n",
     ],
 )

@@ -37,9 +37,9 @@ class ExemplaryEffect(Effect):
 
     def __init__(self, settings: ExemplaryOptions | None = None) -> None:
         self.settings = settings or ExemplaryOptions()
+        self.rectified = self.settings.rectified
 
-    def with_settings(self, settings: Options) -> Effect:
-        assert isinstance(settings, ExemplaryOptions)
+    def with_settings(self, settings: ExemplaryOptions) -> Effect:
         return type(self)(settings)
 
     def forms(self) -> tuple[Effect, ...]:
@@ -55,8 +55,7 @@ class ExemplaryEffect(Effect):
 
     def columns(self, design: Design, theta: FloatArray) -> FloatArray:
         wave = np.sin(2 * np.pi * design.position / theta[0])
-        assert isinstance(self.settings, ExemplaryOptions)
-        return (np.maximum(wave, 0.0) if self.settings.rectified else wave)[:, np.newaxis]
+        return (np.maximum(wave, 0.0) if self.rectified else wave)[:, np.newaxis]
 
     def expected(self, axis: Axis) -> dict[str, float]:
         return {"wavelength": axis.screw_pitch} if axis.screw_pitch else {}

@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 from testing.exemplary import ExemplaryPage, ExemplaryRenderer
-from zlmreport.certificate.document import Block, Certificate
+from zlmreport.certificate.document import Block, Cell, Certificate, Table
 from zlmreport.language import Language, Words
 from zlmreport.testing import RENDERER_CHECKS, check_renderer, renderers, sample_certificate
 
@@ -99,9 +99,10 @@ def test_all_failures_are_reported_at_once() -> None:
 
 
 @pytest.mark.parametrize("language", Language)
-def test_the_sample_certificate_has_every_kind_of_block_that_a_certificate_can_have(
-    language: Language,
-) -> None:
+def test_the_sample_certificate_has_every_kind_of_block_and_of_cell(language: Language) -> None:
     certificate = sample_certificate(language)
     blocks = (*certificate.cover, *(block for section in certificate.sections for block in section.blocks))
+    tables = [block for block in blocks if isinstance(block, Table)]
+    cells = [cell for table in tables for group in table.groups for row in group.rows for cell in row]
     assert {type(block) for block in blocks} == set(Block.__args__)
+    assert {type(cell) for cell in cells} == set(Cell.__args__)

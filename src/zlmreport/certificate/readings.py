@@ -15,6 +15,14 @@ _MOST_COLUMNS = 10
 #: Missing readings that are named one by one.
 _MOST_NAMED = 12
 
+_ONE_MISSING = Words(
+    en="{count} of {all} readings is missing; nothing was filled in",
+    de="{count} von {all} Messwerten fehlt; nichts wurde ergänzt",
+)
+_MISSING = Words(
+    en="{count} of {all} readings are missing; nothing was filled in",
+    de="{count} von {all} Messwerten fehlen; nichts wurde ergänzt",
+)
 _TITLE = Words(en="Readings", de="Messwerte")
 _CAPTION = Words(
     en="Deviations x = actual − target position, in the order of runs",
@@ -40,10 +48,7 @@ def missing_readings(measurements: MeasurementSet, scribe: Scribe) -> Iterator[N
     missing = measurements.missing()
     if not missing:
         return
-    heading = Words(
-        en="{count} of {all} readings are missing; nothing was filled in",
-        de="{count} von {all} Messwerten fehlen; nichts wurde ergänzt",
-    ).given(
+    heading = (_ONE_MISSING if len(missing) == 1 else _MISSING).given(
         count=len(missing),
         all=len(measurements.approaches) * len(measurements.target_positions) * len(measurements.runs),
     )

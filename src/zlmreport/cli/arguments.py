@@ -18,6 +18,7 @@ _COMMANDS = {
     "init": "write a commented job with sample data that runs as it is",
     "plugins": "list the plugins found, and why one failed to load",
     "schema": "print the JSON Schema of the job file, for editors",
+    "simulate": "write simulated readings of a described axis, and a job for them",
 }
 
 _MAIN_DESCRIPTION = f"""\
@@ -173,7 +174,29 @@ def _schema(command: str) -> _Parser:
     )
 
 
-_PARSERS = {"check": _check, "init": _init, "plugins": _plugins, "schema": _schema}
+def _simulate(command: str) -> _Parser:
+    parser = _Parser(
+        f"zlmreport {command}",
+        "Write simulated readings of an axis: its effects, noise, conditions and the plan of its test\n"
+        "are described in a file. A job that evaluates them is written beside, unless it is there.",
+        "example:\n  zlmreport simulate configs/hidden-effect/simulation.yaml --output trial",
+    )
+    parser.add_argument(
+        "specification", metavar="SPEC.yaml", type=Path, help="simulation file (zlmreport/simulation/1)"
+    )
+    parser.add_argument(
+        "-o", "--output", metavar="DIR", type=Path, help="folder of the files, instead of the simulation's"
+    )
+    return parser
+
+
+_PARSERS = {
+    "check": _check,
+    "init": _init,
+    "plugins": _plugins,
+    "schema": _schema,
+    "simulate": _simulate,
+}
 
 
 def _add_jobs(parser: _Parser) -> None:

@@ -158,6 +158,9 @@ def _model(result: Result) -> Iterator[str]:
 
 
 def _shortened(name: str, longest: int) -> str:
+    """Return as much of a name as has room; its last part, a direction that the symbol shows, goes first."""
+    if len(name) > longest:
+        name = name.rsplit(", ", 1)[0]
     return name if len(name) <= longest else f"{name[: longest - 1].rstrip()}…"
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import os
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -25,8 +26,15 @@ class Composition:
     files: tuple[SourceFile, ...]
 
 
-def compose(path: Path) -> Composition:
+def compose(path: Path, content: bytes | None = None) -> Composition:
     """Read a job file and every file that it extends.
+
+    Parameters
+    ----------
+    path
+        The job file.
+    content
+        What it is to hold, instead of what it holds: to see what a change would come to.
 
     Raises
     ------
@@ -35,15 +43,19 @@ def compose(path: Path) -> Composition:
     InputError
         If a file is no YAML, or files extend each other in a circle.
     """
-    reader = _Reader()
+    reader = _Reader({} if content is None else {os.path.realpath(path): content})
     keys = reader.keys(path, (), None)
     return Composition(keys, tuple(reader.files.values()))
 
 
 @dataclass(slots=True)
 class _Reader:
-    """Reads each file once; `files` has them by their real path, the job file first."""
+    """Reads each file once; `files` has them by their real path, the job file first.
 
+    `given` holds the content of files that are not read from the disk.
+    """
+
+    given: Mapping[str, bytes]
     files: dict[str, SourceFile] = field(default_factory=dict)
     _known: dict[str, Keys] = field(default_factory=dict)
 
@@ -59,7 +71,7 @@ class _Reader:
         if named_at and len(chain) == LONGEST_CHAIN:
             raise InputError.at(named_at, f"more than {LONGEST_CHAIN} files extend one another in a row")
         if identity not in self._known:
-            content = _content(path, named_at)
+            content = self.given[identity] if identity in self.given else _content(path, named_at)
             digest = hashlib.sha256(content).hexdigest()
             self.files[identity] = SourceFile(path.name, digest, len(content))
             self._known[identity] = self._with_bases(parse(content, str(path)), (*chain, path))

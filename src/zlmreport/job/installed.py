@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Protocol
+from typing import Any, Protocol
 
 from zlmreport.errors import Place
 from zlmreport.job.options import Options
@@ -61,10 +61,41 @@ class InstalledRenderer(Protocol):
         """Of its files."""
 
 
+class NamedParameter(Protocol):
+    """A parameter of an effect."""
+
+    @property
+    def name(self) -> str:
+        """As jobs name it."""
+
+
+class InstalledEffect(Protocol):
+    """An effect with its own keys and the parameters that a job may give."""
+
+    @property
+    def identifier(self) -> str:
+        """As jobs name it."""
+
+    @property
+    def options(self) -> type[Options]:
+        """Its own keys."""
+
+    @property
+    def linear(self) -> Sequence[NamedParameter]:
+        """Parameters that are solved for."""
+
+    @property
+    def searched(self) -> Sequence[NamedParameter]:
+        """Parameters that are searched."""
+
+    def with_settings(self, settings: Any) -> InstalledEffect:
+        """Return the form of it that its own keys ask for."""
+
+
 class Installed(Protocol):
     """All plugins, by what jobs call them.
 
-    The three lookups raise `InputError` at `named_at` for an identifier that no plugin provides.
+    The lookups raise `InputError` at `named_at` for an identifier that no plugin provides.
     """
 
     @property
@@ -79,6 +110,10 @@ class Installed(Protocol):
     def renderers(self) -> Sequence[InstalledRenderer]:
         """All file formats."""
 
+    @property
+    def effects(self) -> Sequence[InstalledEffect]:
+        """All effects."""
+
     def source(self, identifier: str, named_at: Place | None = None) -> InstalledSource:
         """Return a data source."""
 
@@ -87,3 +122,6 @@ class Installed(Protocol):
 
     def renderer(self, identifier: str, named_at: Place | None = None) -> InstalledRenderer:
         """Return a file format."""
+
+    def effect(self, identifier: str, named_at: Place | None = None) -> InstalledEffect:
+        """Return an effect."""

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from zlmreport.errors import Place
+from zlmreport.job.effects import EffectChoice
 from zlmreport.job.model import JobKeys
 from zlmreport.job.options import Options
 from zlmreport.job.tree import Keys, Step, keys_of, place_of
@@ -54,12 +55,14 @@ class Job:
         The axis in SI.
     source, standards
         The plugins chosen, with their validated keys.
+    effects
+        The effects of the error model, with the parameters that it fixes.
     formats
         Identifiers of the renderers.
     directory
         Where the files go.
     files
-        The job file and every file that it extends, with digests.
+        The job file, every file that it extends, and the tables of its axis, with digests.
     tree
         What the files say, value by value, with the places.
     """
@@ -68,6 +71,7 @@ class Job:
     axis: Axis
     source: SourceChoice
     standards: tuple[StandardChoice, ...]
+    effects: tuple[EffectChoice, ...]
     formats: tuple[str, ...]
     directory: Path
     files: tuple[SourceFile, ...]

@@ -7,6 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from zlmreport.errors import InputError, Place, Problem, did_you_mean
+from zlmreport.job.effects import effect_choices
 from zlmreport.job.extends import compose
 from zlmreport.job.installed import Installed, InstalledStandard
 from zlmreport.job.interpret import axis_in_si, tolerances_in_si
@@ -17,9 +18,10 @@ from zlmreport.job.tree import Entry, Items, Keys, Node, Scalar, key_place, keys
 from zlmreport.job.validate import validate
 
 _SOURCE = ("measurement", "source")
+_EFFECTS = ("model", "effects")
 
 
-def load(path: Path, registry: Installed, formats: tuple[str, ...] = ()) -> Job:
+def load(path: Path, registry: Installed, formats: tuple[str, ...] = (), content: bytes | None = None) -> Job:
     """Read a job file and check all that can be checked without reading measurements.
 
     Parameters
@@ -30,6 +32,8 @@ def load(path: Path, registry: Installed, formats: tuple[str, ...] = ()) -> Job:
         The installed plugins.
     formats
         Identifiers of installed renderers, instead of those that the job names.
+    content
+        What the job file is to hold, instead of what it holds: to see what a change would come to.
 
     Raises
     ------
@@ -38,12 +42,13 @@ def load(path: Path, registry: Installed, formats: tuple[str, ...] = ()) -> Job:
     AccessError
         If the job, or a file that it extends, cannot be read.
     """
-    composition = compose(path)
+    composition = compose(path, content)
     tree = composition.keys
     problems: list[Problem] = []
     keys = validate(JobKeys, tree, problems)
     source = _source(tree, registry, problems)
     standards = list(_standards(tree, registry, problems))
+    effects = effect_choices(_at(tree, _EFFECTS), registry, problems, within=".".join(_EFFECTS))
     formats = formats or _formats(tree, keys, registry, problems)
     if keys:
         problems.extend(_contradictions(keys, tree))
@@ -58,9 +63,10 @@ def load(path: Path, registry: Installed, formats: tuple[str, ...] = ()) -> Job:
             replace(choice, tolerances=tolerances_in_si(each.tolerances, axis))
             for choice, each in zip(standards, keys.evaluate, strict=True)
         ),
+        effects=effects,
         formats=formats,
         directory=keys.output.directory or path.parent,
-        files=composition.files,
+        files=(*composition.files, *axis.files),
         tree=tree,
     )
 

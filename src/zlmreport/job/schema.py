@@ -8,7 +8,7 @@ from typing import Any, TypeAlias
 from pydantic import BaseModel
 from pydantic.errors import PydanticInvalidForJsonSchema
 
-from zlmreport.job.installed import Installed, InstalledSource, InstalledStandard
+from zlmreport.job.installed import Installed, InstalledEffect, InstalledSource, InstalledStandard
 from zlmreport.job.model import JobKeys, SourceKeys, StandardKeys
 
 Schema: TypeAlias = dict[str, Any]
@@ -31,6 +31,12 @@ def job_schema(registry: Installed) -> Schema:
             {"enum": [standard.identifier for standard in registry.standards]},
             *(_standard(standard, definitions) for standard in registry.standards),
         ],
+    }
+    definitions["Model"]["properties"]["effects"]["items"] = {
+        "anyOf": [
+            {"enum": [effect.identifier for effect in registry.effects]},
+            *(_effect(effect, definitions) for effect in registry.effects),
+        ]
     }
     formats = definitions["Output"]["properties"]["formats"]
     formats["items"] = {"enum": [renderer.identifier for renderer in registry.renderers]}
@@ -64,6 +70,27 @@ def _standard(standard: InstalledStandard, definitions: Schema) -> Schema:
         },
     }
     return _with_keys(_own_keys(standard.options, standard.identifier, definitions), keys)
+
+
+def _effect(effect: InstalledEffect, definitions: Schema) -> Schema:
+    """Return the schema of an effect with keys: its own, and its parameters in any of its forms.
+
+    Which parameters there are depends on its own keys, and a schema cannot say so of every plugin.
+    """
+    keys = _own_keys(effect.options, effect.identifier, definitions)
+    parameters = {
+        parameter.name: {"type": "number", "description": "Fixes this parameter at the value."}
+        for parameter in (*effect.linear, *effect.searched)
+    }
+    known = {**keys, "properties": {**parameters, **keys.get("properties", {})}}
+    if effect.options.model_fields:
+        known["additionalProperties"] = {"type": "number"}
+    return {
+        "type": "object",
+        "properties": {effect.identifier: {"anyOf": [{"type": "null"}, known]}},
+        "required": [effect.identifier],
+        "additionalProperties": False,
+    }
 
 
 def _own_keys(options: type[BaseModel], identifier: str, definitions: Schema) -> Schema:

@@ -83,6 +83,12 @@ class Axis:
     abbe_offset: float | None = None
 
     @property
+    def files(self) -> tuple[SourceFile, ...]:
+        """The files that the axis's tables were read from."""
+        tables = (self.compensation_table, self.angular_errors)
+        return tuple(table.source for table in tables if table and table.source)
+
+    @property
     def position_unit(self) -> Unit:
         """The unit in which positions are read and printed."""
         return MILLIMETRE if self.kind is AxisKind.LINEAR else DEGREE

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import Enum
-from typing import Protocol, runtime_checkable
+from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
 
@@ -79,7 +79,7 @@ class Effect(Protocol):
     options: type[Options] = Options
     settings: Options = Options()
 
-    def with_settings(self, settings: Options) -> Effect:  # noqa: ARG002 - this one has no keys
+    def with_settings(self, settings: Any) -> Effect:  # noqa: ARG002 - this one has no keys
         """Return the form of the effect that its job keys ask for."""
         return self
 

@@ -89,7 +89,7 @@ class Parameter:
         In words.
     smallest, largest
         The plausible range, SI; a value outside it is reported as implausible and never clipped. None
-        where nothing is known.
+        where nothing is known. The range of a time is in seconds and says nothing where time is counted.
     is_refined
         Of a searched parameter, whether the search goes on between the values of the grid: not where only
         these make sense (a number of teeth), or where nothing changes between them (the gap of a joint).

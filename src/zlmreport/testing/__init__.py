@@ -19,19 +19,24 @@ expected. The kit needs no test framework.
 """
 
 from zlmreport.testing.certificates import sample_certificate
+from zlmreport.testing.designs import full_designs
+from zlmreport.testing.effects import EFFECT_CHECKS, check_effect
 from zlmreport.testing.measurements import bidirectional_test, simulated_test
 from zlmreport.testing.renderers import RENDERER_CHECKS, check_renderer
 from zlmreport.testing.sources import SOURCE_CHECKS, check_source
 from zlmreport.testing.standards import STANDARD_CHECKS, check_standard
 
 __all__ = [
+    "EFFECT_CHECKS",
     "RENDERER_CHECKS",
     "SOURCE_CHECKS",
     "STANDARD_CHECKS",
     "bidirectional_test",
+    "check_effect",
     "check_renderer",
     "check_source",
     "check_standard",
+    "full_designs",
     "sample_certificate",
     "simulated_test",
 ]

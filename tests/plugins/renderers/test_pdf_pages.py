@@ -73,6 +73,10 @@ def test_following_pages_name_the_laboratory_and_the_subject() -> None:
         assert "Positioning of the X axis" in text
 
 
+def test_a_report_without_a_laboratory_is_printed() -> None:
+    assert "CAL-2026-0117" in texts(read(samples.certificate(standards=0, letterhead=None)))[-1]
+
+
 def test_a_table_over_several_pages_repeats_its_headings() -> None:
     _, *pages = texts(read(samples.certificate(standards=0, readings=samples.measurements(targets=150))))
     assert len(pages) > 2

@@ -1,0 +1,100 @@
+"""What is hidden in a test: effects of drawn parameters, brought to a size that the job's model leaves visible."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+
+import numpy as np
+
+from zlmreport.model.axis_model import Term
+from zlmreport.model.design import Design
+from zlmreport.model.effect import Effect
+from zlmreport.model.parameter import Dimension
+from zlmreport.quantities.arrays import FloatArray
+from zlmreport.simulation.visibility import beyond
+
+#: A deviation of which a smaller share is left is imitated entirely.
+_INVISIBLE = 1e-6
+
+
+def drawn_effect(
+    effect: Effect, design: Design, base: FloatArray, rms: float, random: np.random.Generator
+) -> Term | None:
+    """Return an effect in a form and with parameters drawn at random; None if the test cannot show it.
+
+    Parameters
+    ----------
+    effect
+        The effect.
+    design
+        The test, with its true conditions.
+    base : (N, q) array
+        Columns of the job's model.
+    rms
+        Root mean square value of what the model cannot imitate, m or rad.
+    random
+        Where everything comes from. No parameter is drawn that can only be positive and is not.
+    """
+    forms = [form for form in effect.forms() if form.untestable(design) is None]
+    if not forms:
+        return None
+    form = forms[int(random.integers(len(forms)))]
+    theta = _drawn_theta(form, design, random)
+    columns = form.columns(design, theta)
+    lengths = np.linalg.norm(columns, axis=0)
+    gamma = random.standard_normal(columns.shape[1]) / np.where(lengths > 0, lengths, 1.0)
+    only_positive = [parameter.smallest is not None and parameter.smallest >= 0 for parameter in form.linear]
+    gamma = np.where(only_positive, np.abs(gamma), gamma)
+    scale = scale_to(columns @ gamma, base, rms)
+    if scale is None:
+        return None
+    values = dict(zip((each.name for each in form.linear), (scale * gamma).tolist(), strict=True))
+    values |= dict(zip((each.name for each in form.searched), theta.tolist(), strict=True))
+    return Term(form, values)
+
+
+def scale_to(deviation: FloatArray, base: FloatArray, rms: float) -> float | None:
+    """Return the factor that brings what a model cannot imitate to a size; None if it imitates everything."""
+    left = float(np.sqrt(np.mean(beyond(base, deviation[:, np.newaxis]) ** 2)))
+    whole = float(np.sqrt(np.mean(deviation**2)))
+    return rms / left if left > _INVISIBLE * whole else None
+
+
+def imitations(
+    deviation: FloatArray, effects: Iterable[Effect], design: Design, base: FloatArray
+) -> Mapping[str, float]:
+    """Return which share of the visible part of a deviation each effect imitates, R², by identifier.
+
+    Over all forms and values of the searched parameters from which a search begins. An effect that would need
+    a parameter of the wrong sign imitates nothing.
+    """
+    visible = beyond(base, deviation[:, np.newaxis])[:, 0]
+    squares = float(visible @ visible)
+    found: dict[str, float] = {}
+    for effect in effects:
+        for form in effect.forms():
+            if form.untestable(design) is not None:
+                continue
+            for theta in form.grid(design):
+                columns = beyond(base, form.columns(design, theta))
+                gamma, *_ = np.linalg.lstsq(columns, visible, rcond=1e-9)
+                left = visible - columns @ gamma
+                share = 1.0 - float(left @ left) / squares if _has_possible_signs(form, gamma) else 0.0
+                found[form.identifier] = max(share, found.get(form.identifier, 0.0))
+    return found
+
+
+def _has_possible_signs(effect: Effect, gamma: FloatArray) -> bool:
+    if len(gamma) != 1:
+        return True
+    smallest = effect.linear[0].smallest
+    return smallest is None or smallest < 0 or gamma[0] >= 0
+
+
+def _drawn_theta(effect: Effect, design: Design, random: np.random.Generator) -> FloatArray:
+    """Return searched parameters from the range of the search, not only where it begins; teeth are whole."""
+    grid = effect.grid(design)
+    row = int(random.integers(len(grid)))
+    towards = grid[min(row + 1, len(grid) - 1)]
+    between = [parameter.dimension is not Dimension.RATIO for parameter in effect.searched]
+    return grid[row] + np.where(between, random.random(len(between)), 0.0) * (towards - grid[row])

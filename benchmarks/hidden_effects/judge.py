@@ -1,0 +1,99 @@
+"""One case from its draw to a line of the results."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Mapping
+from typing import Any
+
+from hidden_effects import generic, prediction
+from hidden_effects.cases import Case, Kind
+from hidden_effects.trial import EFFECTS, Trial, drawn_trial
+from zlmreport.model.axis_model import AxisModel, ModelError
+from zlmreport.model.diagnose import diagnose
+from zlmreport.model.diagnosis import Diagnosis, Verdict
+from zlmreport.model.observe import Observations, observe
+
+_INSTALLED = tuple(EFFECTS.values())
+#: Effects that a user who believes the first candidate would add to find a pair, and one more.
+_MOST_ADDED = 4
+
+
+def judged(case: Case, *, slow_ways: bool = False) -> dict[str, Any]:
+    """Return what comes of a case.
+
+    Parameters
+    ----------
+    case
+        The case.
+    slow_ways
+        Whether the generic ways that take half a minute are tried as well.
+    """
+    trial = drawn_trial(case)
+    record: dict[str, Any] = {
+        "key": case.key,
+        "kind": case.kind,
+        "hidden": list(case.hidden),
+        "method": case.method,
+        "scatter": case.scatter,
+        "size": case.size,
+        "draw": case.draw,
+    }
+    if trial is None:
+        return record | {"outcome": "not visible"}
+    started = time.process_time()
+    observed = observe(trial.first.measurements, overrun=trial.description.plan.overrun)
+    try:
+        diagnosis = diagnose(trial.model, observed, _INSTALLED)
+    except ModelError as error:
+        return record | {"outcome": "refused", "message": str(error)}
+    record |= {"outcome": "judged", "seconds": time.process_time() - started, **_said(diagnosis)}
+    record |= {"readings": len(observed.deviation), "twins": sorted(trial.twins)}
+    others = {name: share for name, share in trial.imitated.items() if name not in trial.twins}
+    if others:
+        nearest = max(others, key=others.__getitem__)
+        record |= {"nearest": nearest, "imitated": others[nearest]}
+    if case.kind is Kind.EFFECT:
+        record["second"] = prediction.errors(trial, diagnosis)
+        if generic.is_tried_on(case):
+            record["ways"] = generic.tried(trial, observed, slow=slow_ways)
+    if case.kind is Kind.PAIR:
+        record["added"] = _added(trial, observed, diagnosis)
+    return record
+
+
+def _said(diagnosis: Diagnosis) -> Mapping[str, Any]:
+    """Return what a diagnosis says, as far as it is judged."""
+    return {
+        "verdict": diagnosis.verdict,
+        "p_value": diagnosis.p_value,
+        "candidates": [
+            {
+                "effect": each.identifier,
+                "probability": each.probability,
+                "evidence": each.evidence,
+                "p_value": each.p_value,
+                "equals": list(each.equals),
+                "share": each.share,
+            }
+            for each in diagnosis.candidates
+        ],
+        "further": list(diagnosis.further),
+        "shape": diagnosis.unnamed.shape.en if diagnosis.unnamed else None,
+        "outliers": len(diagnosis.outliers),
+    }
+
+
+def _added(trial: Trial, observed: Observations, diagnosis: Diagnosis) -> list[list[str]]:
+    """Return what a user adds who believes each first candidate: its name and its equals, one after another."""
+    model: AxisModel = trial.model
+    added = []
+    while diagnosis.verdict is Verdict.MISSING and len(added) < _MOST_ADDED:
+        first = diagnosis.candidates[0]
+        added.append([first.identifier, *first.equals])
+        model = model.with_effect(first.effect)
+        try:
+            diagnosis = diagnose(model, observed, _INSTALLED)
+        except ModelError:
+            break
+    return added

@@ -1,0 +1,58 @@
+"""The error on a second test of the same axis: of the job's model, of the model with what the diagnosis adds,
+and of the model with what was hidden. That last one is the oracle's, who knows the effect and not its parameters.
+
+The error is that against the true deviation, without the scatter of readings: what a compensation or a
+certificate built on the model would be off.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from hidden_effects.trial import Measured, Trial
+from zlmreport.model.axis_model import ModelError
+from zlmreport.model.diagnosis import Diagnosis, Verdict
+from zlmreport.model.effect import Effect
+from zlmreport.model.fit import Fit, fit
+from zlmreport.model.observe import Observations, observe
+
+
+def errors(trial: Trial, diagnosis: Diagnosis) -> dict[str, float]:
+    """Return the errors on a second test over σ: ``before``, ``after``, and the ``oracle``'s.
+
+    A user adds the first candidate where the verdict is that an effect is missing, and nothing otherwise.
+    """
+    again = trial.again()
+    before = diagnosis.fit
+    truth = trial.effects[0].effect
+    oracle = _error(_with(before, truth), trial, again)
+    found = {"before": _error(before, trial, again), "oracle": oracle}
+    added = diagnosis.candidates[0].effect if diagnosis.verdict is Verdict.MISSING else None
+    if added is None:
+        return found | {"after": found["before"]}
+    if (added.identifier, added.settings) == (truth.identifier, truth.settings):
+        return found | {"after": oracle}
+    try:
+        return found | {"after": _error(_with(before, added), trial, again)}
+    except ModelError:
+        return found | {"after": found["before"]}
+
+
+def seen_again(trial: Trial, again: Measured) -> Observations:
+    """Return the second test as a model is asked about it: with the travel of the first."""
+    seen = observe(again.measurements, overrun=trial.description.plan.overrun)
+    return replace(seen, design=replace(seen.design, span=trial.first.design.span))
+
+
+def _with(before: Fit, effect: Effect) -> Fit:
+    return fit(before.model.with_effect(effect), before.design, before.deviation)
+
+
+def _error(fitted: Fit, trial: Trial, again: Measured) -> float:
+    seen = seen_again(trial, again)
+    design = replace(seen.design, span=fitted.design.span)
+    truth = (again.known + again.hidden)[seen.reading]
+    difference = fitted.predict(design).deviation - truth
+    return float(np.sqrt(np.mean(difference**2))) / trial.sigma

@@ -1,0 +1,15 @@
+"""The air in the beam, as it was logged."""
+
+from __future__ import annotations
+
+from zlmreport.model.design import Design
+from zlmreport.physics.refractive_index import index_change
+from zlmreport.quantities.arrays import FloatArray
+
+LOGS = ("air_temperature", "air_pressure", "relative_humidity")
+
+
+def logged_index_change(design: Design) -> FloatArray:
+    """Return Δn at each reading, against standard air."""
+    temperature, pressure, humidity = (design.conditions[name] for name in LOGS)
+    return index_change(temperature, pressure, humidity)

@@ -1,0 +1,81 @@
+"""The control's compensation table acts one row off."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+import numpy as np
+from pydantic import Field
+
+from zlmreport.job.options import Options
+from zlmreport.language import Words
+from zlmreport.measurement.axis import Axis
+from zlmreport.model import needs
+from zlmreport.model.design import Design
+from zlmreport.model.effect import Confusion, Effect, Shape
+from zlmreport.model.parameter import Dimension, Parameter
+from zlmreport.quantities.arrays import FloatArray
+from zlmreport_plugins.effects import told_apart
+
+
+class ShiftOptions(Options):
+    """Which way the table is off."""
+
+    rows: Literal[1, -1] = Field(
+        1, description="1: the control applies the value of the next row; -1: that of the row before."
+    )
+
+
+class CompensationShift(Effect):
+    """Each value of the table acts where its neighbour should: the first row was counted from 0 or from 1.
+
+    What is left is the table's own change from row to row; the factor is 1 if this is the cause.
+    """
+
+    identifier = "compensation-shift"
+    title = Words(en="Compensation one row off", de="Kompensation um eine Zeile verschoben")
+    equation = "k·[C(P) − C(P + Δ)]"
+    linear = (
+        Parameter(
+            "factor",
+            "k",
+            Dimension.RATIO,
+            Words(en="1: exactly one row off", de="1: genau eine Zeile verschoben"),
+            0.5,
+            1.5,
+        ),
+    )
+    shape = Shape.POSITION
+    look = Words(
+        en="The residuals look like the slope of the compensation table.",
+        de="Die Residuen sehen aus wie die Steigung der Kompensationstabelle.",
+    )
+    confusions = (Confusion("compensation-sign", told_apart.TABLE_READ_BACK),)
+    options = ShiftOptions
+
+    def __init__(self, settings: ShiftOptions | None = None) -> None:
+        self.settings = settings or ShiftOptions()
+        self.rows = self.settings.rows
+
+    def with_settings(self, settings: ShiftOptions) -> Effect:
+        """Return the effect with the stated shift."""
+        return CompensationShift(settings)
+
+    def forms(self) -> tuple[Effect, ...]:
+        """Return the shift to either side."""
+        return (CompensationShift(ShiftOptions(rows=1)), CompensationShift(ShiftOptions(rows=-1)))
+
+    def untestable(self, design: Design) -> Words | None:
+        """Demand the table."""
+        return needs.stated(design.axis.compensation_table, "axis.compensation_table")
+
+    def columns(self, design: Design, theta: FloatArray) -> FloatArray:  # noqa: ARG002 - no θ
+        """Return one column: what the table should do, less what it does."""
+        table = design.axis.compensation_table
+        assert table is not None  # noqa: S101  # else it is untestable
+        shifted = design.position + self.rows * table.interval
+        return (table.at(design.position) - table.at(shifted))[:, np.newaxis]
+
+    def expected(self, axis: Axis) -> dict[str, float]:  # noqa: ARG002 - of any axis
+        """Return that the shift is one row, and not part of one."""
+        return {"factor": 1.0}

@@ -1,0 +1,75 @@
+"""The gear of a rotary axis errs with every tooth."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from zlmreport.language import Words
+from zlmreport.measurement.axis import Axis
+from zlmreport.model import needs
+from zlmreport.model.design import Design
+from zlmreport.model.effect import Confusion, Effect, Shape
+from zlmreport.model.harmonic import harmonic_columns, harmonic_parameters
+from zlmreport.model.parameter import Dimension, Parameter
+from zlmreport.quantities.arrays import FloatArray
+from zlmreport_plugins.effects import told_apart
+
+_LARGEST = 200e-6
+_TURN = 2 * math.pi
+#: One and two waves a turn have names of their own; fewer waves in the travel are a bow.
+_FEWEST_TEETH = 3
+_FEWEST_WAVES = 1.3
+_LEAST_TARGETS = 6
+
+
+class GearMesh(Effect):
+    """A whole number of waves a turn: teeth of the worm wheel or of the pinion, poles of a torque motor.
+
+    The pitch of the gear in degrees, `axis.screw_pitch`, gives the number; without it whole numbers are
+    scanned, as many as the targets can tell. Targets every 30° are blind to a wheel of 360 teeth.
+    """
+
+    identifier = "gear-mesh"
+    title = Words(en="Periodic error of the gear", de="Periodische Abweichung des Getriebes")
+    equation = "A·sin(zθ + φ)"
+    linear = harmonic_parameters([1], _LARGEST)
+    searched = (
+        Parameter(
+            "teeth",
+            "z",
+            Dimension.RATIO,
+            Words(en="waves a turn: teeth or poles", de="Wellen je Umdrehung: Zähne oder Pole"),
+            _FEWEST_TEETH,
+            is_refined=False,
+        ),
+    )
+    shape = Shape.POSITION
+    look = Words(
+        en="The residuals make a whole number of waves a turn.",
+        de="Die Residuen bilden eine ganze Zahl von Wellen je Umdrehung.",
+    )
+    confusions = (Confusion("periodic", told_apart.FULL_TURN),)
+
+    def untestable(self, design: Design) -> Words | None:
+        """Demand a rotary axis, and enough targets for a wave."""
+        return needs.rotary_axis(design) or needs.targets(design, _LEAST_TARGETS)
+
+    def grid(self, design: Design) -> FloatArray:
+        """Return the number that the job states, or the numbers that the targets can tell."""
+        stated = self.expected(design.axis)
+        if stated:
+            return np.array([[stated["teeth"]]])
+        turns = design.length / _TURN
+        fewest = max(_FEWEST_TEETH, math.ceil(_FEWEST_WAVES / turns))
+        most = max(fewest, math.floor(len(design.target_positions) / (2 * turns)))
+        return np.arange(fewest, most + 1, dtype=np.float64)[:, np.newaxis]
+
+    def columns(self, design: Design, theta: FloatArray) -> FloatArray:
+        """Return sine and cosine."""
+        return harmonic_columns(theta[0] * design.position, [1])
+
+    def expected(self, axis: Axis) -> dict[str, float]:
+        """Return the number of teeth that a stated pitch means."""
+        return {} if axis.screw_pitch is None else {"teeth": float(round(_TURN / axis.screw_pitch))}

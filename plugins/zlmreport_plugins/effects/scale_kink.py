@@ -1,0 +1,62 @@
+"""The slope of the deviation changes at one position."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from zlmreport.language import Words
+from zlmreport.model import needs
+from zlmreport.model.design import Design
+from zlmreport.model.effect import Confusion, Effect, Shape
+from zlmreport.model.parameter import Dimension, Parameter
+from zlmreport.quantities.arrays import FloatArray
+from zlmreport_plugins.effects import told_apart
+
+_LEAST_TARGETS = 5
+#: Closer to the ends a kink is hardly more than a single target that stands off.
+_PLACES = np.linspace(0.12, 0.88, 20)
+
+
+class ScaleKink(Effect):
+    """A kink: the end of a segment in a compensation table, a worn stretch, a second element of the scale."""
+
+    identifier = "scale-kink"
+    title = Words(en="Change of slope at one position", de="Knick der Abweichung an einer Position")
+    equation = "A·max(0, P − P_{0})"
+    linear = (
+        Parameter(
+            "slope",
+            "A",
+            Dimension.SLOPE,
+            Words(en="change of the slope", de="Änderung der Steigung"),
+            -100e-6,
+            100e-6,
+        ),
+    )
+    searched = (
+        Parameter(
+            "kink", "P_{0}", Dimension.POSITION, Words(en="position of the kink", de="Position des Knicks")
+        ),
+    )
+    shape = Shape.POSITION
+    look = Words(
+        en="The residuals lie on two straight lines that meet at one position.",
+        de="Die Residuen liegen auf zwei Geraden, die sich an einer Position treffen.",
+    )
+    confusions = (
+        Confusion("polynomial", told_apart.DENSER_TARGETS),
+        Confusion("scale-joint", told_apart.STEP_SEARCHED),
+    )
+
+    def untestable(self, design: Design) -> Words | None:
+        """Demand targets on both sides."""
+        return needs.targets(design, _LEAST_TARGETS)
+
+    def grid(self, design: Design) -> FloatArray:
+        """Return places along the travel, the ends left out."""
+        return (design.middle + (_PLACES - 0.5) * design.length)[:, np.newaxis]
+
+    def columns(self, design: Design, theta: FloatArray) -> FloatArray:
+        """Return one column: the distance beyond the kink."""
+        beyond = design.position - float(theta[0])
+        return np.maximum(0.0, beyond)[:, np.newaxis]

@@ -1,0 +1,144 @@
+"""Where the values of a YAML file stand in its text, from the first character to the last.
+
+A tree of values says what a file means; this says how it is written, so that one value can be changed while
+everything around it stays as its writer left it.
+"""
+
+from __future__ import annotations
+
+from bisect import bisect_left, bisect_right
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from enum import Enum
+from typing import Any
+
+import yaml
+
+
+class Form(Enum):
+    """How a value is written."""
+
+    SCALAR = "scalar"
+    ALIAS = "alias"
+    LINES = "list, an item a line"
+    BRACKETS = "list in brackets"
+    INDENTED = "keys, one a line"
+    BRACES = "keys in braces"
+
+
+@dataclass(frozen=True, slots=True)
+class Extent:
+    """A value as it is written.
+
+    Attributes
+    ----------
+    form
+        How.
+    start, end
+        Its first character, and the one after its last; comments and blanks behind it do not belong to it.
+    parts
+        Of a list its items, of keys each key and its value in turn.
+    text
+        Of a single value, quotes resolved.
+    """
+
+    form: Form
+    start: int
+    end: int
+    parts: tuple[Extent, ...] = ()
+    text: str = ""
+
+    def entry(self, name: str) -> tuple[Extent, Extent] | None:
+        """Return a key and its value, if these are keys and it is among them."""
+        if self.form not in {Form.INDENTED, Form.BRACES}:
+            return None
+        for key, value in zip(self.parts[::2], self.parts[1::2], strict=True):
+            if key.text == name:
+                return key, value
+        return None
+
+
+@dataclass(frozen=True, slots=True)
+class Written:
+    """A file's text, and where in it everything stands.
+
+    Attributes
+    ----------
+    text
+        Of the file, without a byte order mark.
+    root
+        Its value.
+    """
+
+    text: str
+    root: Extent
+    _dashes: tuple[int, ...]
+    _colons: tuple[int, ...]
+
+    @classmethod
+    def of(cls, text: str) -> Written:
+        """Return a text that has been read as YAML before, with the places of its values."""
+        dashes, colons = [], []
+        for token in yaml.scan(text, Loader=yaml.SafeLoader):
+            if isinstance(token, yaml.BlockEntryToken):
+                dashes.append(token.start_mark.index)
+            elif isinstance(token, yaml.ValueToken):
+                colons.append(token.start_mark.index)
+        events = yaml.parse(text, Loader=yaml.SafeLoader)
+        starts = (yaml.StreamStartEvent, yaml.DocumentStartEvent)
+        first = next(event for event in events if not isinstance(event, starts))
+        return cls(text, _extent(first, events, text), tuple(dashes), tuple(colons))
+
+    def dash_of(self, item: Extent) -> int:
+        """Return where the dash of an item stands."""
+        return self._dashes[bisect_right(self._dashes, item.start) - 1]
+
+    def after_colon_of(self, key: Extent) -> int:
+        """Return the character after the colon of a key."""
+        return self._colons[bisect_left(self._colons, key.end)] + 1
+
+    def line_start(self, index: int) -> int:
+        """Return where the line of a character begins."""
+        return max(self.text.rfind("\n", 0, index), self.text.rfind("\r", 0, index)) + 1
+
+    def line_end(self, index: int) -> int:
+        """Return where the line of a character ends, before its line break."""
+        ends = [end for mark in "\r\n" if (end := self.text.find(mark, index)) >= 0]
+        return min(ends, default=len(self.text))
+
+    def break_at(self, index: int) -> str:
+        """Return the line break that stands at an index; the first of the file where none does."""
+        for mark in ("\r\n", "\n", "\r"):
+            if self.text.startswith(mark, index):
+                return mark
+        first = self.line_end(0)
+        return self.break_at(first) if 0 < first < len(self.text) else "\n"
+
+    def column(self, index: int) -> int:
+        """Return the column of a character, from 0."""
+        return index - self.line_start(index)
+
+
+def _extent(event: Any, events: Iterator[Any], text: str) -> Extent:
+    start = event.start_mark.index
+    if isinstance(event, yaml.AliasEvent):
+        return Extent(Form.ALIAS, start, event.end_mark.index)
+    if isinstance(event, yaml.ScalarEvent):
+        end = event.end_mark.index
+        if event.style in {"|", ">"}:  # the mark stands where the next value begins
+            end = start + len(text[start:end].rstrip())
+        return Extent(Form.SCALAR, start, end, text=event.value)
+    is_list = isinstance(event, yaml.SequenceStartEvent)
+    parts = []
+    while not isinstance(after := next(events), yaml.SequenceEndEvent | yaml.MappingEndEvent):
+        parts.append(_extent(after, events, text))
+    if event.flow_style:
+        # A single pair stands in the brackets of a list without braces of its own.
+        has_braces = text.startswith(("[", "{"), event.end_mark.index - 1) and event.end_mark.index > start
+        end = after.end_mark.index if has_braces else _end(parts, start)
+        return Extent(Form.BRACKETS if is_list else Form.BRACES, start, end, tuple(parts))
+    return Extent(Form.LINES if is_list else Form.INDENTED, start, _end(parts, start), tuple(parts))
+
+
+def _end(parts: Sequence[Extent], start: int) -> int:
+    return max((part.end for part in parts), default=start)

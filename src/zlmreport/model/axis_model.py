@@ -1,0 +1,199 @@
+"""The error model of an axis: effects added up."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from zlmreport.errors import did_you_mean
+from zlmreport.language import Language
+from zlmreport.model.design import Design
+from zlmreport.model.effect import Effect
+from zlmreport.model.parameter import Parameter
+from zlmreport.quantities.arrays import BoolArray, FloatArray
+
+#: A combination of columns this much shorter than its longest member is zero but for rounding.
+_ROUNDING = 1e-10
+_TAKES_PART = 0.05
+
+
+class ModelError(Exception):
+    """A model that these readings cannot carry.
+
+    Parameters
+    ----------
+    sentences
+        What is wrong and what would be right, each fit to stand behind a place in a file.
+    """
+
+    def __init__(self, sentences: Sequence[str]) -> None:
+        self.sentences = tuple(sentences)
+        super().__init__("; ".join(self.sentences))
+
+
+@dataclass(frozen=True, slots=True)
+class Term:
+    """An effect in a model.
+
+    Attributes
+    ----------
+    effect
+        The effect, in the form that the job asks for.
+    fixed
+        Values of parameters that are given and not estimated, SI, by name.
+    """
+
+    effect: Effect
+    fixed: Mapping[str, float] = field(default_factory=dict)
+
+    @property
+    def parameters(self) -> tuple[Parameter, ...]:
+        """Its parameters, the linear ones first."""
+        return (*self.effect.linear, *self.effect.searched)
+
+    @property
+    def is_solved(self) -> BoolArray:
+        """Which of its columns have a coefficient that is estimated, shape (k,)."""
+        return np.array([each.name not in self.fixed for each in self.effect.linear], dtype=np.bool_)
+
+    def grid(self, design: Design) -> FloatArray:
+        """Return the values of θ that its search begins with, given values put in their places."""
+        grid = np.array(self.effect.grid(design), dtype=np.float64)
+        for column, parameter in enumerate(self.effect.searched):
+            if parameter.name in self.fixed:
+                grid[:, column] = self.fixed[parameter.name]
+        return np.unique(grid, axis=0)
+
+    def is_searched(self, design: Design) -> BoolArray:
+        """Which values of θ are estimated, shape (s,): a grid of one row is knowledge, not a search."""
+        known = len(self.effect.grid(design)) == 1
+        return np.array(
+            [not known and each.name not in self.fixed for each in self.effect.searched], dtype=np.bool_
+        )
+
+    def columns(self, design: Design, theta: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return the columns whose coefficients are estimated, and the deviation that is given."""
+        columns = self.effect.columns(design, theta)
+        solved = self.is_solved
+        given = np.array([self.fixed.get(each.name, 0.0) for each in self.effect.linear])
+        return columns[:, solved], columns[:, ~solved] @ given[~solved]
+
+
+@dataclass(frozen=True, slots=True)
+class AxisModel:
+    """The sum of effects that describes an axis.
+
+    Attributes
+    ----------
+    terms
+        The effects, in the order of the job.
+    """
+
+    terms: tuple[Term, ...]
+
+    @property
+    def identifiers(self) -> tuple[str, ...]:
+        """The identifiers of its effects."""
+        return tuple(term.effect.identifier for term in self.terms)
+
+    def with_effect(self, effect: Effect) -> AxisModel:
+        """Return the model with one more effect; what that contains, or takes the place of, goes out."""
+        replaced = {effect.identifier, *effect.contains}
+        kept = tuple(term for term in self.terms if term.effect.identifier not in replaced)
+        return AxisModel((*kept, Term(effect)))
+
+    def without(self, identifier: str) -> AxisModel:
+        """Return the model without an effect."""
+        return AxisModel(tuple(term for term in self.terms if term.effect.identifier != identifier))
+
+    def check(self, design: Design) -> None:
+        """Refuse a model that makes no sense on a design.
+
+        Raises
+        ------
+        ModelError
+            With every mistake: an effect twice or beside one that contains it, a value given for a parameter
+            that there is not, an effect that the test cannot show, too few readings.
+        """
+        sentences = [*self._clashes(), *self._unknown_parameters(), *self._untestable(design)]
+        if not sentences:
+            estimated = sum(
+                int(np.count_nonzero(term.is_solved) + np.count_nonzero(term.is_searched(design)))
+                for term in self.terms
+            )
+            if len(design.position) <= estimated:
+                sentences.append(
+                    f"the model has {estimated} parameters to estimate and the test {len(design.position)} "
+                    "readings; measure more, or take effects out"
+                )
+        if sentences:
+            raise ModelError(sentences)
+
+    def _clashes(self) -> Iterator[str]:
+        names = self.identifiers
+        for name in dict.fromkeys(names):
+            if names.count(name) > 1:
+                yield f"{name} stands in the model {names.count(name)} times; once is enough"
+        for term in self.terms:
+            for contained in term.effect.contains:
+                if contained in names:
+                    yield (
+                        f"{term.effect.identifier} contains {contained}, and no readings can tell them apart; "
+                        f"remove {contained}"
+                    )
+
+    def _unknown_parameters(self) -> Iterator[str]:
+        for term in self.terms:
+            known = [parameter.name for parameter in term.parameters]
+            for name in term.fixed:
+                if name not in known:
+                    advice = did_you_mean(name, known)
+                    yield f"{term.effect.identifier} has no parameter {name!r}; {advice}"
+
+    def _untestable(self, design: Design) -> Iterator[str]:
+        for term in self.terms:
+            why = term.effect.untestable(design)
+            if why is not None:
+                yield (
+                    f"{term.effect.identifier} cannot be fitted to these readings: "
+                    f"{why.in_language(Language.ENGLISH)}"
+                )
+
+
+def refuse_collisions(model: AxisModel, columns: Sequence[FloatArray]) -> None:
+    """Refuse a model whose columns depend on each other.
+
+    Parameters
+    ----------
+    model
+        The model.
+    columns
+        Its columns on the design, term by term, shape (N, k).
+
+    Raises
+    ------
+    ModelError
+        Naming, for each dependence, the effects that take part.
+    """
+    owner = np.repeat(np.arange(len(columns)), [each.shape[1] for each in columns])
+    together = np.concatenate(columns, axis=1)
+    lengths = np.linalg.norm(together, axis=0)
+    names = model.identifiers
+    silent = [names[index] for index in dict.fromkeys(owner[lengths == 0].tolist())]
+    if silent:
+        raise ModelError([f"{name} has no influence on any of these readings; remove it" for name in silent])
+    _, singular, right = np.linalg.svd(together / lengths, full_matrices=len(together) < len(lengths))
+    singular = np.concatenate([singular, np.zeros(len(lengths) - len(singular))])
+    sentences = []
+    for direction in right[singular <= _ROUNDING * singular.max(initial=0.0)]:
+        part = np.abs(direction) > _TAKES_PART * np.abs(direction).max()
+        taking = [names[index] for index in dict.fromkeys(owner[part].tolist())]
+        if len(taking) == 1:
+            sentences.append(f"these readings do not determine all parameters of {taking[0]}; remove it")
+        else:
+            listed = ", ".join(taking[:-1]) + f" and {taking[-1]}"
+            sentences.append(f"these readings cannot tell {listed} apart; remove one of them")
+    if sentences:
+        raise ModelError(list(dict.fromkeys(sentences)))

@@ -1,0 +1,207 @@
+"""What each effect could add to a model: its columns for every value of its searched parameters.
+
+They depend on the plan of the test and on the model, not on what was measured; so they are made once, and
+every set of deviations, measured or simulated, is held against the same.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from itertools import groupby
+
+import numpy as np
+
+from zlmreport.model.contrasts import Contrasts, Metric
+from zlmreport.model.design import Design
+from zlmreport.model.effect import Effect
+from zlmreport.quantities.arrays import FloatArray, IntArray
+
+
+@dataclass(frozen=True, slots=True)
+class Family:
+    """A form of an effect with every value of its searched parameters at which the plan can see it.
+
+    Attributes
+    ----------
+    effect
+        The effect, in this form.
+    thetas : (g, s) array
+        Values of the searched parameters, one row for each block of columns.
+    visible : (g,) array
+        Length of each block's visible part over that of the whole, 0 to 1.
+    """
+
+    effect: Effect
+    thetas: FloatArray
+    visible: FloatArray
+
+
+@dataclass(frozen=True, slots=True)
+class BlockGroup:
+    """All blocks of one width, those of a family side by side.
+
+    Attributes
+    ----------
+    width
+        Columns of a block.
+    families
+        Their families, as a range of all families.
+    starts : (families,) integer array
+        The first block of each family, counted within the group.
+    columns
+        Their columns, as a range of all columns.
+    ranks : (blocks,) array
+        Columns of each block that are not zero.
+    """
+
+    width: int
+    families: slice
+    starts: IntArray
+    columns: slice
+    ranks: FloatArray
+
+    @property
+    def blocks(self) -> int:
+        """How many there are."""
+        return len(self.ranks)
+
+
+@dataclass(frozen=True, slots=True)
+class Bases:
+    """What all effects together could add to a model.
+
+    Attributes
+    ----------
+    families
+        Forms of effects that the plan can see, in the order of the widths of their blocks.
+    contestants
+        For each effect, the places of its forms among the families.
+    invisible
+        Effects of which it sees no form: all they would add, the model has already.
+    groups
+        The blocks by width.
+    columns : (N, K) array
+        Error contrasts, orthonormal within each block.
+    """
+
+    families: tuple[Family, ...]
+    contestants: tuple[tuple[int, ...], ...]
+    invisible: tuple[Effect, ...]
+    groups: tuple[BlockGroup, ...]
+    columns: FloatArray
+
+    def roots(self, metric: Metric, shared: FloatArray) -> tuple[FloatArray, ...]:
+        """Return for each group the inverse roots of its blocks' Gram matrices, shape (blocks, k, k).
+
+        Parameters
+        ----------
+        metric
+            The inner product for one φ.
+        shared : (r, K) array
+            ZᵀU, products of the noise's factors and the columns.
+        """
+        found = []
+        coordinates = metric.root @ shared
+        for group in self.groups:
+            block = coordinates[:, group.columns].reshape(len(shared), group.blocks, group.width)
+            gram = np.eye(group.width) - np.einsum("rgi,rgj->gij", block, block)
+            if group.width == 1:
+                found.append(1.0 / np.sqrt(gram))
+            else:
+                found.append(np.linalg.inv(np.linalg.cholesky(gram)))
+        return tuple(found)
+
+
+def bases_of(design: Design, space: Contrasts, effects: Iterable[Effect], least_visible: float) -> Bases:
+    """Return what effects could add to a model.
+
+    Parameters
+    ----------
+    design
+        The test.
+    space
+        The contrasts of the model.
+    effects
+        Forms of effects that can be tested on the design; those of one effect share its identifier.
+    least_visible
+        Share of a block's length below which nothing is left of it but rounding.
+    """
+    listed = tuple(effects)
+    found = [(effect, _visible(design, space, effect, least_visible)) for effect in listed]
+    seen = sorted((each for _, each in found if each), key=lambda each: each.blocks.shape[2])
+    identifiers = dict.fromkeys(each.family.effect.identifier for each in seen)
+    return Bases(
+        tuple(each.family for each in seen),
+        tuple(
+            tuple(place for place, each in enumerate(seen) if each.family.effect.identifier == identifier)
+            for identifier in identifiers
+        ),
+        tuple(
+            {
+                effect.identifier: effect
+                for effect, each in found
+                if not each and effect.identifier not in identifiers
+            }.values()
+        ),
+        _groups(seen),
+        np.concatenate(
+            [np.empty((len(design.position), 0)), *(_columns(each.blocks) for each in seen)], axis=1
+        ),
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class _Visible:
+    """A family with its blocks of orthonormal contrasts, shape (g, N, k), and their ranks."""
+
+    family: Family
+    blocks: FloatArray
+    ranks: FloatArray
+
+
+def _visible(design: Design, space: Contrasts, effect: Effect, least: float) -> _Visible | None:
+    """Return what of an effect the plan can see beside the model; None if nothing."""
+    thetas = effect.grid(design)
+    blocks = np.stack([effect.columns(design, theta) for theta in thetas])
+    whole = np.linalg.norm(blocks, axis=(1, 2))
+    contrasts = space.of(blocks.transpose(1, 0, 2)).transpose(1, 0, 2)
+    shares = np.linalg.norm(contrasts, axis=(1, 2)) / np.where(whole > 0, whole, 1.0)
+    seen = shares > least
+    if not seen.any():
+        return None
+    lengths = np.linalg.norm(blocks[seen], axis=1, keepdims=True)
+    scaled = contrasts[seen] / np.where(lengths > 0, lengths, 1.0)
+    left, singular, _ = np.linalg.svd(scaled, full_matrices=False)
+    independent = singular > least * singular[:, :1]
+    return _Visible(
+        Family(effect, thetas[seen], shares[seen]),
+        left * independent[:, np.newaxis, :],
+        independent.sum(axis=1).astype(np.float64),
+    )
+
+
+def _columns(blocks: FloatArray) -> FloatArray:
+    """Return blocks (g, N, k) side by side, shape (N, g·k)."""
+    return blocks.transpose(1, 0, 2).reshape(blocks.shape[1], -1)
+
+
+def _groups(seen: Sequence[_Visible]) -> tuple[BlockGroup, ...]:
+    groups = []
+    first_family = first_column = 0
+    for width, members in groupby(seen, key=lambda each: each.blocks.shape[2]):
+        listed = list(members)
+        ranks = np.concatenate([each.ranks for each in listed])
+        starts = np.cumsum([0, *(len(each.ranks) for each in listed)])[:-1]
+        groups.append(
+            BlockGroup(
+                width,
+                slice(first_family, first_family + len(listed)),
+                starts.astype(np.int64),
+                slice(first_column, first_column + len(ranks) * width),
+                ranks,
+            )
+        )
+        first_family += len(listed)
+        first_column += len(ranks) * width
+    return tuple(groups)

@@ -1,0 +1,257 @@
+"""The contest: how much better would each effect explain the readings than the model alone?
+
+Two numbers for each effect. Its likelihood ratio LR, of the best values of its parameters and of the noise,
+says whether something is missing once it is held against what chance would give (`calibration`). Its
+evidence, averaged over those values, says which effect it is: one that fits wherever its searched parameters
+point is better explained than one that had to be pointed. Both count the base model as zero, in units of
+2·ln(likelihood).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from zlmreport.model.bases import Bases, BlockGroup, bases_of
+from zlmreport.model.contrasts import Contrasts, Metric, contrasts_of
+from zlmreport.model.design import Design
+from zlmreport.model.effect import Effect
+from zlmreport.model.noise import NoisePart, NoiseSource, noise_parts, ratio_grid
+from zlmreport.model.rivals import SIZES, Rival, RivalModes, modes, rivals_of, side_by_side
+from zlmreport.quantities.arrays import FloatArray, IntArray
+
+
+@dataclass(frozen=True, slots=True)
+class Scores:
+    """How the contestants did on B sets of deviations.
+
+    Attributes
+    ----------
+    ratios : (effects, B) array
+        LR of each effect, in its best form.
+    rival_ratios : (rivals, B) array
+        LR of each rival, its coefficients averaged over.
+    """
+
+    ratios: FloatArray
+    rival_ratios: FloatArray
+
+
+@dataclass(frozen=True, slots=True)
+class Evidence:
+    """How the contestants explain one set of deviations.
+
+    Attributes
+    ----------
+    effects : (effects,) array
+        2·ln of each effect's Bayes factor against the model alone.
+    rivals : (rivals,) array
+        The same of the rivals.
+    best
+        For each effect, its best form's place among the families, and the row of its thetas that fits best.
+    """
+
+    effects: FloatArray
+    rivals: FloatArray
+    best: tuple[tuple[int, int], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class _Trial:
+    """Sets of deviations under one φ: residual squares, and products with all columns and features."""
+
+    index: int
+    squares: FloatArray
+    products: FloatArray
+    rival_products: FloatArray
+
+
+@dataclass(frozen=True, slots=True)
+class Contest:
+    """Everything about a contest that does not depend on what was measured.
+
+    Attributes
+    ----------
+    space
+        The contrasts of the base model.
+    grid : (f, parts) array
+        The values of φ that are tried.
+    bases
+        What the effects could add.
+    rivals
+        Shapes without a name.
+    """
+
+    space: Contrasts
+    grid: FloatArray
+    bases: Bases
+    rivals: tuple[Rival, ...]
+    _metrics: tuple[Metric, ...]
+    _shared: FloatArray
+    _roots: tuple[tuple[FloatArray, ...], ...]
+    _rival_columns: FloatArray
+    _rival_shared: FloatArray
+    _rival_places: IntArray
+    _rival_modes: dict[int, RivalModes]
+
+    @classmethod
+    def of(
+        cls,
+        design: Design,
+        base: FloatArray,
+        effects: Iterable[Effect],
+        weights: FloatArray,
+        *,
+        least_visible: float = 1e-6,
+    ) -> Contest:
+        """Prepare a contest.
+
+        Parameters
+        ----------
+        design
+            The test.
+        base : (N, q) array
+            Columns of the base model, tangents of its searched parameters included.
+        effects
+            That can be tested on the design.
+        weights : (N,) array
+            w, the variance of each reading over the mean one.
+        least_visible
+            Share of an effect's length below which the base model imitates it entirely.
+        """
+        parts = noise_parts(design)
+        space = contrasts_of(base, parts, weights)
+        grid = ratio_grid(parts)
+        bases = bases_of(design, space, effects, least_visible)
+        rivals = rivals_of(design, space)
+        columns, places = side_by_side(rivals, len(base))
+        metrics = tuple(space.metric(ratios) for ratios in grid)
+        shared, rival_shared = space.factors.T @ bases.columns, space.factors.T @ columns
+        gram = np.stack([columns[:, row].T @ columns[:, row] for row in places])
+        return cls(
+            space,
+            grid,
+            bases,
+            rivals,
+            metrics,
+            shared,
+            tuple(bases.roots(metric, shared) for metric in metrics),
+            columns,
+            rival_shared,
+            places,
+            {index: modes(metrics[index], rival_shared, gram, places) for index in _coarse(grid, parts)},
+        )
+
+    def scores(self, deviations: FloatArray) -> Scores:
+        """Return the likelihood ratios on sets of deviations, shape (N, B)."""
+        sets = deviations.shape[1]
+        null = np.full(sets, np.inf)
+        families = np.full((len(self.bases.families), sets), np.inf)
+        rivals = np.full((len(self.rivals), sets), np.inf)
+        for trial in self._trials(deviations):
+            np.minimum(null, self._criterion(trial, trial.squares), out=null)
+            for group, explained in self._explained(trial):
+                most = np.maximum.reduceat(explained, group.starts, axis=0)
+                listed = families[group.families]
+                np.minimum(listed, self._criterion(trial, trial.squares - most), out=listed)
+            for averaged in self._rival_criteria(trial):
+                np.minimum(rivals, averaged, out=rivals)
+        best = [families[list(forms)].min(axis=0) for forms in self.bases.contestants]
+        return Scores(null - np.array(best).reshape(-1, sets), null - rivals)
+
+    def evidence(self, deviation: FloatArray) -> Evidence:
+        """Return the evidence of one set of deviations, shape (N,)."""
+        null: list[float] = []
+        fits: list[FloatArray] = []
+        averages: list[FloatArray] = []
+        rivals: list[FloatArray] = []
+        for trial in self._trials(deviation[:, np.newaxis]):
+            null.append(self._criterion(trial, trial.squares)[0])
+            explained = [each[:, 0] for _, each in self._explained(trial)]
+            ranks = [group.ranks for group in self.bases.groups]
+            together, rank = np.concatenate([*explained, []]), np.concatenate([*ranks, []])
+            fits.append(self._criterion(trial, trial.squares - together))
+            shrunk = together * self._prior / (1.0 + self._prior)
+            averages.append(self._criterion(trial, trial.squares - shrunk) + rank * np.log1p(self._prior))
+            rivals.extend(averaged[:, 0] for averaged in self._rival_criteria(trial))
+        return self._by_effect(np.array(fits), np.array(averages), np.array(null), np.array(rivals))
+
+    @property
+    def _prior(self) -> float:
+        """Variance of an effect before the readings are known, over that which they leave: one reading's worth."""
+        return float(self.space.degrees)
+
+    def _by_effect(
+        self, fits: FloatArray, averages: FloatArray, null: FloatArray, rivals: FloatArray
+    ) -> Evidence:
+        """Average the criteria, shape (f, blocks), over noise, searched parameters and forms."""
+        base = _average(null)
+        ends = np.cumsum([len(family.thetas) for family in self.bases.families])
+        by_family = np.split(averages, ends[:-1], axis=1)
+        least = [each.min(axis=0) for each in np.split(fits, ends[:-1], axis=1)]
+        evidence, best = [], []
+        for forms in self.bases.contestants:
+            evidence.append(base - _average(np.array([_average(by_family[form]) for form in forms])))
+            form = min(forms, key=lambda place: float(least[place].min()))
+            best.append((form, int(np.argmin(least[form]))))
+        of_rivals = [base - _average(rival) for rival in rivals.T]
+        return Evidence(np.array(evidence), np.array(of_rivals), tuple(best))
+
+    def _trials(self, deviations: FloatArray) -> Iterator[_Trial]:
+        contrasts = self.space.of(deviations)
+        squares = np.sum(contrasts**2, axis=0)
+        by_factor = self.space.factors.T @ contrasts
+        by_column = self.bases.columns.T @ contrasts
+        by_rival = self._rival_columns.T @ contrasts
+        for index, metric in enumerate(self._metrics):
+            coordinates = metric.root @ by_factor
+            back = metric.root.T @ coordinates
+            yield _Trial(
+                index,
+                squares - np.sum(coordinates**2, axis=0),
+                by_column - self._shared.T @ back,
+                by_rival - self._rival_shared.T @ back if index in self._rival_modes else by_rival,
+            )
+
+    def _criterion(self, trial: _Trial, squares: FloatArray) -> FloatArray:
+        """Return −2 ln(likelihood) of residual squares, σ profiled out."""
+        return self.space.degrees * np.log(squares) + self._metrics[trial.index].log_determinant
+
+    def _explained(self, trial: _Trial) -> Iterator[tuple[BlockGroup, FloatArray]]:
+        """Yield for each group what its blocks explain of the squares, shape (blocks, B)."""
+        for group, roots in zip(self.bases.groups, self._roots[trial.index], strict=True):
+            products = trial.products[group.columns]
+            if group.width == 1:
+                yield group, (roots[:, 0] * products) ** 2
+            else:
+                blocks = products.reshape(group.blocks, group.width, -1)
+                yield group, np.sum((roots @ blocks) ** 2, axis=1)
+
+    def _rival_criteria(self, trial: _Trial) -> Iterator[FloatArray]:
+        """Yield for each size that is tried the criterion of every rival, shape (rivals, B)."""
+        found = self._rival_modes.get(trial.index)
+        if found is None or not self.rivals:
+            return
+        squared = (found.turn @ trial.rival_products[self._rival_places]) ** 2
+        for size in SIZES:
+            spread = 1.0 + size * found.strengths
+            explained = ((size / spread)[:, np.newaxis, :] @ squared)[:, 0]
+            averaged = np.log(spread).sum(axis=1)[:, np.newaxis]
+            yield self._criterion(trial, trial.squares - explained) + averaged
+
+
+def _average(criteria: FloatArray) -> float:
+    """Return −2 ln of the mean likelihood."""
+    least = criteria.min()
+    return float(least - 2.0 * np.log(np.mean(np.exp(-0.5 * (criteria - least)))))
+
+
+def _coarse(grid: FloatArray, parts: tuple[NoisePart, ...]) -> list[int]:
+    """Return the rows of the grid under which the rivals are tried: all geometry, but little of the rest."""
+    kept = np.ones(len(grid), dtype=np.bool_)
+    for column, part in zip(grid.T, parts, strict=True):
+        if part.source is not NoiseSource.POSITION:
+            kept &= (column == 0) | (column == part.ratios[len(part.ratios) // 2])
+    return np.flatnonzero(kept).tolist()

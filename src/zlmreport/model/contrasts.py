@@ -1,0 +1,159 @@
+"""Error contrasts: what is left of the readings when a model's columns are projected out.
+
+Restricted likelihood and contest see nothing else, so the base model is removed once and for all. In this
+space V(φ) is the unit matrix plus parts of low rank, and every product with its inverse is one with r × r
+matrices (Woodbury), r the number of targets, runs and drift terms; the number of readings does not matter.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import product
+
+import numpy as np
+
+from zlmreport.model.noise import NoisePart
+from zlmreport.quantities.arrays import FloatArray
+
+#: Columns that add less than this share of their length to those before them add nothing.
+_DEPENDENT = 1e-9
+_REFINEMENTS = (4.0, 2.0, 1.4, 1.15)
+#: Likelihood that a further step must gain.
+_WORTHWHILE = 1e-3
+_SMALLEST_RATIO = 1e-3
+#: Square of a residual that is no residual at all, m² or rad².
+_NOTHING = 1e-60
+
+
+@dataclass(frozen=True, slots=True)
+class Metric:
+    """The inner product of error contrasts under one covariance: aᵀ·V⁻¹·b = aᵀb − (R·Zᵀa)ᵀ(R·Zᵀb).
+
+    Attributes
+    ----------
+    root : (r, r) array
+        R.
+    log_determinant
+        ln|V| within the space of contrasts.
+    """
+
+    root: FloatArray
+    log_determinant: float
+
+
+@dataclass(frozen=True, slots=True)
+class Contrasts:
+    """The space of error contrasts of a base model.
+
+    Attributes
+    ----------
+    base : (N, q) array
+        Orthonormal columns that span the model, each reading divided by √w.
+    scale : (N,) array
+        1/√w.
+    parts
+        The sources of shared scatter.
+    factors : (N, r) array
+        Their factors Z side by side, as contrasts.
+    gram : (r, r) array
+        ZᵀZ.
+    """
+
+    base: FloatArray
+    scale: FloatArray
+    parts: tuple[NoisePart, ...]
+    factors: FloatArray
+    gram: FloatArray
+
+    @property
+    def degrees(self) -> int:
+        """The dimension of the space: readings less columns."""
+        return int(self.base.shape[0] - self.base.shape[1])
+
+    def of(self, columns: FloatArray) -> FloatArray:
+        """Return the contrasts of columns over the readings, shape (N, …)."""
+        flat = (columns.reshape(len(columns), -1)) * self.scale[:, np.newaxis]
+        flat = flat - self.base @ (self.base.T @ flat)
+        return flat.reshape(columns.shape)
+
+    def metric(self, ratios: FloatArray) -> Metric:
+        """Return the inner product for one φ, shape (parts,)."""
+        roots = np.sqrt(np.repeat(ratios, [part.factor.shape[1] for part in self.parts]))
+        factor = np.linalg.cholesky(np.eye(len(roots)) + roots[:, np.newaxis] * self.gram * roots)
+        return Metric(np.linalg.inv(factor) * roots, 2.0 * float(np.log(np.diagonal(factor)).sum()))
+
+    def restricted(self, contrasts: FloatArray, ratios: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return −2 ln(restricted likelihood) and the residual sum of squares, σ profiled out.
+
+        Parameters
+        ----------
+        contrasts : (N, B) array
+            Of B sets of deviations.
+        ratios : (parts,) array
+            φ.
+        """
+        metric = self.metric(ratios)
+        shared = metric.root @ (self.factors.T @ contrasts)
+        squares = np.sum(contrasts**2, axis=0) - np.sum(shared**2, axis=0)
+        return self.degrees * np.log(np.maximum(squares, _NOTHING)) + metric.log_determinant, squares
+
+
+def contrasts_of(base: FloatArray, parts: Sequence[NoisePart], weights: FloatArray) -> Contrasts:
+    """Return the space of error contrasts.
+
+    Parameters
+    ----------
+    base : (N, q) array
+        Columns of the model; those that depend on others count once.
+    parts
+        The sources of shared scatter.
+    weights : (N,) array
+        w, the variance of each reading over the mean one.
+    """
+    scale = 1.0 / np.sqrt(weights)
+    weighted = base * scale[:, np.newaxis]
+    lengths = np.linalg.norm(weighted, axis=0)
+    left, singular, _ = np.linalg.svd(weighted[:, lengths > 0] / lengths[lengths > 0], full_matrices=False)
+    orthonormal = left[:, singular > _DEPENDENT * singular[:1].max(initial=0.0)]
+    factors = np.concatenate([np.empty((len(base), 0)), *(part.factor for part in parts)], axis=1)
+    factors = factors * scale[:, np.newaxis]
+    factors -= orthonormal @ (orthonormal.T @ factors)
+    return Contrasts(orthonormal, scale, tuple(parts), factors, factors.T @ factors)
+
+
+def restricted_estimate(
+    space: Contrasts, contrasts: FloatArray, grid: FloatArray, largest: FloatArray
+) -> tuple[FloatArray, float]:
+    """Return φ̂ and σ̂² by restricted maximum likelihood.
+
+    Parameters
+    ----------
+    space
+        The contrasts of the model.
+    contrasts : (N,) array
+        Of the deviations.
+    grid : (f, parts) array
+        Ratios that the search begins with.
+    largest : (parts,) array
+        Ratios that it does not exceed.
+    """
+    column = contrasts[:, np.newaxis]
+
+    def criterion(ratios: FloatArray) -> float:
+        return float(space.restricted(column, ratios)[0][0])
+
+    tried = [criterion(ratios) for ratios in grid]
+    best, ratios = min(tried), grid[int(np.argmin(tried))].copy()
+    for step in _REFINEMENTS:
+        improved = True
+        while improved:
+            improved = False
+            for part, factor in product(range(len(ratios)), (step, 1 / step)):
+                changed = ratios.copy()
+                changed[part] = min(max(ratios[part], _SMALLEST_RATIO) * factor, largest[part])
+                value = criterion(changed)
+                if value < best - _WORTHWHILE:
+                    best, ratios, improved = value, changed, True
+    squares = float(space.restricted(column, ratios)[1][0])
+    return ratios, squares / space.degrees

@@ -1,0 +1,209 @@
+"""Parameters as estimated: value, uncertainty, and whether the value is physically plausible."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from enum import Enum
+from math import inf, sqrt
+
+import numpy as np
+
+from zlmreport.measurement.axis import Axis
+from zlmreport.model.axis_model import Term
+from zlmreport.model.distributions import t_quantile
+from zlmreport.model.parameter import Dimension, Parameter
+from zlmreport.model.search import Place, Problem, Solution
+from zlmreport.model.variance import VarianceOfVariance
+from zlmreport.quantities.arrays import FloatArray
+
+#: Probability of expanded uncertainties: that of two standard deviations of a normal variable.
+COVERAGE = 0.9545
+_WELL_KNOWN = 1e5
+
+
+class Plausibility(Enum):
+    """How a value lies to the range that is physically plausible."""
+
+    PLAUSIBLE = "plausible"
+    DOUBTFUL = "within its uncertainty of the plausible range"
+    IMPLAUSIBLE = "outside the plausible range"
+    UNKNOWN = "nothing is known of what is plausible"
+
+
+@dataclass(frozen=True, slots=True)
+class Estimate:
+    """A parameter of the model as estimated.
+
+    Attributes
+    ----------
+    effect
+        Identifier of its effect.
+    parameter
+        What it is.
+    value
+        SI.
+    standard_uncertainty
+        SI; 0 for a given value.
+    degrees
+        Effective degrees of freedom of the uncertainty; infinite for a given value.
+    is_given
+        Whether it was given and not estimated.
+    expected
+        The value that follows from the job, SI; None where none does.
+    """
+
+    effect: str
+    parameter: Parameter
+    value: float
+    standard_uncertainty: float
+    degrees: float
+    is_given: bool = False
+    expected: float | None = None
+
+    @property
+    def coverage_factor(self) -> float:
+        """The factor k to the expanded uncertainty of 95 %."""
+        return coverage_factor(self.degrees)
+
+    @property
+    def expanded_uncertainty(self) -> float:
+        """U = k·u, SI."""
+        return self.coverage_factor * self.standard_uncertainty
+
+    @property
+    def distance_from_expected(self) -> float | None:
+        """z = (value − expected)/u; None where nothing is expected, or the value has no uncertainty."""
+        if self.expected is None or self.standard_uncertainty == 0:
+            return None
+        return (self.value - self.expected) / self.standard_uncertainty
+
+    def plausibility(self, *, time_is_counted: bool) -> Plausibility:
+        """Return how the value lies to its plausible range; nothing is known of counted times."""
+        smallest, largest = self.parameter.smallest, self.parameter.largest
+        counted = time_is_counted and self.parameter.dimension is Dimension.TIME
+        if counted or (smallest is None and largest is None):
+            return Plausibility.UNKNOWN
+        low, high = -inf if smallest is None else smallest, inf if largest is None else largest
+        if low <= self.value <= high:
+            return Plausibility.PLAUSIBLE
+        reach = self.expanded_uncertainty
+        if low <= self.value + reach and self.value - reach <= high:
+            return Plausibility.DOUBTFUL
+        return Plausibility.IMPLAUSIBLE
+
+
+def coverage_factor(degrees: float) -> float:
+    """Return k for an expanded uncertainty of 95.45 %: 2 where the standard uncertainty is well known."""
+    return 2.0 if degrees > _WELL_KNOWN else t_quantile(COVERAGE, degrees)
+
+
+@dataclass(frozen=True, slots=True)
+class Uncertainties:
+    """What the uncertainty of every estimate follows from.
+
+    Attributes
+    ----------
+    sigma
+        Standard deviation of a single reading, m or rad.
+    inverse : (p, p) array
+        (JᵀV⁻¹J)⁻¹.
+    systematic : (p, 2) array
+        What the instrument's error does to the parameters.
+    variances
+        How well the variance is known.
+    """
+
+    sigma: float
+    inverse: FloatArray
+    systematic: FloatArray
+    variances: VarianceOfVariance
+
+    def of(self, rows: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return standard uncertainty and degrees of freedom of linear combinations, rows of shape (M, p)."""
+        scaled = np.einsum("np,pq,nq->n", rows, self.inverse, rows)
+        random = self.sigma**2 * scaled
+        total = random + np.sum((rows @ self.systematic) ** 2, axis=1)
+        degrees = np.array(
+            [self.variances.degrees(row, part) for row, part in zip(rows, scaled, strict=True)]
+        )
+        # The instrument's share is known from its certificate: Welch and Satterthwaite with one term.
+        return np.sqrt(total), degrees * (total / np.where(random > 0, random, 1.0)) ** 2
+
+
+def estimates_of(
+    problem: Problem, solution: Solution, places: Sequence[Place], uncertainties: Uncertainties
+) -> tuple[Estimate, ...]:
+    """Return every parameter of a fitted model, in its order, the linear ones of each effect first."""
+    count = len(uncertainties.inverse)
+    standard, degrees = uncertainties.of(np.eye(count))
+    solved = iter(zip(standard.tolist(), degrees.tolist(), strict=True))
+    linear = [list(_linear(term, gamma, solved)) for term, gamma in _terms(problem, solution)]
+    by_place = {
+        (place.term, place.column): (
+            float(standard[count - len(places) + number]),
+            float(degrees[count - len(places) + number]),
+        )
+        for number, place in enumerate(places)
+    }
+    found: list[Estimate] = []
+    for index, term in enumerate(problem.model.terms):
+        found.extend(_expecting(each, term, problem.design.axis) for each in linear[index])
+        searched = term.is_searched(problem.design)
+        for column, parameter in enumerate(term.effect.searched):
+            value = float(solution.thetas[index][column])
+            if not searched[column]:
+                estimate = Estimate(term.effect.identifier, parameter, value, 0.0, inf, is_given=True)
+            else:
+                u, nu = by_place.get((index, column), (0.0, inf))
+                if u == 0 or not np.isfinite(u):
+                    u, nu = _half_width(problem, solution, index, column, uncertainties.sigma) / sqrt(3), inf
+                estimate = Estimate(term.effect.identifier, parameter, value, u, nu)
+            found.append(_expecting(estimate, term, problem.design.axis))
+    return tuple(found)
+
+
+def _terms(problem: Problem, solution: Solution) -> Iterator[tuple[Term, FloatArray]]:
+    return zip(problem.model.terms, solution.coefficients, strict=True)
+
+
+def _linear(term: Term, gamma: FloatArray, solved: Iterator[tuple[float, float]]) -> Iterator[Estimate]:
+    for parameter, value, is_solved in zip(term.effect.linear, gamma.tolist(), term.is_solved, strict=True):
+        u, degrees = next(solved) if is_solved else (0.0, inf)
+        yield Estimate(term.effect.identifier, parameter, value, u, degrees, is_given=not is_solved)
+
+
+def _expecting(estimate: Estimate, term: Term, axis: Axis) -> Estimate:
+    expected = term.effect.expected(axis).get(estimate.parameter.name)
+    if expected is None:
+        return estimate
+    return Estimate(
+        estimate.effect,
+        estimate.parameter,
+        estimate.value,
+        estimate.standard_uncertainty,
+        estimate.degrees,
+        estimate.is_given,
+        expected,
+    )
+
+
+def _half_width(problem: Problem, solution: Solution, index: int, column: int, sigma: float) -> float:
+    """Return half the interval of a θ that jumps from value to value and has no derivative.
+
+    Its likelihood is flat between two readings, and falls in steps: the interval is that of the values of
+    the grid which four variances of a reading do not exclude, and half the distance to the next on each side.
+    """
+    grid = problem.model.terms[index].grid(problem.design)
+    others = np.delete(grid, column, axis=1) == np.delete(solution.thetas[index], column)
+    line = grid[np.all(others, axis=1)]
+    limit = solution.squares + 4.0 * sigma**2
+    value = float(solution.thetas[index][column])
+    farthest = 0.0
+    for theta in line:
+        thetas = (*solution.thetas[:index], theta, *solution.thetas[index + 1 :])
+        if problem.solution(thetas).squares <= limit:
+            farthest = max(farthest, abs(float(theta[column]) - value))
+    values = np.unique(line[:, column])
+    spacing = float(np.median(np.diff(values))) if len(values) > 1 else 0.0
+    return farthest + spacing / 2

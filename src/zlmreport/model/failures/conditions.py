@@ -1,0 +1,32 @@
+"""Test against logged conditions: does the residual, or its slope along the axis, follow one of them?"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from zlmreport.language import Words, same
+from zlmreport.model.failures.failure import Failure, ResidualTest
+from zlmreport.model.failures.residuals import Residuals
+
+_FOLLOWS = Words(
+    en="the zero or the slope of the residuals follows {condition}",
+    de="Nullpunkt oder Steigung der Residuen folgen {condition}",
+)
+
+
+def conditions(residuals: Residuals) -> Failure | None:
+    """Return the test of the logged condition that the residuals follow most closely."""
+    design = residuals.design
+    p_values = {}
+    for name, log in design.conditions.items():
+        if np.ptp(log) == 0:
+            continue
+        change = log - log.mean()
+        columns = np.column_stack([change, change * (design.position - design.middle)])
+        p_values[name] = residuals.p_value(columns)
+    if not p_values:
+        return None
+    closest = min(p_values, key=p_values.__getitem__)
+    p_value = min(1.0, len(p_values) * p_values[closest])
+    statement = _FOLLOWS.given(condition=same(closest))
+    return Failure(ResidualTest.CONDITION, p_value, same(closest), statement)

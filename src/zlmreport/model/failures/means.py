@@ -1,0 +1,123 @@
+"""Tests of the means: do targets, directions and runs deviate from the model more than repeats allow?"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from zlmreport.language import Words
+from zlmreport.model import wording
+from zlmreport.model.cells import repeats
+from zlmreport.model.distributions import f_tail
+from zlmreport.model.failures.failure import Failure, ResidualTest
+from zlmreport.model.failures.residuals import Residuals
+from zlmreport.quantities.arrays import FloatArray, IntArray
+
+_LACK_OF_FIT = Words(
+    en="the means of the positions deviate from the model by up to {size}, more than their repeats allow",
+    de="die Mittelwerte der Positionen weichen um bis zu {size} vom Modell ab, mehr als ihre Wiederholungen "
+    "erlauben",
+)
+_SIGNS = Words(
+    en="along the axis the residuals keep their sign longer than chance would have it ({changes} changes, "
+    "{expected} expected)",
+    de="längs der Achse behalten die Residuen ihr Vorzeichen länger als der Zufall ({changes} Wechsel, "
+    "{expected} erwartet)",
+)
+_DIRECTION = Words(
+    en="upwards the residuals lie {size} higher than downwards",
+    de="aufwärts liegen die Residuen um {size} höher als abwärts",
+)
+_DIRECTION_ALONG = Words(
+    en="the difference between up and down changes along the axis",
+    de="der Unterschied zwischen aufwärts und abwärts ändert sich längs der Achse",
+)
+_RUNS = Words(
+    en="the runs are displaced from one another, run {run} most ({size})",
+    de="die Durchläufe sind gegeneinander verschoben, am meisten Durchlauf {run} ({size})",
+)
+_WHOLE_AXIS = Words(en="along the whole axis", de="längs der ganzen Achse")
+_RUN = Words(en="run {run}", de="Durchlauf {run}")
+
+_PERMUTATIONS = 400
+_SEED = 20_261_118
+_ORDERS = 4
+
+
+def lack_of_fit(residuals: Residuals) -> Failure | None:
+    """Return the F-test of what the model leaves of the means against the pure error of the repeats."""
+    fit, design = residuals.fit, residuals.design
+    within = repeats(design, fit.residual)
+    means = len(within.count) - (len(fit.deviation) - fit.degrees)
+    if within.degrees < 1 or means < 1 or within.squares == 0:
+        return None
+    left = float(np.sum(fit.residual**2)) - within.squares
+    p_value = f_tail((left / means) / (within.squares / within.degrees), means, within.degrees)
+    of_cells = fit.residual - within.centred
+    worst = int(np.argmax(np.abs(of_cells)))
+    size = wording.deviation(design.axis, abs(float(of_cells[worst])))
+    return Failure(
+        ResidualTest.LACK_OF_FIT, p_value, wording.cell(design, worst), _LACK_OF_FIT.given(size=size)
+    )
+
+
+def signs(residuals: Residuals) -> Failure | None:
+    """Return the test of the changes of sign of the positions' mean residuals along the axis."""
+    design = residuals.design
+    means = [
+        _means(residuals.fit.residual[side], design.target[side])
+        for side in (design.direction > 0, design.direction < 0)
+        if np.count_nonzero(side)
+    ]
+    signs_ = [np.sign(each - np.median(each)) for each in means if len(each) > 2]
+    if not signs_:
+        return None
+    found = sum(_changes(each[np.newaxis])[0] for each in signs_)
+    random = np.random.default_rng(_SEED)
+    chance = np.sum(
+        [_changes(random.permuted(np.tile(each, (_PERMUTATIONS, 1)), axis=1)) for each in signs_], axis=0
+    )
+    p_value = (1 + int(np.count_nonzero(chance <= found))) / (_PERMUTATIONS + 1)
+    statement = _SIGNS.given(changes=int(found), expected=wording.number(float(np.mean(chance)), 1))
+    return Failure(ResidualTest.SIGNS, p_value, _WHOLE_AXIS, statement)
+
+
+def direction(residuals: Residuals) -> Failure | None:
+    """Return the test of a difference between the directions, constant or changing along the axis."""
+    design = residuals.design
+    if not design.is_bidirectional:
+        return None
+    sign = design.direction
+    along = 2 * (design.position - design.middle) / (design.length or 1.0)
+    gap = residuals.p_value(sign[:, np.newaxis])
+    shape = residuals.p_value(sign[:, np.newaxis] * np.vander(along, _ORDERS))
+    residual = residuals.fit.residual
+    size = float(np.mean(residual[sign > 0]) - np.mean(residual[sign < 0]))
+    if gap <= shape:
+        statement = _DIRECTION.given(size=wording.deviation(design.axis, size))
+    else:
+        statement = _DIRECTION_ALONG
+    return Failure(ResidualTest.DIRECTION, min(1.0, 2 * min(gap, shape)), _WHOLE_AXIS, statement)
+
+
+def runs(residuals: Residuals) -> Failure | None:
+    """Return the test of runs that are displaced as a whole."""
+    design = residuals.design
+    numbers = np.unique(design.run)
+    if len(numbers) < 2:
+        return None
+    membership = (design.run[:, np.newaxis] == numbers).astype(np.float64)
+    means = _means(residuals.fit.residual, design.run)
+    worst = int(np.argmax(np.abs(means)))
+    run = int(numbers[worst])
+    statement = _RUNS.given(run=run, size=wording.deviation(design.axis, float(means[worst])))
+    return Failure(ResidualTest.RUNS, residuals.p_value(membership), _RUN.given(run=run), statement)
+
+
+def _means(values: FloatArray, labels: IntArray) -> FloatArray:
+    _, group = np.unique(labels, return_inverse=True)
+    return np.asarray(np.bincount(group, weights=values) / np.bincount(group), dtype=np.float64)
+
+
+def _changes(signs_: FloatArray) -> IntArray:
+    """Return how often the sign changes along each row."""
+    return np.asarray(np.count_nonzero(np.diff(signs_, axis=1) != 0, axis=1), dtype=np.int64)

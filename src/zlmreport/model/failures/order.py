@@ -1,0 +1,102 @@
+"""Tests of order: does the residual remember the reading before, or repeat after a while?"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from zlmreport.language import Words
+from zlmreport.model import wording
+from zlmreport.model.cells import repeats
+from zlmreport.model.failures.failure import Failure, ResidualTest
+from zlmreport.model.failures.residuals import Residuals
+from zlmreport.quantities.arrays import FloatArray, IntArray
+
+_TIME_ORDER = Words(
+    en="repeats that follow one another deviate alike: something moves with time, by {size} from the first "
+    "third of the test to the last",
+    de="aufeinander folgende Wiederholungen weichen gleich ab: Etwas bewegt sich mit der Zeit, um {size} vom "
+    "ersten Drittel der Prüfung zum letzten",
+)
+_REPEATS_ALONG = Words(
+    en="the residual repeats every {period}", de="die Abweichung wiederholt sich alle {period}"
+)
+_AMPLITUDE = Words(en="amplitude {size}", de="Amplitude {size}")
+_WHOLE_TEST = Words(en="during the whole test", de="während der ganzen Prüfung")
+
+_PERMUTATIONS = 400
+_SEED = 20_261_118
+_FEWEST_PERIODS = 1.3
+_STEPS_PER_PERIOD = 4
+_MOST_PERIODS = 200
+_READINGS_PER_PERIOD = 4
+_HARMONICS = (1, 2)
+
+
+def time_order(residuals: Residuals) -> Failure | None:
+    """Return von Neumann's ratio of the repeats in time order, against repeats exchanged within their cells."""
+    fit = residuals.fit
+    within = repeats(residuals.design, fit.residual)
+    if within.degrees < 1 or within.squares == 0:
+        return None
+    found = _ratio(within.centred[np.newaxis])[0]
+    chance = _ratio(_exchanged(within.centred, within.cell))
+    p_value = (1 + int(np.count_nonzero(chance <= found))) / (_PERMUTATIONS + 1)
+    third = max(1, len(within.centred) // 3)
+    moved = float(within.centred[-third:].mean() - within.centred[:third].mean())
+    statement = _TIME_ORDER.given(size=wording.deviation(residuals.design.axis, moved))
+    return Failure(ResidualTest.TIME_ORDER, p_value, _WHOLE_TEST, statement)
+
+
+def period_in_position(residuals: Residuals) -> Failure | None:
+    """Return the strongest wave along the axis; periods that the job states are tried beside all others."""
+    design = residuals.design
+    targets = len(design.target_positions)
+    if targets < 6 or design.length == 0:
+        return None
+    most = min(targets / 2, _MOST_PERIODS)
+    periods = design.length / np.arange(_FEWEST_PERIODS, most, 1 / _STEPS_PER_PERIOD)
+    stated = [each for each in (design.axis.screw_pitch, design.axis.signal_period) if each is not None]
+    known = [each / harmonic for each in stated for harmonic in _HARMONICS if each <= design.length]
+    periods = np.concatenate([periods, known])
+    period, p_value, size = _strongest_wave(residuals, design.position, periods)
+    statement = _REPEATS_ALONG.given(period=wording.position(design.axis, period))
+    return Failure(ResidualTest.PERIOD_IN_POSITION, p_value, size, statement)
+
+
+def period_in_time(residuals: Residuals) -> Failure | None:
+    """Return the strongest wave in time."""
+    design = residuals.design
+    most = min(len(design.time) / _READINGS_PER_PERIOD, _MOST_PERIODS)
+    if design.duration == 0 or most <= _FEWEST_PERIODS:
+        return None
+    periods = design.duration / np.arange(_FEWEST_PERIODS, most, 1 / _STEPS_PER_PERIOD)
+    period, p_value, size = _strongest_wave(residuals, design.time, periods)
+    statement = _REPEATS_ALONG.given(period=wording.span_of_time(design, period))
+    return Failure(ResidualTest.PERIOD_IN_TIME, p_value, size, statement)
+
+
+def _strongest_wave(
+    residuals: Residuals, where: FloatArray, periods: FloatArray
+) -> tuple[float, float, Words]:
+    """Return the period that explains most, the chance of it, and the amplitude in words."""
+    angles = 2 * np.pi * where / periods[:, np.newaxis]
+    waves = np.stack([np.sin(angles), np.cos(angles)], axis=2)
+    best, p_value = residuals.best_block(waves)
+    coefficients = np.linalg.lstsq(waves[best], residuals.fit.residual, rcond=None)[0]
+    amplitude = wording.deviation(residuals.design.axis, float(np.hypot(*coefficients)))
+    return float(periods[best]), p_value, _AMPLITUDE.given(size=amplitude)
+
+
+def _ratio(centred: FloatArray) -> FloatArray:
+    """Return von Neumann's ratio of each row."""
+    squares = np.sum(np.diff(centred, axis=1) ** 2, axis=1) / np.sum(centred**2, axis=1)
+    return np.asarray(squares, dtype=np.float64)
+
+
+def _exchanged(centred: FloatArray, cell: IntArray) -> FloatArray:
+    """Return repeats exchanged at random within their cells, shape (permutations, N)."""
+    keys = np.random.default_rng(_SEED).random((_PERMUTATIONS, len(cell)))
+    places = np.argsort(cell, kind="stable")
+    found = np.empty((_PERMUTATIONS, len(cell)))
+    found[:, places] = centred[np.argsort(keys + cell, axis=1)]
+    return found

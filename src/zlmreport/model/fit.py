@@ -1,0 +1,225 @@
+"""The fit: parameters of the error model with their covariance, and the deviation anywhere on the travel.
+
+Generalized least squares on single readings, never on means: x = Σ C(θ)·γ + ε, Var ε = σ²·V(φ). The noise φ
+is that of restricted maximum likelihood for the model at hand, θ is searched by variable projection, and the
+covariance is that of all parameters, the searched ones included.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from zlmreport.model.axis_model import AxisModel, refuse_collisions
+from zlmreport.model.contrasts import Contrasts, contrasts_of, restricted_estimate
+from zlmreport.model.design import Design
+from zlmreport.model.estimate import Estimate, Uncertainties, coverage_factor, estimates_of
+from zlmreport.model.instrument import InstrumentError
+from zlmreport.model.noise import Noise, NoisePart, noise_parts, coarse_grid
+from zlmreport.model.search import Place, Problem, Solution, Thetas, refine, search, tangents
+from zlmreport.model.spread import Spread, weights
+from zlmreport.model.variance import variance_of_variance
+from zlmreport.model.whitening import Whitener, whitener
+from zlmreport.quantities.arrays import FloatArray
+
+#: Variance of a source of shared scatter over that of single readings: none is larger in a fit.
+_LARGEST_RATIO = 1e4
+
+
+@dataclass(frozen=True, slots=True)
+class Prediction:
+    """The deviation that the model gives where nobody measured.
+
+    Attributes
+    ----------
+    deviation : (M,) array
+        m or rad.
+    standard_uncertainty : (M,) array
+        Of the model's value, not of a single reading to come; m or rad.
+    coverage_factor : (M,) array
+        k for 95 %.
+    """
+
+    deviation: FloatArray
+    standard_uncertainty: FloatArray
+    coverage_factor: FloatArray
+
+    @property
+    def expanded_uncertainty(self) -> FloatArray:
+        """U = k·u, shape (M,), m or rad."""
+        return self.coverage_factor * self.standard_uncertainty
+
+
+@dataclass(frozen=True, slots=True)
+class Fit:
+    """A fitted model.
+
+    Attributes
+    ----------
+    model, design
+        What was fitted to which readings.
+    deviation, fitted : (N,) arrays
+        x and the model's value, m or rad.
+    estimates
+        All parameters, in the order of the model.
+    noise
+        What scatters.
+    solution
+        The parameters as arrays.
+    places
+        The searched parameters that vary continuously.
+    uncertainties
+        What the uncertainty of any value follows from.
+    """
+
+    model: AxisModel
+    design: Design
+    deviation: FloatArray
+    fitted: FloatArray
+    estimates: tuple[Estimate, ...]
+    noise: Noise
+    solution: Solution
+    places: tuple[Place, ...]
+    uncertainties: Uncertainties
+
+    @property
+    def residual(self) -> FloatArray:
+        """x less the model, shape (N,), m or rad."""
+        return self.deviation - self.fitted
+
+    @property
+    def degrees(self) -> int:
+        """Readings less estimated parameters."""
+        return len(self.deviation) - sum(not estimate.is_given for estimate in self.estimates)
+
+    @property
+    def rms(self) -> float:
+        """√(RSS/(N − q)), unweighted, m or rad."""
+        return float(np.sqrt(np.sum(self.residual**2) / self.degrees))
+
+    def base(self) -> FloatArray:
+        """Return what the model can imitate near its estimate: its columns and tangents, shape (N, p)."""
+        return _jacobian(self.model, self.design, self.solution, self.places)
+
+    def predict(self, design: Design) -> Prediction:
+        """Return the deviation that the model gives for other readings; valid on the measured span only."""
+        standard, degrees = self.uncertainties.of(_jacobian(self.model, design, self.solution, self.places))
+        factors = np.array([coverage_factor(each) for each in degrees.tolist()])
+        return Prediction(_value(self.model, design, self.solution), standard, factors)
+
+
+def fit(
+    model: AxisModel,
+    design: Design,
+    deviation: FloatArray,
+    *,
+    instrument: InstrumentError | None = None,
+    parts: Sequence[NoisePart] | None = None,
+    spread: Spread = Spread.SHRUNK,
+    start: Thetas | None = None,
+) -> Fit:
+    """Fit a model to the readings of a test.
+
+    Parameters
+    ----------
+    model
+        The effects.
+    design
+        The test.
+    deviation : (N,) array
+        x, m or rad.
+    instrument
+        Its error, for the uncertainty of all that is estimated; none if it is not given.
+    parts
+        Sources of shared scatter; those that the design can show if none are given.
+    spread
+        How the scatter of single readings is taken to differ.
+    start
+        Searched parameters near their best values; the whole grid is searched if they are not given.
+
+    Raises
+    ------
+    ModelError
+        If the model makes no sense on the design, or its columns depend on each other.
+    """
+    model.check(design)
+    sources = noise_parts(design) if parts is None else tuple(parts)
+    noise = Noise(0.0, {}, weights(design, deviation, spread))
+    problem = Problem(model, design, deviation, whitener(sources, noise))
+    solution = search(problem) if start is None else refine(problem, problem.solution(start))
+    refuse_collisions(model, _columns(model, design, solution))
+    for _ in range(2 if any(len(theta) for theta in solution.thetas) else 1):
+        places = problem.places(solution.thetas)
+        space, noise = estimate_noise(
+            _jacobian(model, design, solution, places), deviation, sources, noise.weights
+        )
+        whiten = whitener(sources, noise)
+        problem = Problem(model, design, deviation, whiten)
+        solution = refine(problem, problem.solution(solution.thetas))
+    return _finished(problem, solution, space, noise, whiten, instrument or InstrumentError())
+
+
+def estimate_noise(
+    base: FloatArray, deviation: FloatArray, parts: Sequence[NoisePart], weights_: FloatArray
+) -> tuple[Contrasts, Noise]:
+    """Return the contrasts of a model, and the noise by restricted maximum likelihood."""
+    space = contrasts_of(base, parts, weights_)
+    ratios, variance = restricted_estimate(
+        space, space.of(deviation), coarse_grid(parts), np.full(len(parts), _LARGEST_RATIO)
+    )
+    by_source = {part.source: float(ratio) for part, ratio in zip(parts, ratios, strict=True)}
+    return space, Noise(float(np.sqrt(variance)), by_source, weights_)
+
+
+def _columns(model: AxisModel, design: Design, solution: Solution) -> list[FloatArray]:
+    """Return term by term the columns whose coefficients are solved."""
+    return [term.columns(design, theta)[0] for term, theta in zip(model.terms, solution.thetas, strict=True)]
+
+
+def _value(model: AxisModel, design: Design, solution: Solution) -> FloatArray:
+    """Return the model's deviation on a design, shape (N,)."""
+    found = np.zeros(len(design.position))
+    for term, theta, gamma in zip(model.terms, solution.thetas, solution.coefficients, strict=True):
+        found += term.effect.columns(design, theta) @ gamma
+    return found
+
+
+def _jacobian(model: AxisModel, design: Design, solution: Solution, places: Sequence[Place]) -> FloatArray:
+    """Return J on a design: the columns that were solved, then the tangents, shape (N, p)."""
+    empty = np.empty((len(design.position), 0))
+    slopes = tangents(model, design, solution, places)
+    return np.concatenate([empty, *_columns(model, design, solution), slopes], axis=1)
+
+
+def _finished(
+    problem: Problem,
+    solution: Solution,
+    space: Contrasts,
+    noise: Noise,
+    whiten: Whitener,
+    instrument: InstrumentError,
+) -> Fit:
+    model, design = problem.model, problem.design
+    places = problem.places(solution.thetas)
+    jacobian = _jacobian(model, design, solution, places)
+    whitened = whiten(jacobian)
+    lengths = np.linalg.norm(whitened, axis=0)
+    lengths = np.where(lengths > 0, lengths, 1.0)
+    root = np.linalg.pinv(whitened / lengths) / lengths[:, np.newaxis]
+    inverse = root @ root.T
+    systematic = root @ whiten(instrument.factor(design.position))
+    variances = variance_of_variance(space, noise, whiten, jacobian, inverse)
+    uncertainties = Uncertainties(noise.sigma, inverse, systematic, variances)
+    return Fit(
+        model=model,
+        design=design,
+        deviation=problem.deviation,
+        fitted=_value(model, design, solution),
+        estimates=estimates_of(problem, solution, places, uncertainties),
+        noise=noise,
+        solution=solution,
+        places=places,
+        uncertainties=uncertainties,
+    )

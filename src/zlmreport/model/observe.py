@@ -1,0 +1,176 @@
+"""From a measurement set to what the error model works on: a design, and the deviations beside it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from math import radians
+
+import numpy as np
+
+from zlmreport.language import Words, same
+from zlmreport.measurement.axis import AxisKind
+from zlmreport.measurement.conditions import CONDITIONS
+from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.model.design import Design
+from zlmreport.model.smoothing import smoothed
+from zlmreport.quantities.arrays import FloatArray, IntArray, read_only_floats, read_only_integers
+
+#: How far the axis is taken to travel beyond a target before it returns to it, m or rad.
+OVERRUN = {AxisKind.LINEAR: 5e-3, AxisKind.ROTARY: radians(1.0)}
+
+#: Noise of a log, as a share of its variation, from which on effects cannot be told by it.
+_NOISY = 0.2
+#: Resolution of a log, as a share of its range, from which on its steps show.
+_COARSE = 0.1
+
+_COUNTED = Words(
+    en="Not every reading has a time: the readings are taken to follow one another in equal steps, and time "
+    "constants are counted in readings.",
+    de="Nicht jeder Messwert hat eine Zeit: Die Messwerte gelten als in gleichen Abständen aufeinander "
+    "folgend, und Zeitkonstanten zählen in Messwerten.",
+)
+_OVERRUN = Words(
+    en="The axis is taken to run over a target by {overrun} {unit} before it returns to it.",
+    de="Es ist angenommen, dass die Achse {overrun} {unit} über eine Zielposition hinausfährt, bevor sie zu ihr "
+    "zurückkehrt.",
+)
+_GAPS = Words(
+    en="The log of {condition} has gaps (readings without it: {count}) and is left out.",
+    de="Die Aufzeichnung von {condition} hat Lücken (Messwerte ohne sie: {count}) und bleibt außer Betracht.",
+)
+_NOISE = Words(
+    en="The log of {condition} is noisy: its noise is {share} of its variation. Effects that follow it may "
+    "be taken for others.",
+    de="Die Aufzeichnung von {condition} rauscht: Ihr Rauschen beträgt das {share}-fache ihrer Änderung. "
+    "Einflüsse, die ihr folgen, können mit anderen verwechselt werden.",
+)
+_RESOLUTION = Words(
+    en="The log of {condition} is coarse: its resolution is {share} of its range.",
+    de="Die Aufzeichnung von {condition} ist grob: Ihre Auflösung beträgt das {share}-fache ihres Bereichs.",
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Observations:
+    """What the error model works on.
+
+    Attributes
+    ----------
+    design
+        The readings that are there, but for their deviations.
+    deviation : (N,) array
+        x, m or rad; no NaN.
+    reading : (N,) integer array
+        The place of each among all readings of the measurement set.
+    remarks
+        What was assumed, and what was left out.
+    """
+
+    design: Design
+    deviation: FloatArray
+    reading: IntArray
+    remarks: tuple[Words, ...]
+
+    def without(self, readings: IntArray) -> Observations:
+        """Return the observations without some readings, named by their places here."""
+        kept = np.setdiff1d(np.arange(len(self.deviation)), readings)
+        return Observations(
+            of_readings(self.design, kept),
+            read_only_floats(self.deviation[kept]),
+            read_only_integers(self.reading[kept]),
+            self.remarks,
+        )
+
+
+def observe(measurements: MeasurementSet, *, overrun: float | None = None) -> Observations:
+    """Return what the error model works on; missing readings are dropped, the order is kept.
+
+    Parameters
+    ----------
+    measurements
+        The readings, in the order in which they were taken.
+    overrun
+        How far the axis runs over a target before it returns to it, m or rad; `OVERRUN` where it is not
+        known.
+    """
+    axis = measurements.axis
+    beyond = OVERRUN[axis.kind] if overrun is None else overrun
+    position = measurements.target_positions[measurements.target]
+    direction = measurements.approach.astype(np.float64)
+    present = np.flatnonzero(~np.isnan(measurements.deviation))
+    remarks = []
+    time = measurements.time
+    counted = time is None or bool(np.any(np.isnan(time[present])))
+    if time is None or counted:
+        time = np.arange(len(position), dtype=np.float64)
+        remarks.append(_COUNTED)
+    if overrun is None:
+        unit = axis.position_unit
+        remarks.append(_OVERRUN.given(overrun=unit.from_si(beyond), unit=unit.symbol))
+    moments = time[present] - (time[present[0]] if present.size else 0.0)
+    conditions = {}
+    for name, log in measurements.conditions.items():
+        gaps = int(np.count_nonzero(np.isnan(log[present])))
+        if gaps:
+            remarks.append(_GAPS.given(condition=name, count=gaps))
+            continue
+        values = log[present]
+        if name in CONDITIONS:
+            smooth = smoothed(moments, values)
+            remarks.extend(_doubts(name, values, smooth.noise, smooth.variation))
+            values = smooth.values
+        conditions[name] = read_only_floats(values)
+    design = Design(
+        axis=axis,
+        position=read_only_floats(position[present]),
+        direction=read_only_floats(direction[present]),
+        run=read_only_integers(measurements.run[present]),
+        target=read_only_integers(measurements.target[present]),
+        time=read_only_floats(moments),
+        time_is_counted=counted,
+        since_reversal=read_only_floats(_since_reversal(position, direction, beyond)[present]),
+        conditions=conditions,
+    )
+    return Observations(
+        design, read_only_floats(measurements.deviation[present]), read_only_integers(present), tuple(remarks)
+    )
+
+
+def of_readings(design: Design, readings: IntArray) -> Design:
+    """Return the design of some of its readings; the span of the travel stays."""
+    return replace(
+        design,
+        position=read_only_floats(design.position[readings]),
+        direction=read_only_floats(design.direction[readings]),
+        run=read_only_integers(design.run[readings]),
+        target=read_only_integers(design.target[readings]),
+        time=read_only_floats(design.time[readings]),
+        since_reversal=read_only_floats(design.since_reversal[readings]),
+        conditions={name: read_only_floats(log[readings]) for name, log in design.conditions.items()},
+    )
+
+
+def _since_reversal(position: FloatArray, direction: FloatArray, overrun: float) -> FloatArray:
+    """Return the distance travelled since the last reversal, from the order of the rows.
+
+    A target that lies ahead of the one before it is approached straight; then the axis has turned either
+    there, or before. Any other is run over first.
+    """
+    travelled = np.full(len(position), overrun)
+    for row in range(1, len(position)):
+        ahead = (position[row] - position[row - 1]) * direction[row]
+        if ahead > 0:
+            straight = direction[row] == direction[row - 1]
+            travelled[row] = ahead + (travelled[row - 1] if straight else 0.0)
+    return travelled
+
+
+def _doubts(name: str, log: FloatArray, noise: float, variation: float) -> Iterator[Words]:
+    """Yield what makes a log doubtful."""
+    if noise > _NOISY * variation:
+        share = round(noise / variation, 1) if variation > 0 else float("inf")
+        yield _NOISE.given(condition=same(name), share=share)
+    steps = np.diff(np.unique(log))
+    if steps.size and steps.min() > _COARSE * np.ptp(log):
+        yield _RESOLUTION.given(condition=same(name), share=round(float(steps.min() / np.ptp(log)), 2))

@@ -1,0 +1,69 @@
+"""Single readings that stand off: a chip under the probe, a broken beam, a key pressed too early.
+
+They are flagged and set aside, never altered, and everything is fitted with and without them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from zlmreport.model.cells import cells
+from zlmreport.model.design import Design
+from zlmreport.model.distributions import normal_tail
+from zlmreport.quantities.arrays import FloatArray, IntArray, read_only_integers
+
+#: Of the robust standard deviation.
+_LIMIT = 4.5
+#: Neighbours in time whose median tells drift from a single reading.
+_WINDOW = 15
+#: Standard deviation of a normal variable over its median absolute deviation.
+_NORMAL = 1.4826
+#: A cell of fewer readings has no median that an outlier would not move.
+_FEWEST_REPEATS = 3
+
+
+@dataclass(frozen=True, slots=True)
+class Outliers:
+    """Readings that stand off.
+
+    Attributes
+    ----------
+    readings : (k,) integer array
+        Their places, in the order of time.
+    p_value
+        Chance that any of so many normal readings stands off so far; 1 if none does.
+    """
+
+    readings: IntArray
+    p_value: float
+
+
+def outliers(design: Design, deviation: FloatArray) -> Outliers:
+    """Return the readings that stand off from their repeats and from their neighbours in time.
+
+    Parameters
+    ----------
+    design
+        The test.
+    deviation : (N,) array
+        x, m or rad.
+    """
+    cell = cells(design)
+    count = np.bincount(cell)
+    if count.max() < _FEWEST_REPEATS or len(deviation) < _WINDOW:
+        return Outliers(read_only_integers([]), 1.0)
+    medians = np.array([np.median(deviation[cell == index]) for index in range(len(count))])
+    left = deviation - medians[cell]
+    half = _WINDOW // 2
+    padded = np.pad(left, half, mode="reflect")
+    left = left - np.median(np.lib.stride_tricks.sliding_window_view(padded, _WINDOW), axis=1)
+    judged = count[cell] >= _FEWEST_REPEATS
+    spread = _NORMAL * float(np.median(np.abs(left[judged])))
+    if spread == 0:
+        return Outliers(read_only_integers([]), 1.0)
+    # The median of a cell follows its own readings; 1.3 is its variance in units of that of the mean.
+    sizes = np.where(judged, np.abs(left) * np.sqrt(1.0 - 1.3 / np.maximum(count[cell], 2)) / spread, 0.0)
+    p_value = min(1.0, 2.0 * len(sizes) * normal_tail(float(sizes.max())))
+    return Outliers(read_only_integers(np.flatnonzero(sizes > _LIMIT)), p_value)

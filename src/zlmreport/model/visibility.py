@@ -1,0 +1,128 @@
+"""What a plan of a test can see of each effect beside a model; nothing needs to be measured for it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+
+from zlmreport.language import Words
+from zlmreport.model.axis_model import AxisModel, Term
+from zlmreport.model.bases import Bases
+from zlmreport.model.calibration import Calibration, calibrate
+from zlmreport.model.candidates import entrants
+from zlmreport.model.contest import Contest
+from zlmreport.model.contrasts import Metric
+from zlmreport.model.design import Design
+from zlmreport.model.effect import Effect
+from zlmreport.model.parameter import Parameter
+from zlmreport.quantities.arrays import FloatArray
+
+
+#: Values of searched parameters that are looked at.
+_VALUES = 12
+
+
+@dataclass(frozen=True, slots=True)
+class Visibility:
+    """How much of an effect a plan can see.
+
+    Attributes
+    ----------
+    effect
+        Its identifier.
+    share
+        Root mean square of what the model cannot imitate, over that of the effect about its mean: 0 to 1. Where
+        θ is searched, the median over its values. 0 for an effect that the plan cannot see at all.
+    smallest_rms
+        Root mean square value over all readings of the smallest effect that is found half of the time, m or
+        rad; infinite where it is never found.
+    smallest
+        For an effect of one linear parameter, the parameter and its smallest value found half of the time, SI.
+    reason
+        Why it cannot be tested at all; None if it can.
+    """
+
+    effect: str
+    share: float
+    smallest_rms: float
+    smallest: tuple[Parameter, float] | None = None
+    reason: Words | None = None
+
+
+def plan_visibility(
+    model: AxisModel, design: Design, effects: Iterable[Effect], sigma: float
+) -> tuple[Visibility, ...]:
+    """Return what a planned test can see beside a model, if single readings scatter independently by σ.
+
+    Parameters
+    ----------
+    model
+        The effects that are taken for granted; their searched parameters at the first of their values.
+    design
+        The plan: a visit list with times and conditions as they are expected.
+    effects
+        All that are installed.
+    sigma
+        Repeatability of a single reading, m or rad.
+    """
+    columns = [_known_columns(term, design) for term in model.terms]
+    base = np.concatenate([np.empty((len(design.position), 0)), *columns], axis=1)
+    entered = entrants(model, design, effects)
+    contest = Contest.of(design, base, entered.forms, np.ones(len(design.position)))
+    ratios = np.zeros(contest.grid.shape[1])
+    calibration = calibrate(contest, design, ratios)
+    missing = tuple(Visibility(each.effect, 0.0, np.inf, None, each.reason) for each in entered.not_testable)
+    return (*visibility(contest, design, calibration, ratios, sigma), *missing)
+
+
+def visibility(
+    contest: Contest, design: Design, calibration: Calibration, ratios: FloatArray, sigma: float
+) -> tuple[Visibility, ...]:
+    """Return what a test can see, in the order of the contest; effects that it cannot see at all come last.
+
+    Parameters
+    ----------
+    contest, calibration
+        Of the model, and what chance gives in it.
+    design
+        The test.
+    ratios : (parts,) array
+        φ̂.
+    sigma
+        σ̂, m or rad.
+    """
+    metric = contest.space.metric(ratios)
+    found = []
+    for index, forms in enumerate(contest.bases.contestants):
+        needed = float(calibration.usual[index]) + calibration.threshold
+        found.append(_of_effect(contest, contest.bases, forms[0], metric, design, sigma * np.sqrt(needed)))
+    return (*found, *(Visibility(effect.identifier, 0.0, np.inf) for effect in contest.bases.invisible))
+
+
+def _of_effect(
+    contest: Contest, bases: Bases, form: int, metric: Metric, design: Design, needed: float
+) -> Visibility:
+    """Return the visibility of one form; `needed` is the length that its whitened contrast must have."""
+    family = bases.families[form]
+    shares, sizes, amplitudes = [], [], []
+    for theta in family.thetas[:: 1 + len(family.thetas) // _VALUES]:
+        columns = family.effect.columns(design, theta)
+        contrasts = contest.space.of(columns)
+        seen = contrasts / contest.space.scale[:, np.newaxis]
+        moving = columns - columns.mean(axis=0)
+        shares.append(np.linalg.norm(seen) / (np.linalg.norm(moving) or 1.0))
+        shared = metric.root @ (contest.space.factors.T @ contrasts)
+        lengths = np.sqrt(np.maximum(np.sum(contrasts**2, axis=0) - np.sum(shared**2, axis=0), 0.0))
+        length = float(np.sqrt(np.mean(lengths**2)))
+        amplitudes.append(needed / length if length else np.inf)
+        sizes.append(amplitudes[-1] * float(np.sqrt(np.mean(columns**2))))
+    linear = family.effect.linear
+    smallest = (linear[0], float(np.median(amplitudes))) if len(linear) == 1 else None
+    share = min(1.0, float(np.median(shares)))
+    return Visibility(family.effect.identifier, share, float(np.median(sizes)), smallest)
+
+
+def _known_columns(term: Term, design: Design) -> FloatArray:
+    return term.columns(design, term.grid(design)[0])[0]

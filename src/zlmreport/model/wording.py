@@ -1,0 +1,75 @@
+"""Values in sentences: rounded for reading, in the unit of the axis, in the reader's decimal sign."""
+
+from __future__ import annotations
+
+import math
+
+from zlmreport.language import Language, Words
+from zlmreport.measurement.axis import Axis
+from zlmreport.model.design import Design
+from zlmreport.quantities.formatting import fixed_number
+
+_QUANTITY = Words(en="{value} {unit}", de="{value} {unit}")
+_READING = Words(en="{position}, {arrow}, run {run}", de="{position}, {arrow}, Durchlauf {run}")
+_CELL = Words(en="{position}, {arrow}", de="{position}, {arrow}")
+_COUNTED = Words(en="{value} readings", de="{value} Messwerte")
+_SIGNIFICANT = 3
+_MINUTE = 60.0
+_LONG = 600.0
+
+
+def number(value: float, decimals: int) -> Words:
+    """Return a number with fixed decimals."""
+    return Words(
+        en=fixed_number(value, decimals, Language.ENGLISH.decimal_sign),
+        de=fixed_number(value, decimals, Language.GERMAN.decimal_sign),
+    )
+
+
+def significant(value: float, digits: int = _SIGNIFICANT) -> Words:
+    """Return a number with so many significant digits; large ones keep all before the decimal sign."""
+    if value == 0 or not math.isfinite(value):
+        return number(0.0, 0) if value == 0 else Words(en=str(value), de=str(value))
+    decimals = digits - 1 - math.floor(math.log10(abs(value)))
+    return number(value, max(0, decimals))
+
+
+def deviation(axis: Axis, value: float) -> Words:
+    """Return a deviation given in m or rad."""
+    unit = axis.deviation_unit
+    return _QUANTITY.given(value=significant(unit.from_si(value), 2), unit=unit.symbol)
+
+
+def position(axis: Axis, value: float) -> Words:
+    """Return a position or a distance along the axis given in m or rad."""
+    unit = axis.position_unit
+    return _QUANTITY.given(value=significant(unit.from_si(value), 4), unit=unit.symbol)
+
+
+def span_of_time(design: Design, value: float) -> Words:
+    """Return a time given in s, or in readings where the design counts them."""
+    if design.time_is_counted:
+        return _COUNTED.given(value=significant(value, 2))
+    if value >= _LONG:
+        return _QUANTITY.given(value=significant(value / _MINUTE, 3), unit="min")
+    return _QUANTITY.given(value=significant(value, 3), unit="s")
+
+
+def cell(design: Design, reading: int) -> Words:
+    """Return target and direction of a reading."""
+    return _CELL.given(
+        position=position(design.axis, float(design.position[reading])), arrow=_arrow(design, reading)
+    )
+
+
+def reading_at(design: Design, reading: int) -> Words:
+    """Return target, direction and run of a reading."""
+    return _READING.given(
+        position=position(design.axis, float(design.position[reading])),
+        arrow=_arrow(design, reading),
+        run=int(design.run[reading]),
+    )
+
+
+def _arrow(design: Design, reading: int) -> str:
+    return "↑" if design.direction[reading] > 0 else "↓"

@@ -1,0 +1,257 @@
+"""What every effect must be, so that it can be fitted, searched, simulated and explained."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+
+from zlmreport.job.fields import keys_in
+from zlmreport.measurement.axis import AxisKind
+from zlmreport.model.design import Design
+from zlmreport.model.effect import Confusion, Effect, Shape
+from zlmreport.model.observe import of_readings
+from zlmreport.model.parameter import Dimension, Parameter
+from zlmreport.quantities.arrays import FloatArray
+from zlmreport.quantities.notation import plain
+from zlmreport.testing.designs import full_designs, poor_designs
+from zlmreport.testing.expectations import (
+    expect,
+    expect_identifier,
+    expect_options,
+    expect_words,
+    run_all,
+    same_value,
+)
+
+Designs = Mapping[str, Design]
+
+#: m or rad: what no effect of a plausible size does to an axis; micrometres given as metres do.
+_NO_DEVIATION = 0.01
+_MEMBERS = (
+    *("identifier", "title", "equation", "linear", "searched", "shape", "look", "confusions", "contains"),
+    *("options", "settings", "with_settings", "forms", "untestable", "grid", "columns", "expected"),
+)
+
+
+def is_complete(effect: Effect, _: Designs) -> None:
+    """Check that the protocol is complete."""
+    missing = [member for member in _MEMBERS if not hasattr(effect, member)]
+    expect(not missing, f"{effect!r} has no {', '.join(missing)} (subclass zlmreport.protocols.Effect)")
+
+
+def is_described(effect: Effect, _: Designs) -> None:
+    """Check that it has a name that can be typed, and says in every language what it is and looks like."""
+    expect_identifier(effect.identifier, repr(effect))
+    expect_words(effect.title, f"{effect.identifier}: title")
+    expect(plain(effect.equation).strip(), f"{effect.identifier}: equation must be what is printed")
+    expect(isinstance(effect.shape, Shape), f"{effect.identifier}: shape must be a Shape")
+    expect_words(effect.look, f"{effect.identifier}: look")
+
+
+def names_what_it_is_taken_for(effect: Effect, _: Designs) -> None:
+    """Check that each confusion names another effect, once, and the measurement that tells them apart."""
+    for confusion in effect.confusions:
+        where = f"{effect.identifier}: confusions"
+        expect(isinstance(confusion, Confusion), f"{where} must hold Confusion(effect, told_apart_by)")
+        expect_identifier(confusion.effect, where)
+        expect(confusion.effect != effect.identifier, f"{where}: an effect is not taken for itself")
+        expect_words(confusion.told_apart_by, f"{where}: {confusion.effect}")
+    named = Counter(confusion.effect for confusion in effect.confusions)
+    twice = [name for name, times in named.items() if times > 1]
+    expect(not twice, f"{effect.identifier}: confusions name {', '.join(twice)} twice")
+
+
+def parameters_are_described(effect: Effect, _: Designs) -> None:
+    """Check that parameters have unique ASCII names, units and descriptions, and ranges that are some."""
+    for form in effect.forms():
+        parameters = (*form.linear, *form.searched)
+        expect(form.linear, f"{effect.identifier}: linear is empty; an effect has a size at least")
+        names = Counter(parameter.name for parameter in parameters)
+        expect(max(names.values()) == 1, f"{effect.identifier}: names of parameters must be unique: {names}")
+        for parameter in parameters:
+            _expect_parameter(parameter, f"{effect.identifier}: parameter {parameter.name!r}")
+
+
+def keys_are_described(effect: Effect, _: Designs) -> None:
+    """Check that its own job keys are described, and none is called like a parameter."""
+    expect_options(effect.options, effect.identifier)
+    expect(
+        isinstance(effect.settings, effect.options),
+        f"{effect.identifier}: settings must be the options of this form, {effect.options.__name__}(…)",
+    )
+    names = {parameter.name for parameter in (*effect.linear, *effect.searched)}
+    clashes = sorted(names & keys_in(effect.options).keys())
+    expect(not clashes, f"{effect.identifier}: {', '.join(clashes)} is a key and a parameter")
+
+
+def settings_make_the_form(effect: Effect, _: Designs) -> None:
+    """Check that each form can be asked for by its settings, and that all forms have one name."""
+    for form in (effect, *effect.forms()):
+        where = f"{effect.identifier}: form {form.settings!r}"
+        made = effect.with_settings(form.settings)
+        expect(form.identifier == effect.identifier, f"{where} is called {form.identifier!r}")
+        expect(made.settings == form.settings, f"{where}: with_settings makes {made.settings!r}")
+        expect(
+            [each.name for each in made.linear] == [each.name for each in form.linear],
+            f"{where}: with_settings makes other parameters",
+        )
+
+
+def says_what_it_lacks(effect: Effect, designs: Designs) -> None:
+    """Check that `untestable` answers on any test, and that there is a test on which nothing is lacking."""
+    testable = False
+    for kind, design in {**designs, **poor_designs()}.items():
+        where = f"{effect.identifier}: untestable on {kind}"
+        try:
+            reason = effect.untestable(design)
+        except Exception as error:
+            message = f"{where} raised {error!r}; return Words that say what is lacking"
+            raise AssertionError(message) from error
+        if reason is not None:
+            expect_words(reason, where)
+        testable = testable or reason is None
+    expect(testable, f"{effect.identifier} can be tested on none of: {', '.join(designs)} (give one)")
+
+
+def grid_is_one(effect: Effect, designs: Designs) -> None:
+    """Check that the grid has a finite row for each start, and a column for each searched parameter."""
+    for form, kind, design in _tested(effect, designs):
+        grid = form.grid(design)
+        where = f"{effect.identifier}: grid on {kind}"
+        wanted = len(form.searched)
+        expect(
+            grid.ndim == 2 and grid.shape[0] >= 1 and grid.shape[1] == wanted,
+            f"{where} has shape {grid.shape}; expected (1 or more, {wanted})",
+        )
+        expect(np.all(np.isfinite(grid)), f"{where} must be finite")
+
+
+def columns_are_readings_by_parameters(effect: Effect, designs: Designs) -> None:
+    """Check the columns' shape, that they are finite, and that the same question has the same answer."""
+    for form, kind, design in _tested(effect, designs):
+        for theta in _some(form.grid(design)):
+            where = f"{effect.identifier}: columns on {kind} for θ = {theta}"
+            columns = form.columns(design, theta)
+            wanted = (len(design.position), len(form.linear))
+            expect(columns.shape == wanted, f"{where} have shape {columns.shape}; expected {wanted}")
+            expect(columns.dtype == np.float64, f"{where} must be doubles, not {columns.dtype}")
+            expect(np.all(np.isfinite(columns)), f"{where} must be finite")
+            again = form.columns(design, theta)
+            expect(same_value(columns, again), f"{where}: the second answer differs from the first")
+
+
+def rows_stand_alone(effect: Effect, designs: Designs) -> None:
+    """Check that a row depends on its own reading, the axis and the span, and on no other reading."""
+    for form, kind, design in _tested(effect, designs):
+        half = of_readings(design, np.arange(0, len(design.position), 2))
+        for theta in _some(form.grid(design)):
+            whole = form.columns(design, theta)[::2]
+            alone = form.columns(half, theta)
+            expect(
+                np.allclose(alone, whole, rtol=1e-12, atol=0.0),
+                f"{effect.identifier}: columns on {kind} change when other readings are left out; "
+                "normalise by Design.span, not by the readings",
+            )
+
+
+def plausible_sizes_are_metres(effect: Effect, designs: Designs) -> None:
+    """Check that the largest plausible parameters make deviations in metres (radians), not micrometres."""
+    for form, kind, design in _tested(effect, designs):
+        bounds = [_largest(parameter) for parameter in form.linear]
+        for theta in _some(form.grid(design)):
+            reach = np.abs(form.columns(design, theta)) * np.array(bounds)
+            expect(
+                np.all(reach < _NO_DEVIATION),
+                f"{effect.identifier}: on {kind} a plausible size makes a deviation of {reach.max():.3g} "
+                f"{'m' if design.axis.kind is AxisKind.LINEAR else 'rad'}; columns and ranges are SI",
+            )
+
+
+def is_seen_somewhere(effect: Effect, designs: Designs) -> None:
+    """Check that on some test the columns are neither zero nor alike."""
+    for form, _, design in _tested(effect, designs):
+        for theta in _some(form.grid(design)):
+            columns = form.columns(design, theta)
+            lengths = np.linalg.norm(columns, axis=0)
+            if np.all(lengths > 0) and np.linalg.matrix_rank(columns / lengths) == len(form.linear):
+                return
+    expect(condition=False, sentence=f"{effect.identifier}: its columns are zero, or alike, on every test")
+
+
+def expected_values_are_of_parameters(effect: Effect, designs: Designs) -> None:
+    """Check that values which follow from the axis are finite, and those of its parameters."""
+    for kind, design in designs.items():
+        names = {parameter.name for parameter in (*effect.linear, *effect.searched)}
+        for name, value in effect.expected(design.axis).items():
+            where = f"{effect.identifier}: expected on {kind}: {name!r}"
+            expect(name in names, f"{where} is none of its parameters ({', '.join(sorted(names))})")
+            expect(np.isfinite(value), f"{where} must be finite, not {value}")
+
+
+def _expect_parameter(parameter: Parameter, where: str) -> None:
+    expect(isinstance(parameter, Parameter), f"{where} must be a Parameter")
+    expect(parameter.name.isascii() and parameter.name.isidentifier(), f"{where} must be an ASCII name")
+    expect(plain(parameter.notation).strip(), f"{where}: notation must be what is printed")
+    expect(isinstance(parameter.dimension, Dimension), f"{where}: dimension must be a Dimension")
+    expect_words(parameter.description, f"{where}: description")
+    if parameter.smallest is not None and parameter.largest is not None:
+        expect(parameter.smallest < parameter.largest, f"{where}: smallest must be less than largest")
+
+
+def _largest(parameter: Parameter) -> float:
+    bounds = [abs(bound) for bound in (parameter.smallest, parameter.largest) if bound is not None]
+    return max(bounds, default=0.0)
+
+
+def _tested(effect: Effect, designs: Designs) -> Iterator[tuple[Effect, str, Design]]:
+    """Yield each form of the effect with every test on which it can be tested."""
+    for form in effect.forms():
+        for kind, design in {**designs, **poor_designs()}.items():
+            if form.untestable(design) is None:
+                yield form, kind, design
+
+
+def _some(grid: FloatArray) -> FloatArray:
+    """Return the first, the middle and the last row."""
+    return np.asarray(grid[np.unique([0, len(grid) // 2, len(grid) - 1])])
+
+
+#: Every check of an effect, each called with the effect and designs on which it may be tested.
+EFFECT_CHECKS = (
+    is_complete,
+    is_described,
+    names_what_it_is_taken_for,
+    parameters_are_described,
+    keys_are_described,
+    settings_make_the_form,
+    says_what_it_lacks,
+    grid_is_one,
+    columns_are_readings_by_parameters,
+    rows_stand_alone,
+    plausible_sizes_are_metres,
+    is_seen_somewhere,
+    expected_values_are_of_parameters,
+)
+
+
+def check_effect(effect: Effect, designs: Designs | None = None) -> None:
+    """Run every check on an effect.
+
+    Parameters
+    ----------
+    effect
+        The object that the plugin's hook returns.
+    designs
+        Tests on which it can be tested, by what they are: for an effect that needs a log of its own. The
+        kit's complete tests have all logs and keys that are known by name.
+
+    Raises
+    ------
+    AssertionError
+        With a line for every check that fails.
+    """
+    tried = {**full_designs(), **(designs or {})}
+    is_complete(effect, tried)
+    run_all(EFFECT_CHECKS, effect, tried)

@@ -1,0 +1,19 @@
+"""The built-in effects, and the tests on which each can be tested."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from zlmreport.model.design import Design
+from zlmreport.model.effect import Effect
+from zlmreport.testing import full_designs
+from zlmreport_plugins.effects import zlmreport_effects
+
+EFFECTS: Mapping[str, Effect] = {effect.identifier: effect for effect in zlmreport_effects()}
+ROTARY_ONLY = {"eccentricity", "ellipticity", "gear-mesh"}
+
+
+def design_for(identifier: str, method: str = "linear") -> Design:
+    """Return a complete test on which an effect can be tested."""
+    kind = "rotary" if identifier in ROTARY_ONLY else method
+    return full_designs()[f"a complete {kind} test"]

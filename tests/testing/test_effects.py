@@ -1,0 +1,159 @@
+"""Each check of an effect passes the exemplary one, and finds the sin it is there for."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from itertools import count
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+from pydantic import Field
+
+from testing.exemplary_effect import ExemplaryEffect, ExemplaryOptions
+from zlmreport.job.options import Options
+from zlmreport.language import Words, same
+from zlmreport.model.design import Design
+from zlmreport.model.effect import Confusion
+from zlmreport.testing import EFFECT_CHECKS, check_effect, effects, full_designs
+
+DESIGNS = full_designs()
+(HEIGHT,) = ExemplaryEffect.linear
+RECTIFIED = ExemplaryOptions(rectified=True)
+
+
+class UndescribedOptions(Options):
+    rectified: bool = False
+
+
+class GreedyOptions(ExemplaryOptions):
+    height: float = Field(1.0, description="Taken.")
+
+
+def _columns(change: Callable[..., Any]) -> dict[str, Any]:
+    """Return the sin of an effect whose columns are made into something else."""
+
+    def columns(self: Any, design: Design, theta: Any) -> Any:
+        return change(ExemplaryEffect.columns(self, design, theta), design)
+
+    return {"columns": columns}
+
+
+def _raising(_self: object, _design: Design) -> Words | None:
+    raise KeyError("oil_temperature")
+
+
+_ANSWERS = count(1)
+
+
+SINS: list[tuple[str, dict[str, Any], str]] = [
+    ("is_described", {"identifier": "Wave!"}, "identifier 'Wave!' must be lower-case"),
+    ("is_described", {"title": same("")}, "title says nothing"),
+    ("is_described", {"equation": " "}, "equation must be what is printed"),
+    ("is_described", {"shape": "position"}, "shape must be a Shape"),
+    ("is_described", {"look": "a wave"}, "look must be Words"),
+    (
+        "names_what_it_is_taken_for",
+        {"confusions": (Confusion("exemplary-wave", same("x")),)},
+        "an effect is not taken for itself",
+    ),
+    (
+        "names_what_it_is_taken_for",
+        {"confusions": (Confusion("periodic", same("x")), Confusion("periodic", same("y")))},
+        "confusions name periodic twice",
+    ),
+    ("names_what_it_is_taken_for", {"confusions": (Confusion("periodic", same("")),)}, "says nothing"),
+    ("parameters_are_described", {"linear": ()}, "linear is empty"),
+    ("parameters_are_described", {"searched": (HEIGHT,)}, "names of parameters must be unique"),
+    ("parameters_are_described", {"linear": (replace(HEIGHT, name="höhe"),)}, "must be an ASCII name"),
+    ("parameters_are_described", {"linear": (replace(HEIGHT, notation=""),)}, "notation must be what"),
+    ("parameters_are_described", {"linear": (replace(HEIGHT, dimension="um"),)}, "must be a Dimension"),
+    ("parameters_are_described", {"linear": (replace(HEIGHT, description=same("")),)}, "says nothing"),
+    ("parameters_are_described", {"linear": (replace(HEIGHT, smallest=1.0),)}, "must be less than largest"),
+    ("keys_are_described", {"options": UndescribedOptions}, "job key 'rectified' needs a description"),
+    ("keys_are_described", {"options": GreedyOptions}, "settings must be the options of this form"),
+    (
+        "keys_are_described",
+        {"options": GreedyOptions, "__init__": lambda self: setattr(self, "settings", GreedyOptions())},
+        "height is a key and a parameter",
+    ),
+    (
+        "settings_make_the_form",
+        {"with_settings": lambda self, _: self, "forms": lambda self: (type(self)(RECTIFIED),)},
+        "form ExemplaryOptions(rectified=True): with_settings makes ExemplaryOptions(rectified=False)",
+    ),
+    ("says_what_it_lacks", {"untestable": _raising}, "raised KeyError('oil_temperature')"),
+    ("says_what_it_lacks", {"untestable": lambda *_: "no"}, "must be Words"),
+    ("says_what_it_lacks", {"untestable": lambda *_: same("no")}, "can be tested on none of"),
+    ("grid_is_one", {"grid": lambda *_: np.array([1.0, 2.0])}, "has shape (2,); expected (1 or more, 1)"),
+    ("grid_is_one", {"grid": lambda *_: np.empty((0, 1))}, "has shape (0, 1)"),
+    ("grid_is_one", {"grid": lambda *_: np.array([[np.inf]])}, "must be finite"),
+    (
+        "columns_are_readings_by_parameters",
+        _columns(lambda columns, _: columns[:, 0]),
+        "have shape (210,); expected (210, 1)",
+    ),
+    ("columns_are_readings_by_parameters", _columns(lambda columns, _: columns > 0), "must be doubles"),
+    ("columns_are_readings_by_parameters", _columns(lambda columns, _: columns + np.nan), "must be finite"),
+    (
+        "columns_are_readings_by_parameters",
+        _columns(lambda columns, _: columns * next(_ANSWERS)),
+        "the second answer differs",
+    ),
+    (
+        "rows_stand_alone",
+        _columns(lambda columns, _: columns - columns.mean()),
+        "change when other readings are left out",
+    ),
+    ("plausible_sizes_are_metres", _columns(lambda columns, _: 1e6 * columns), "columns and ranges are SI"),
+    ("is_seen_somewhere", _columns(lambda columns, _: 0.0 * columns), "its columns are zero, or alike"),
+    (
+        "expected_values_are_of_parameters",
+        {"expected": lambda *_: {"depth": 1.0}},
+        "'depth' is none of its parameters (height, wavelength)",
+    ),
+    ("expected_values_are_of_parameters", {"expected": lambda *_: {"height": np.nan}}, "must be finite"),
+]
+
+
+@pytest.mark.parametrize("check", EFFECT_CHECKS)
+def test_the_exemplary_effect_passes(check: Callable[..., None]) -> None:
+    check(ExemplaryEffect(), DESIGNS)
+
+
+@pytest.mark.parametrize(("name", "sin", "sentence"), SINS)
+def test_check_finds_its_sin(name: str, sin: dict[str, Any], sentence: str) -> None:
+    sinner = type("Sinner", (ExemplaryEffect,), dict(sin))()
+    with pytest.raises(AssertionError) as caught:
+        getattr(effects, name)(sinner, DESIGNS)
+    assert sentence in str(caught.value)
+
+
+def test_every_check_has_a_sin_that_it_finds() -> None:
+    assert {check.__name__ for check in EFFECT_CHECKS} == {name for name, *_ in SINS} | {"is_complete"}
+
+
+def test_what_is_no_effect_is_told_what_it_lacks() -> None:
+    with pytest.raises(AssertionError, match="has no title, equation, linear, searched"):
+        check_effect(SimpleNamespace(identifier="half"))  # type: ignore[arg-type]  # the sin
+
+
+def test_all_sins_are_told_at_once() -> None:
+    sinner = type("Sinner", (ExemplaryEffect,), {"identifier": "Wave!", "confusions": (None,)})()
+    with pytest.raises(AssertionError) as caught:
+        check_effect(sinner)
+    checks = [line.partition(":")[0] for line in str(caught.value).splitlines()]
+    assert checks == ["is_described", "names_what_it_is_taken_for"]
+
+
+def test_effect_with_a_log_of_its_own_brings_a_test_that_has_it() -> None:
+    class Hydraulic(ExemplaryEffect):
+        def untestable(self, design: Design) -> Words | None:
+            return None if "oil_pressure" in design.conditions else same("no oil_pressure")
+
+    with pytest.raises(AssertionError, match="can be tested on none of"):
+        check_effect(Hydraulic())
+    design = DESIGNS["a complete linear test"]
+    check_effect(Hydraulic(), {"a test with oil": replace(design, conditions={"oil_pressure": design.time})})
