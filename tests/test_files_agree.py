@@ -1,0 +1,74 @@
+"""The files of one job say the same: every number of the results file stands in the PDF and in the HTML."""
+
+import json
+import re
+from io import BytesIO
+
+import pypdf
+import pytest
+
+from certificate.documents import COMPLETE, job, registry
+from zlmreport import pipeline
+from zlmreport.quantities.formatting import fixed_number
+
+STANDARDS = ["iso230-2:1988", "iso230-2:2014", "vdi-dgq-3441", "vdi-vde-2617", "nmtba"]
+DECIMALS = 2  # those of the readings
+
+
+@pytest.fixture(scope="module")
+def files(tmp_path_factory):
+    """Return the text of the PDF, the text of the HTML, and the results, of one job by five standards."""
+    keys = {**COMPLETE, "evaluate": STANDARDS, "output": {"formats": ["pdf", "html", "json"]}}
+    outcome = pipeline.run(job(tmp_path_factory.mktemp("job"), keys), registry())
+    content = {document.path.suffix: document.content for document in outcome.documents}
+    pages = pypdf.PdfReader(BytesIO(content[".pdf"])).pages
+    pdf = " ".join(page.extract_text() for page in pages)
+    body = re.sub(r"<(style|svg).*?</\1>", " ", content[".html"].decode(), flags=re.DOTALL)
+    html = re.sub(r"<[^>]*>", " ", body)
+    return pdf.split(), html.split(), json.loads(content[".json"])
+
+
+@pytest.fixture(params=[0, 1], ids=["pdf", "html"])
+def words(request, files):
+    return files[request.param]
+
+
+def section(words, standard):
+    """Return the words from the heading of one standard's section to that of the next."""
+    starts = [
+        at
+        for at in range(len(words))
+        if words[at : at + 2] == ["Results", "by"] and words[at + 2] != "target"
+    ]
+    assert len(starts) == len(STANDARDS)
+    starts.append(len(words))
+    return words[starts[STANDARDS.index(standard)] : starts[STANDARDS.index(standard) + 1]]
+
+
+def printed(value):
+    return fixed_number(value, DECIMALS)
+
+
+@pytest.mark.parametrize("standard", STANDARDS)
+def test_every_parameter_is_printed_as_the_results_file_has_it(files, words, standard):
+    (evaluation,) = [each for each in files[2]["evaluations"] if each["standard"] == standard]
+    found = section(words, standard)
+    for parameter in evaluation["parameters"]:
+        value = parameter["value"]
+        if (standard, parameter["symbol"]) == ("iso230-2:1988", "B_mean"):
+            value = -value  # this edition prints the mean reversal value with the opposite sign
+        assert printed(value) in found, parameter["symbol"]
+
+
+@pytest.mark.parametrize("standard", STANDARDS)
+def test_every_value_by_position_is_printed_as_the_results_file_has_it(files, words, standard):
+    (evaluation,) = [each for each in files[2]["evaluations"] if each["standard"] == standard]
+    found = section(words, standard)
+    counts = {"n_fwd", "n_bwd", "target"}
+    for position in evaluation["positions"]:
+        for symbol, value in position.items():
+            assert symbol in counts or printed(value) in found, (position["target"], symbol)
+
+
+def test_a_number_that_is_not_in_the_results_file_is_not_found(files):
+    assert printed(files[2]["evaluations"][0]["parameters"][0]["value"] + 0.01) not in files[0]
