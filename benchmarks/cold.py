@@ -10,7 +10,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from content import content
-from measure import Measured, Sizes, alternately, cost_of_command, median, ratio
+from measure import Measured, Sizes, alternately, cost_of_command, cpu, median, ratio, wall
 from sample import write_job
 from zlmreport.job.loading import load
 from zlmreport.pipeline import compose
@@ -42,18 +42,21 @@ def measure(sizes: Sizes) -> list[Measured]:
         costs = alternately(
             {label: partial(cost_of_command, command) for label, command in commands.items()}, sizes.rounds
         )
-    wall = {label: [one.wall for one in of_label] for label, of_label in costs.items()}
-    cpu = {label: [one.cpu for one in of_label] for label, of_label in costs.items()}
-    bare = median(cpu["python"])
+    bare = median(cpu(costs["python"]))
     return [
-        Measured("zlmreport --version", median(cpu["--version"]), "s CPU", _CPU_OF_VERSION),
-        Measured("zlmreport plugins", median(cpu["plugins"]), "s CPU"),
-        Measured("zlmreport check JOB", median(cpu["check"]), "s CPU"),
-        Measured("zlmreport JOB, one certificate", median(wall["job"]), "s"),
-        Measured("plain recipe, the same document", median(wall["plain"]), "s"),
-        Measured("zlmreport JOB / plain recipe", ratio(wall["job"], wall["plain"]), "", _WALL_OF_CERTIFICATE),
+        Measured("zlmreport --version", median(cpu(costs["--version"])), "s CPU", _CPU_OF_VERSION),
+        Measured("zlmreport plugins", median(cpu(costs["plugins"])), "s CPU"),
+        Measured("zlmreport check JOB", median(cpu(costs["check"])), "s CPU"),
+        Measured("zlmreport JOB, one certificate", median(wall(costs["job"])), "s"),
+        Measured("plain recipe, the same document", median(wall(costs["plain"])), "s"),
+        Measured(
+            "zlmreport JOB / plain recipe",
+            ratio(wall(costs["job"]), wall(costs["plain"])),
+            "",
+            _WALL_OF_CERTIFICATE,
+        ),
         Measured("python, empty", bare, "s CPU"),
-        *(Measured(f"import {names}", median(cpu[names]) - bare, "s CPU") for names in _IMPORTS),
+        *(Measured(f"import {names}", median(cpu(costs[names])) - bare, "s CPU") for names in _IMPORTS),
     ]
 
 

@@ -72,21 +72,17 @@ def timed(action: Callable[[], _T]) -> tuple[Cost, _T]:
 
     The collector of garbage runs when Python sees fit, as in any program.
     """
-    wall, cpu = time.perf_counter(), _cpu(resource.RUSAGE_SELF)
+    begin, used = time.perf_counter(), _processor_seconds(resource.RUSAGE_SELF)
     result = action()
-    return Cost(time.perf_counter() - wall, _cpu(resource.RUSAGE_SELF) - cpu), result
-
-
-def cost(action: Callable[[], object]) -> Cost:
-    """Measure an action in this process."""
-    return timed(action)[0]
+    cost = Cost(time.perf_counter() - begin, _processor_seconds(resource.RUSAGE_SELF) - used)
+    return cost, result
 
 
 def cost_of_command(command: Sequence[str | Path]) -> Cost:
     """Measure a whole process, from its start to its end."""
-    wall, cpu = time.perf_counter(), _cpu(resource.RUSAGE_CHILDREN)
+    begin, used = time.perf_counter(), _processor_seconds(resource.RUSAGE_CHILDREN)
     subprocess.run(command, check=True, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
-    return Cost(time.perf_counter() - wall, _cpu(resource.RUSAGE_CHILDREN) - cpu)
+    return Cost(time.perf_counter() - begin, _processor_seconds(resource.RUSAGE_CHILDREN) - used)
 
 
 def alternately(actions: Mapping[str, Callable[[], Cost]], rounds: int) -> dict[str, Sequence[Cost]]:
@@ -101,6 +97,16 @@ def alternately(actions: Mapping[str, Callable[[], Cost]], rounds: int) -> dict[
 def that_count(rounds: Sequence[_T]) -> Sequence[_T]:
     """Return the rounds without the first, which warms caches; the first if it is the only one."""
     return rounds[1:] or rounds
+
+
+def wall(costs: Iterable[Cost]) -> list[float]:
+    """Return the seconds on the clock."""
+    return [each.wall for each in costs]
+
+
+def cpu(costs: Iterable[Cost]) -> list[float]:
+    """Return the seconds of processors."""
+    return [each.cpu for each in costs]
 
 
 def median(values: Iterable[float]) -> float:
@@ -130,6 +136,6 @@ def own_process() -> ProcessPoolExecutor:
     return ProcessPoolExecutor(1, get_context("spawn"))
 
 
-def _cpu(whose: int) -> float:
+def _processor_seconds(whose: int) -> float:
     usage = resource.getrusage(whose)
     return usage.ru_utime + usage.ru_stime

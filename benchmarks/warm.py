@@ -9,10 +9,10 @@ from tempfile import TemporaryDirectory
 
 from alike import pages_of_same_document
 from content import Content, content
-from measure import Cost, Measured, Sizes, median, own_process, ratio, that_count, timed
+from measure import Cost, Measured, Sizes, cpu, median, own_process, ratio, that_count, timed, wall
 from sample import write_job
 from zlmreport.job.loading import load
-from zlmreport.pipeline import compose
+from zlmreport.pipeline import run
 from zlmreport.plugins import Registry, find_plugins
 
 #: For tagged PDF by WeasyPrint, graphs drawn with matplotlib's help, and tables that are tables.
@@ -21,21 +21,20 @@ _TARGET = 0.40
 
 @dataclass(frozen=True, slots=True)
 class _Product:
-    """A certificate by zlmreport: what its document and its PDF cost, and both."""
+    """A certificate by zlmreport, from the job to the PDF."""
 
-    document: Cost
-    pdf: Cost
+    cost: Cost
+    pdf: bytes
     content: Content
     graphs: int
-    printed: bytes
 
 
 @dataclass(frozen=True, slots=True)
 class _Plain:
-    """The same document by the plain recipe."""
+    """The same document by the plain recipe, from its content to the PDF."""
 
-    pdf: Cost
-    printed: bytes
+    cost: Cost
+    pdf: bytes
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,28 +63,21 @@ def measure(sizes: Sizes) -> list[Measured]:
             made.append(_Round(product, through_svg, plain))
     rounds = that_count(made)
     product, plain = rounds[0].product, rounds[0].plain
-    pages, plain_pages = pages_of_same_document(product.content, product.printed, plain.printed)
-    document = [each.product.document.cpu for each in rounds]
-    pdf = [each.product.pdf.cpu for each in rounds]
-    through_svg_pdf = [each.through_svg.pdf.cpu for each in rounds]
-    plain_pdf = [each.plain.pdf.cpu for each in rounds]
-    job_to_pdf = [each.product.document.wall + each.product.pdf.wall for each in rounds]
+    pages, plain_pages = pages_of_same_document(product.content, product.pdf, plain.pdf)
+    costs = [each.product.cost for each in rounds]
+    svg_costs = [each.through_svg.cost for each in rounds]
+    plain_costs = [each.plain.cost for each in rounds]
     return [
         Measured("graphs", product.graphs),
         Measured("pages by zlmreport", pages),
         Measured("pages by the plain recipe", plain_pages),
-        Measured("zlmreport, job to document", 1e3 * median(document), "ms CPU"),
-        Measured("zlmreport, document to PDF", 1e3 * median(pdf), "ms CPU"),
-        Measured(
-            "zlmreport with graphs through SVG, document to PDF", 1e3 * median(through_svg_pdf), "ms CPU"
-        ),
-        Measured("plain recipe, document to PDF", 1e3 * median(plain_pdf), "ms CPU"),
-        Measured("zlmreport / plain recipe", ratio(pdf, plain_pdf), "", _TARGET),
-        Measured("zlmreport with graphs through SVG / plain recipe", ratio(through_svg_pdf, plain_pdf)),
-        Measured("zlmreport, job to PDF", 1 / median(job_to_pdf), "per s"),
-        Measured(
-            "plain recipe, document to PDF", 1 / median(each.plain.pdf.wall for each in rounds), "per s"
-        ),
+        Measured("zlmreport, from the job", 1e3 * median(cpu(costs)), "ms CPU"),
+        Measured("zlmreport with graphs through SVG", 1e3 * median(cpu(svg_costs)), "ms CPU"),
+        Measured("plain recipe, from the document", 1e3 * median(cpu(plain_costs)), "ms CPU"),
+        Measured("zlmreport / plain recipe", ratio(cpu(costs), cpu(plain_costs)), "", _TARGET),
+        Measured("with graphs through SVG / plain recipe", ratio(cpu(svg_costs), cpu(plain_costs))),
+        Measured("zlmreport, one process", 1 / median(wall(costs)), "per s"),
+        Measured("plain recipe, one process", 1 / median(wall(plain_costs)), "per s"),
     ]
 
 
@@ -96,9 +88,9 @@ def _registry() -> Registry:
 
 def _by_zlmreport(job: Path) -> _Product:
     registry = _registry()
-    of_document, certificate = timed(lambda: compose(load(job, registry), registry))
-    of_pdf, pdf = timed(lambda: registry.renderer("pdf").render(certificate))
-    return _Product(of_document, of_pdf, content(certificate), len(certificate.figures), pdf)
+    cost, outcome = timed(lambda: run(load(job, registry), registry))
+    certificate = outcome.certificate
+    return _Product(cost, outcome.documents[0].content, content(certificate), len(certificate.figures))
 
 
 def _by_zlmreport_through_svg(job: Path) -> _Product:

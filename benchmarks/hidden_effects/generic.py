@@ -1,7 +1,8 @@
 """Generic ways to find what is missing, on the same readings: stepwise BIC, sparse regression, kernel search.
 
-Each is given what the job's model leaves, and may add to it what it finds. None knows causes, so it is taken to
-name the effect already if what it puts first depends on the right variables and has roughly the right form.
+Each is given what the job's model leaves, and may add to it what it finds. None knows causes, so it is
+taken to name the effect already if what it puts first depends on the right variables and has roughly the
+right form.
 """
 
 from __future__ import annotations
@@ -63,7 +64,7 @@ _WAYS: Mapping[str, Way] = {"stepwise BIC": stepwise, "sparse regression": spars
 
 @dataclass(frozen=True, slots=True)
 class _Field:
-    """A test as a generic way sees it: terms beyond the job's model, residuals, and the same of the second test."""
+    """Two tests as a generic way sees them: what the job's model describes, and the terms beyond it."""
 
     terms: Sequence[Term]
     base: FloatArray

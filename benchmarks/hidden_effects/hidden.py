@@ -1,8 +1,9 @@
-"""What is hidden in a test: effects of drawn parameters, brought to a size that the job's model leaves visible."""
+"""What is hidden in a test: effects of drawn parameters, of a stated size beyond the job's model."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -60,28 +61,50 @@ def scale_to(deviation: FloatArray, base: FloatArray, rms: float) -> float | Non
     return rms / left if left > _INVISIBLE * whole else None
 
 
+@dataclass(frozen=True, slots=True)
+class Imitation:
+    """How well an effect describes the visible part of a deviation.
+
+    Attributes
+    ----------
+    effect
+        In one of its forms.
+    share
+        R², for the best of the values of its searched parameters from which a search begins.
+    parameters
+        How many it takes: visible columns, and searched parameters.
+    """
+
+    effect: Effect
+    share: float
+    parameters: int
+
+
 def imitations(
     deviation: FloatArray, effects: Iterable[Effect], design: Design, base: FloatArray
-) -> Mapping[str, float]:
-    """Return which share of the visible part of a deviation each effect imitates, R², by identifier.
+) -> tuple[Imitation, ...]:
+    """Return how well each effect, in each form, describes what a model leaves visible of a deviation.
 
-    Over all forms and values of the searched parameters from which a search begins. An effect that would need
-    a parameter of the wrong sign imitates nothing.
+    An effect that would need a parameter of the wrong sign describes nothing.
     """
     visible = beyond(base, deviation[:, np.newaxis])[:, 0]
     squares = float(visible @ visible)
-    found: dict[str, float] = {}
-    for effect in effects:
-        for form in effect.forms():
-            if form.untestable(design) is not None:
-                continue
-            for theta in form.grid(design):
-                columns = beyond(base, form.columns(design, theta))
-                gamma, *_ = np.linalg.lstsq(columns, visible, rcond=1e-9)
-                left = visible - columns @ gamma
-                share = 1.0 - float(left @ left) / squares if _has_possible_signs(form, gamma) else 0.0
-                found[form.identifier] = max(share, found.get(form.identifier, 0.0))
-    return found
+    found = []
+    for form in (form for effect in effects for form in effect.forms()):
+        if form.untestable(design) is not None:
+            continue
+        grid = form.grid(design)
+        share, parameters = 0.0, 0
+        for theta in grid:
+            columns = beyond(base, form.columns(design, theta))
+            gamma, _, rank, _ = np.linalg.lstsq(columns, visible, rcond=_INVISIBLE)
+            left = visible - columns @ gamma
+            if _has_possible_signs(form, gamma):
+                share = max(share, 1.0 - float(left @ left) / squares)
+            parameters = max(parameters, int(rank))
+        searched = len(form.searched) if len(grid) > 1 else 0
+        found.append(Imitation(form, share, parameters + searched))
+    return tuple(found)
 
 
 def _has_possible_signs(effect: Effect, gamma: FloatArray) -> bool:

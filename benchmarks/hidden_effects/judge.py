@@ -49,10 +49,11 @@ def judged(case: Case, *, slow_ways: bool = False) -> dict[str, Any]:
         return record | {"outcome": "refused", "message": str(error)}
     record |= {"outcome": "judged", "seconds": time.process_time() - started, **_said(diagnosis)}
     record |= {"readings": len(observed.deviation), "twins": sorted(trial.twins)}
-    others = {name: share for name, share in trial.imitated.items() if name not in trial.twins}
-    if others:
-        nearest = max(others, key=others.__getitem__)
-        record |= {"nearest": nearest, "imitated": others[nearest]}
+    if case.kind is Kind.STRANGER:
+        record["imitated"] = max(each.share for each in trial.imitated)
+    nearest = trial.nearest()
+    if nearest is not None:
+        record |= {"nearest": nearest[0].effect.identifier, "distance": nearest[1]}
     if case.kind is Kind.EFFECT:
         record["second"] = prediction.errors(trial, diagnosis)
         if generic.is_tried_on(case):
@@ -85,7 +86,7 @@ def _said(diagnosis: Diagnosis) -> Mapping[str, Any]:
 
 
 def _added(trial: Trial, observed: Observations, diagnosis: Diagnosis) -> list[list[str]]:
-    """Return what a user adds who believes each first candidate: its name and its equals, one after another."""
+    """Return what a user adds who believes every first candidate: its name and its equals."""
     model: AxisModel = trial.model
     added = []
     while diagnosis.verdict is Verdict.MISSING and len(added) < _MOST_ADDED:

@@ -1,8 +1,8 @@
 """A search over kernels of a Gaussian process, built up by sums and products.
 
 D. Duvenaud, J. R. Lloyd, R. Grosse, J. B. Tenenbaum and Z. Ghahramani, Proceedings of the 30th International
-Conference on Machine Learning (2013) 1166. It needs scikit-learn, which nothing else in the project does: where that is not
-installed, this way is left out.
+Conference on Machine Learning (2013) 1166. It needs scikit-learn, which nothing else in the project does:
+where that is not installed, this way is left out.
 """
 
 from __future__ import annotations
@@ -97,13 +97,13 @@ def search(inputs: Inputs, residual: FloatArray) -> Found:
     best: tuple[float, _Structure, Any] | None = None
     structures = [_Structure(((kernel,),)) for kernel in range(len(base))]
     for _ in range(_DEPTH):
-        fits = [(*_fitted(structure, base, inputs.first, residual / scale), structure) for structure in structures]
+        fits = [(*_fitted(each, base, inputs.first, residual / scale), each) for each in structures]
         criterion, process, structure = min(fits, key=lambda each: each[0])
         if best is not None and criterion >= best[0]:
             break
         best = criterion, structure, process
         structures = structure.grown(len(base))
-    assert best is not None  # noqa: S101  # the first level always is better than nothing
+    assert best is not None  # the first level always is better than nothing
     variables = frozenset(inputs.names[base[kernel][1]] for kernel in best[1].products[0])
     return Found(
         variables,

@@ -1,4 +1,4 @@
-"""The terms that a generic way may use: powers and Fourier terms of everything that was recorded, and products.
+"""The terms of the generic ways: powers and Fourier terms of everything that was recorded, and products.
 
 What a person would try who knows which quantities matter but not the physics. The known periods of screw and
 scale are among them, so that no way fails for want of the job's own facts.
@@ -72,7 +72,8 @@ def _terms(design: Design, first: Design) -> Iterator[Term]:
     yield from _named({"t"}, over)
     yield from _named({"c"}, run)
     yield from _times("d", design.direction, {"d", "P"}, directed)
-    yield from _times("P·", lever, {"P", "t"}, {**_powers("t", moment, 4), **_waves("t", moment, _DIRECTED_WAVES)})
+    slow = {**_powers("t", moment, 4), **_waves("t", moment, _DIRECTED_WAVES)}
+    yield from _times("P·", lever, {"P", "t"}, slow)
     yield from _times("d", design.direction, {"d", "t"}, _powers("t", moment, 3))
     yield Term(frozenset({"d"}), "d", design.direction)
     fading = design.since_reversal / first.length

@@ -1,5 +1,7 @@
-"""The error on a second test of the same axis: of the job's model, of the model with what the diagnosis adds,
-and of the model with what was hidden. That last one is the oracle's, who knows the effect and not its parameters.
+"""The error on a second test of the same axis, before and after adding, and that of an oracle.
+
+The oracle knows which effect was hidden, in which form, and not its parameters: it adds this one to the job's
+model, and fits.
 
 The error is that against the true deviation, without the scatter of readings: what a compensation or a
 certificate built on the model would be off.

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from zlmreport.quantities.arrays import FloatArray
+from zlmreport.quantities.arrays import BoolArray, FloatArray
 
 _RIDGE = 1e-3
 _THRESHOLDS = np.geomspace(0.02, 0.9, 25)
@@ -46,7 +46,7 @@ def sparse(columns: FloatArray, residual: FloatArray) -> tuple[int | None, Float
     return leading, coefficients / sizes
 
 
-def _thresholded(scaled: FloatArray, goal: FloatArray, start: FloatArray, threshold: float) -> FloatArray:
+def _thresholded(scaled: FloatArray, goal: FloatArray, start: FloatArray, threshold: float) -> BoolArray:
     active = np.abs(start) > threshold
     for _ in range(_ROUNDS):
         if not active.any():

@@ -1,4 +1,4 @@
-"""From a case to a test: an axis, a plan, weather, what is hidden, noise; and the same axis measured again."""
+"""From a case to a test: axis, plan, weather, what is hidden, noise; and the same axis measured again."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import TypeAlias
 import numpy as np
 
 from hidden_effects.cases import Case, Kind, Scatter
-from hidden_effects.hidden import drawn_effect, imitations, scale_to
+from hidden_effects.hidden import Imitation, drawn_effect, imitations, scale_to
 from hidden_effects.strangers import STRANGERS, Stranger
 from hidden_effects.weather import wandering
 from zlmreport.measurement.axis import AxisKind
@@ -95,8 +95,7 @@ class Trial:
     first
         The test.
     imitated
-        Which share of the visible hidden deviation each installed effect imitates; empty where nothing or
-        more than one effect is hidden.
+        How well each installed effect describes what is hidden; empty unless that is a single thing.
     """
 
     case: Case
@@ -105,7 +104,7 @@ class Trial:
     coefficients: FloatArray
     effects: tuple[Term, ...]
     first: Measured
-    imitated: Mapping[str, float]
+    imitated: tuple[Imitation, ...]
 
     @property
     def sigma(self) -> float:
@@ -114,27 +113,58 @@ class Trial:
 
     @property
     def twins(self) -> frozenset[str]:
-        """The hidden effect, and those that in this test have the very same columns: no engine tells them apart."""
-        if len(self.effects) != 1:
-            return frozenset(self.case.hidden)
-        effect = self.effects[0].effect
-        alike = {name for name, share in self.imitated.items() if share > _IS_THE_SAME}
-        return frozenset(
-            name for name in alike if len(EFFECTS[name].linear) == len(effect.linear)
-        ) | {effect.identifier}
+        """The hidden effect, and those that this test cannot tell from it: their columns are the same."""
+        own = self._own_parameters
+        alike = {
+            each.effect.identifier
+            for each in self.imitated
+            if each.share > _IS_THE_SAME and each.parameters == own
+        }
+        return frozenset(alike) | frozenset(self.case.hidden)
+
+    def nearest(self) -> tuple[Imitation, float] | None:
+        """Return the effect that is the hardest to tell from the hidden one, and how far away it is.
+
+        The distance is N·ρ²·(1 − R²) and ln N for each parameter that it takes more: the expected difference
+        of two criteria, in noise without shared parts. None if one does not ask.
+        """
+        readings = len(self.first.hidden)
+        distances = [
+            (
+                readings * self.case.size**2 * (1 - each.share)
+                + math.log(readings) * (each.parameters - self._own_parameters),
+                place,
+            )
+            for place, each in enumerate(self.imitated)
+            if each.effect.identifier not in self.twins
+        ]
+        if not self.effects or not distances:
+            return None
+        distance, place = min(distances)
+        return self.imitated[place], distance
+
+    @property
+    def _own_parameters(self) -> int:
+        """How many parameters the hidden effect takes, in its form."""
+        own = [
+            each.parameters
+            for term in self.effects
+            for each in self.imitated
+            if (each.effect.identifier, each.effect.settings)
+            == (term.effect.identifier, term.effect.settings)
+        ]
+        return own[0] if own else 0
 
     def again(self) -> Measured:
-        """Return a second test of the same axis: other targets within the same travel, other weather and noise."""
+        """Return a second test of the same axis: other targets on the travel, other weather and noise."""
         random = np.random.default_rng([self.description.seed, 2])
         first, last = self.first.design.span
         plan, axis = self.description.plan, self.description.axis
-        assert axis.travel is not None  # noqa: S101  # every drawn axis has one
+        assert axis.travel is not None  # every drawn axis has one
         targets = target_positions(axis.travel, len(plan.targets), axis.screw_pitch or 0.0, random)
         plan = replace(plan, targets=read_only_floats(np.clip(targets, first, last)))
         another = _drawn_test(self.case, random)
-        description = replace(
-            self.description, plan=plan, seed=another.seed, conditions=another.conditions
-        )
+        description = replace(self.description, plan=plan, seed=another.seed, conditions=another.conditions)
         design = replace(_design(self.case, description, random), span=self.first.design.span)
         known = base_columns([term.effect for term in self.model.terms], design) @ self.coefficients
         return _measured(description, design, known, _sum_of(self.effects, design))
@@ -162,8 +192,8 @@ def drawn_trial(case: Case) -> Trial | None:
     return Trial(case, description, model, coefficients, effects, first, imitated)
 
 
-#: Effects that are hidden, the deviation that they make, and the share of it that each effect imitates.
-_Drawn: TypeAlias = tuple[tuple[Term, ...], FloatArray, Mapping[str, float]]
+#: Effects that are hidden, the deviation that they make, and how well each installed effect describes it.
+_Drawn: TypeAlias = tuple[tuple[Term, ...], FloatArray, tuple[Imitation, ...]]
 
 
 def _inside(
@@ -177,7 +207,7 @@ def _inside(
             return None
         effects.append(effect)
     hidden = _sum_of(effects, design)
-    imitated = imitations(hidden, EFFECTS.values(), design, base) if len(effects) == 1 else {}
+    imitated = imitations(hidden, EFFECTS.values(), design, base) if len(effects) == 1 else ()
     return tuple(effects), hidden, imitated
 
 
@@ -191,7 +221,7 @@ def _outside(
         if scale is None:
             continue
         imitated = imitations(scale * shape, EFFECTS.values(), design, base)
-        if max(imitated.values()) <= _IS_INSIDE:
+        if max(each.share for each in imitated) <= _IS_INSIDE:
             return (), scale * shape, imitated
     return None
 

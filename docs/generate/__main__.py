@@ -13,6 +13,7 @@ from pathlib import Path
 
 import command_texts
 import comparison
+import effect_pages
 import hooks
 import job_keys
 import standard_pages
@@ -22,6 +23,7 @@ _PART = re.compile(r"(<!-- generated: (?P<name>[a-z0-9-]+) -->\n).*?(<!-- end: (
 PARTS: Mapping[str, Callable[[], str]] = {
     "commands": command_texts.text,
     "comparison": comparison.text,
+    "effects": effect_pages.text,
     "hooks": hooks.hooks_text,
     "protocols": hooks.protocols_text,
     "job-keys": job_keys.job_text,

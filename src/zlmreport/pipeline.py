@@ -12,17 +12,21 @@ import tempfile
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from zlmreport.certificate.build import build
 from zlmreport.certificate.clauses import demand_mandatory_items
 from zlmreport.certificate.document import Certificate
+from zlmreport.certificate.forecast import forecasts
+from zlmreport.certificate.model_annex import Modelled
 from zlmreport.certificate.results import Evaluated
 from zlmreport.errors import AccessError, Place
 from zlmreport.evaluation.evaluate import evaluate
 from zlmreport.job.job import Job
 from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.model.study import Fitted, Study
 from zlmreport.plugins import Registry
-from zlmreport.protocols import SourceContext
+from zlmreport.protocols import SourceContext, Standard
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,8 +62,10 @@ def read(job: Job, registry: Registry) -> MeasurementSet:
 def compose(job: Job, registry: Registry) -> Certificate:
     """Read, evaluate by every standard that the job names, and compose the document; nothing is rendered."""
     demand_mandatory_items(job)
-    evaluated = _evaluated(job, read(job, registry), registry)
-    return build(job, evaluated, registry.versions(job))
+    measurements = read(job, registry)
+    evaluated = _evaluated(job, measurements, registry)
+    modelled = _modelled(job, measurements, registry) if job.effects else None
+    return build(job, evaluated, registry.versions(job), modelled)
 
 
 def _evaluated(job: Job, measurements: MeasurementSet, registry: Registry) -> tuple[Evaluated, ...]:
@@ -75,6 +81,24 @@ def _evaluated(job: Job, measurements: MeasurementSet, registry: Registry) -> tu
         )
         evaluated.append(Evaluated(evaluation, tuple(standard.figures(evaluation, choice.options))))
     return tuple(evaluated)
+
+
+def _modelled(job: Job, measurements: MeasurementSet, registry: Registry) -> Modelled:
+    """Hold the job's error model against the readings, and ask its standards about a corrected axis."""
+    study = Study.of(job, measurements, registry.effects)
+    diagnosis = study.diagnosis(registry.effects)
+    history = study.history(Fitted(diagnosis.fit, diagnosis.error))
+    return Modelled(
+        history,
+        diagnosis,
+        forecasts(standards(job, registry), study, history),
+        {effect.identifier: effect.title for effect in registry.effects},
+    )
+
+
+def standards(job: Job, registry: Registry) -> list[tuple[Standard, Any]]:
+    """Return the standards that a job names, each with its own keys."""
+    return [(registry.standard(choice.identifier), choice.options) for choice in job.standards]
 
 
 def run(job: Job, registry: Registry) -> Outcome:

@@ -19,6 +19,7 @@ from zlmreport.language import Language, Words
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.model.report import report_error, report_model
 from zlmreport.quantities.units import Unit
 
 SCHEMA = "zlmreport/results/1"
@@ -50,7 +51,7 @@ def _results(certificate: Certificate) -> Json:
         "evaluations": [
             _evaluation(evaluation, certificate.language) for evaluation in certificate.evaluations
         ],
-        "model": {"effects": [], "parameters": [], "error": {}},
+        "model": _model(certificate),
         "measurements": _measurements(measurements),
         "provenance": _provenance(certificate),
     }
@@ -127,6 +128,19 @@ def _position(evaluation: Evaluation, index: int) -> Json:
         if not math.isnan(value):
             row[symbol] = measurements.axis.deviation_unit.from_si(value)
     return row
+
+
+def _model(certificate: Certificate) -> Json:
+    """Return the error model with its parameters and its error; empty where the job names none."""
+    diagnosis = certificate.diagnosis
+    if diagnosis is None:
+        return {"effects": [], "parameters": [], "error": {}}
+    error = report_error(diagnosis.error, certificate.measurements.axis)
+    return {
+        **report_model(diagnosis.fit),
+        "error": {key: value for key, value in error.items() if value is not None},
+        "verdict": diagnosis.verdict.value,
+    }
 
 
 def _measurements(measurements: MeasurementSet) -> Json:

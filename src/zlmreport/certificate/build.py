@@ -6,9 +6,10 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from zlmreport import __version__
-from zlmreport.certificate import conditions, cover, origin, readings, results
+from zlmreport.certificate import conditions, cover, model_annex, origin, readings, results
 from zlmreport.certificate.document import Certificate, Letterhead, PageWords, Party
 from zlmreport.certificate.logo import read_logo
+from zlmreport.certificate.model_annex import Modelled
 from zlmreport.certificate.results import Evaluated
 from zlmreport.certificate.scribe import Scribe
 from zlmreport.figures.figure import Figure
@@ -29,7 +30,12 @@ _DESCRIPTION = Words(
 )
 
 
-def build(job: Job, evaluated: tuple[Evaluated, ...], plugins: Mapping[str, str]) -> Certificate:
+def build(
+    job: Job,
+    evaluated: tuple[Evaluated, ...],
+    plugins: Mapping[str, str],
+    modelled: Modelled | None = None,
+) -> Certificate:
     """Build the document.
 
     Parameters
@@ -40,6 +46,8 @@ def build(job: Job, evaluated: tuple[Evaluated, ...], plugins: Mapping[str, str]
         At least one evaluation; all are of the same measurements.
     plugins
         Identifier and version of every plugin that took part.
+    modelled
+        The error model, studied; None where the job names none.
     """
     certificate = job.keys.certificate
     measurements = evaluated[0].evaluation.measurements
@@ -64,6 +72,7 @@ def build(job: Job, evaluated: tuple[Evaluated, ...], plugins: Mapping[str, str]
             *(results.section(each, scribe) for each in evaluated),
             readings.section(measurements, scribe),
             origin.section(job, measurements, GENERATOR, plugins, scribe),
+            *([model_annex.section(modelled, scribe)] if modelled else []),
         ),
         page_words=PageWords(
             number=f"{title} {certificate.number}",
@@ -79,6 +88,7 @@ def build(job: Job, evaluated: tuple[Evaluated, ...], plugins: Mapping[str, str]
         generator=GENERATOR,
         keywords=designations,
         plugins=plugins,
+        diagnosis=modelled.diagnosis if modelled else None,
     )
 
 

@@ -13,6 +13,7 @@ from zlmreport.job.job import Job
 from zlmreport.job.model import JobKeys
 from zlmreport.language import Words
 from zlmreport.measurement.axis import AxisKind
+from zlmreport.measurement.conditions import CONDITION_NAMES, CONDITIONS
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.quantities.arrays import FloatArray
 
@@ -177,17 +178,17 @@ def _environment(keys: JobKeys, measurements: MeasurementSet, scribe: Scribe) ->
 
 #: Name, key (in the job and among the logged conditions), unit, and whether a log may state it.
 _CONDITIONS = (
-    (Words(en="Air temperature", de="Lufttemperatur"), "air_temperature", "°C", True),
-    (
-        Words(en="Temperature of the machine's scale", de="Temperatur des Maschinenmaßstabs"),
-        "axis_temperature",
-        "°C",
-        True,
+    *(
+        (CONDITION_NAMES[key], key, CONDITIONS[key].unit.symbol, True)
+        for key in (
+            "air_temperature",
+            "axis_temperature",
+            "screw_temperature",
+            "material_temperature",
+            "air_pressure",
+            "relative_humidity",
+        )
     ),
-    (Words(en="Temperature of the screw", de="Temperatur der Spindel"), "screw_temperature", "°C", True),
-    (Words(en="Material temperature", de="Materialtemperatur"), "material_temperature", "°C", True),
-    (Words(en="Air pressure", de="Luftdruck"), "air_pressure", "hPa", True),
-    (Words(en="Relative humidity", de="Relative Luftfeuchte"), "relative_humidity", "%", True),
     (
         Words(en="Expansion coefficient used", de="Verwendeter Ausdehnungskoeffizient"),
         "expansion_coefficient",

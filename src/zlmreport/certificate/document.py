@@ -16,6 +16,7 @@ from zlmreport.evaluation.evaluation import Evaluation
 from zlmreport.figures.figure import Figure
 from zlmreport.language import Language
 from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.model.diagnosis import Diagnosis
 
 
 @dataclass(frozen=True, slots=True)
@@ -204,8 +205,9 @@ class Certificate:
         Words of the page margins.
     keywords, description
         For the metadata of the file.
-    measurements, evaluations
-        What the sections were made of, for renderers of data.
+    measurements, evaluations, diagnosis
+        What the sections were made of, for renderers of data; the diagnosis is None where the job names no
+        error model.
     generator
         Name and version of this program.
     plugins
@@ -228,6 +230,7 @@ class Certificate:
     generator: str
     keywords: tuple[str, ...] = ()
     plugins: Mapping[str, str] = field(default_factory=dict)
+    diagnosis: Diagnosis | None = None
 
     @property
     def figures(self) -> tuple[Figure, ...]:

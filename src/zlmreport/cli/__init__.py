@@ -23,6 +23,9 @@ _BROKEN_PIPE = 128 + 13
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Do what the command line says and return the exit code; messages go to the standard error output."""
+    # Before numpy is loaded: on the small matrices of a test, threads only wait for each other, and a
+    # diagnosis takes ten times as long.
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     for stream in (sys.stdout, sys.stderr):
         _write_what_cannot_be_encoded_as_escapes(stream)
     try:

@@ -16,6 +16,7 @@ MAIN_JOB = "report"
 _COMMANDS = {
     "check": "validate jobs, their data and the tests; write nothing",
     "init": "write a commented job with sample data that runs as it is",
+    "model": "fit a job's error model, find what it lacks, add it, watch the error fall",
     "plugins": "list the plugins found, and why one failed to load",
     "schema": "print the JSON Schema of the job file, for editors",
     "simulate": "write simulated readings of a described axis, and a job for them",
@@ -52,7 +53,11 @@ def parse(arguments: Sequence[str]) -> tuple[str, argparse.Namespace]:
     """
     command, *rest = arguments or [""]
     if command in _COMMANDS:
-        return command, _PARSERS[command](command).parse_strictly(rest)
+        parser = _PARSERS[command](command)
+        options = parser.parse_strictly(rest)
+        if command == "model":
+            _demand_model_action(options, parser)
+        return command, options
     options = _main_job().parse_strictly(arguments)
     for job in options.jobs:
         _refuse_mistaken_command(job)
@@ -190,10 +195,58 @@ def _simulate(command: str) -> _Parser:
     return parser
 
 
+_MODEL_ACTIONS = {
+    "fit": "the parameters with their uncertainties, and the error that is left",
+    "diagnose": "where the model fails, and which effect is missing",
+    "add": "write an effect into the job, and show the error before and after",
+    "remove": "take an effect out of the job, and show the same",
+    "history": "how the error fell, effect by effect",
+}
+
+
+def _model(command: str) -> _Parser:
+    parser = _Parser(
+        f"zlmreport {command}",
+        "Work on the error model of a job (its key model.effects):\n\n"
+        + "\n".join(f"  {action:9} {text}" for action, text in _MODEL_ACTIONS.items())
+        + "\n\nThe job is edited in place; comments and layout stay. It is left as it is if the effect\n"
+        "makes no sense or explains nothing.",
+        "examples:\n"
+        "  zlmreport model diagnose configs/hidden-effect/job.yaml\n"
+        "  zlmreport model add x-axis.yaml screw-pitch\n"
+        "  zlmreport model add x-axis.yaml 'polynomial: {order: 5}'",
+    )
+    parser.add_argument("action", metavar="ACTION", help=", ".join(_MODEL_ACTIONS))
+    parser.add_argument("job", metavar="JOB.yaml", type=Path, help="job file")
+    parser.add_argument(
+        "effect",
+        metavar="EFFECT",
+        nargs="?",
+        default="",
+        help="of add and remove: an installed effect; add takes it with keys as in a job, too",
+    )
+    parser.add_argument("--json", action="store_true", help="print the values in full precision as JSON")
+    return parser
+
+
+def _demand_model_action(options: argparse.Namespace, parser: _Parser) -> None:
+    """Refuse an action that there is not, and an effect that is missing or too much."""
+    if options.action not in _MODEL_ACTIONS:
+        parser.error(
+            f"unknown action {options.action!r}; {did_you_mean(options.action, list(_MODEL_ACTIONS))}"
+        )
+    takes_effect = options.action in {"add", "remove"}
+    if takes_effect and not options.effect.strip():
+        parser.error(f"{options.action} needs the name of an effect, such as backlash")
+    if not takes_effect and options.effect:
+        parser.error(f"{options.action} takes no effect, but {options.effect!r} is given")
+
+
 _PARSERS = {
     "check": _check,
     "init": _init,
     "plugins": _plugins,
+    "model": _model,
     "schema": _schema,
     "simulate": _simulate,
 }

@@ -18,6 +18,7 @@ def run(options: Namespace) -> int:
     registry = find_plugins(files=options.plugin)
 
     def evaluated(result: Result, job: Job) -> Result:
-        return replace(result, evaluations=pipeline.compose(job, registry).evaluations)
+        certificate = pipeline.compose(job, registry)
+        return replace(result, evaluations=certificate.evaluations, diagnosis=certificate.diagnosis)
 
     return do_all(load_all(options.jobs, registry), evaluated, findings, options)

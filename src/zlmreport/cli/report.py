@@ -23,7 +23,8 @@ def run(options: Namespace) -> int:
     def made(result: Result, job: Job) -> Result:
         outcome = pipeline.run(job, registry)
         files = pipeline.write(outcome.documents)
-        return replace(result, evaluations=outcome.certificate.evaluations, files=files)
+        made = outcome.certificate
+        return replace(result, evaluations=made.evaluations, diagnosis=made.diagnosis, files=files)
 
     loaded = [
         replace(result, job=replace(result.job, directory=options.output))

@@ -12,6 +12,7 @@ from zlmreport.errors import AccessError, InputError, Place, Problem, ZlmreportE
 from zlmreport.evaluation.evaluation import Evaluation
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
+from zlmreport.model.diagnosis import Diagnosis
 from zlmreport.plugins import Registry
 
 _NOT_MET = 1
@@ -29,6 +30,8 @@ class Result:
         The checked job; None if it is wrong.
     evaluations
         By each of its standards.
+    diagnosis
+        Of its error model; None where the job names none.
     files
         That were written.
     error
@@ -38,6 +41,7 @@ class Result:
     path: Path
     job: Job | None = None
     evaluations: tuple[Evaluation, ...] = ()
+    diagnosis: Diagnosis | None = None
     files: tuple[Path, ...] = ()
     error: ZlmreportError | None = None
 

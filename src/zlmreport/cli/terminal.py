@@ -18,10 +18,9 @@ from zlmreport.cli.results import Result
 from zlmreport.evaluation.evaluation import Evaluation, Parameter
 from zlmreport.job.job import Job
 from zlmreport.language import Language
+from zlmreport.model.diagnosis import Verdict
+from zlmreport.model.statements import verdict_statement
 from zlmreport.quantities.notation import plain
-
-#: Said of a job whose error model this version cannot fit yet.
-MODEL_NOTE = "model.effects is kept as it stands: this version has no command 'model' yet"
 
 #: Of a terminal, in letters: its width where it has none, what a table needs beside the names of
 #: parameters, and how much of a name is always shown.
@@ -153,8 +152,13 @@ def _missing(result: Result, scribe: Scribe) -> Iterator[str]:
 
 
 def _model(result: Result) -> Iterator[str]:
-    if result.job and result.job.keys.model and result.job.keys.model.effects:
-        yield f"  {Colour.YELLOW.of('note')}  {MODEL_NOTE}"
+    diagnosis = result.diagnosis
+    if diagnosis is None:
+        return
+    label = (Colour.GREEN if diagnosis.verdict is Verdict.ADEQUATE else Colour.YELLOW).of("model")
+    yield f"  {label}  {verdict_statement(diagnosis).in_language(Language.ENGLISH)}"
+    if diagnosis.verdict is not Verdict.ADEQUATE:
+        yield f"         see: zlmreport model diagnose {shown_path(result.path)}"
 
 
 def _shortened(name: str, longest: int) -> str:

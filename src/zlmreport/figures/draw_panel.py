@@ -14,10 +14,11 @@ from zlmreport.figures.dimensions import GAP, HEAD, HEAD_HALF_WIDTH, OVERSHOOT, 
 from zlmreport.figures.draw_artists import Lettering, Marks, Outline
 from zlmreport.figures.draw_lettering import plain_label
 from zlmreport.figures.figure import Band, Curve, Readings
-from zlmreport.figures.frame import Frame, PlacedLabel
-from zlmreport.figures.layout import TICK_GAP, TICK_LENGTH
+from zlmreport.figures.frame import Box, Frame, PlacedLabel
+from zlmreport.figures.layout import TICK_GAP, TICK_LENGTH, TICK_LINE
 from zlmreport.figures.panel_layout import PanelLayout
 from zlmreport.figures.style import (
+    BAR,
     DIMENSION,
     EXTENSION,
     FRAME,
@@ -40,6 +41,8 @@ from zlmreport.quantities.arrays import BoolArray, FloatArray
 _MARK_DISTANCE = 11.0
 #: Half the length of the dash that stands for a value between two gaps.
 _LONE_DASH = 3.5
+#: Half the width of a bar, in distances of bars.
+_HALF_BAR = 0.32
 
 PAGE = IdentityTransform()
 
@@ -51,6 +54,7 @@ def panel_artists(layout: PanelLayout, *, is_lowest: bool) -> Iterator[Artist]:
     to_page.scale(frame.x_factor, frame.y_factor).translate(frame.box.left, frame.box.bottom)
 
     yield from _grid(frame)
+    yield from _bars(layout)
     for band in panel.bands:
         yield from _band(band, frame, to_page)
     for readings in panel.readings:
@@ -63,6 +67,9 @@ def panel_artists(layout: PanelLayout, *, is_lowest: bool) -> Iterator[Artist]:
     for curve in panel.curves:
         yield from _curve(curve, frame, to_page)
     yield from _axes(frame, is_lowest=is_lowest)
+    for value in layout.bar_values:
+        yield _ground(value)
+        yield Lettering("bar", value, INK)
     for kind, dimensions in (("arrow", layout.arrows), ("bracket", layout.brackets)):
         for dimension in dimensions:
             yield from _dimension(kind, dimension)
@@ -116,9 +123,21 @@ def _axes(frame: Frame, *, is_lowest: bool) -> Iterator[Artist]:
     if is_lowest:
         top = box.bottom - TICK_LENGTH - TICK_GAP
         for value, text in zip(frame.x_scale.ticks, frame.x_scale.labels, strict=True):
-            label = plain_label(text, TICK_TEXT_SIZE)
-            place = PlacedLabel(label, frame.x_point(value) - label.width / 2, top - 2 * label.rise)
-            yield Lettering("tick x", place, INK)
+            for line, part in enumerate(text.split("\n")):
+                label = plain_label(part, TICK_TEXT_SIZE)
+                middle = frame.x_point(value)
+                place = PlacedLabel(label, middle - label.width / 2, top - 2 * label.rise - line * TICK_LINE)
+                yield Lettering("tick x", place, INK)
+
+
+def _bars(layout: PanelLayout) -> Iterator[Artist]:
+    """Return the bars, which grow from zero."""
+    frame = layout.frame
+    for number, bar in enumerate(layout.panel.bars):
+        left, right = frame.x_point(number - _HALF_BAR), frame.x_point(number + _HALF_BAR)
+        bottom, top = sorted((frame.y_point(0.0), frame.y_point(bar.y)))
+        corners = Box(left, bottom, right, top).corners
+        yield Outline("bar", Path(corners, closed=True), PAGE, *BAR)
 
 
 def _curve(curve: Curve, frame: Frame, to_page: Affine2D) -> Iterator[Artist]:

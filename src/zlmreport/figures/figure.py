@@ -1,7 +1,8 @@
 """A graph as data: what is drawn, in words of metrology and without a line width or a colour.
 
-A standard says which curves, bands, arrows and brackets its prescribed graph has; `zlmreport.figures.draw`
-gives all of them one look. Coordinates are in the units that the axes print (mm and µm, ° and ″).
+A standard says which curves, bands, arrows and brackets its prescribed graph has, the error model which
+points, curves and bars; `zlmreport.figures.draw` gives all of them one look. Coordinates are in the units
+that the axes print (mm and µm, ° and ″).
 """
 
 from __future__ import annotations
@@ -26,6 +27,11 @@ class Role(Enum):
     REVERSAL = "half reversal value about the mean"
     BAND_LIMIT = "limit of the overall band"
     TOLERANCE = "tolerance"
+    MODEL_POSITIVE = "model, positive approach"
+    MODEL_NEGATIVE = "model, negative approach"
+    UNCERTAINTY_POSITIVE = "expanded uncertainty of the model, positive approach"
+    UNCERTAINTY_NEGATIVE = "expanded uncertainty of the model, negative approach"
+    NOISE = "scatter of single readings"
 
 
 @dataclass(frozen=True, slots=True)
@@ -112,6 +118,25 @@ class Level:
 
 
 @dataclass(frozen=True, slots=True)
+class Bar:
+    """A value as a bar from zero; the bars of a panel stand side by side instead of over positions.
+
+    Attributes
+    ----------
+    label
+        Below the bar.
+    y
+        Where it ends.
+    value
+        Written at its end.
+    """
+
+    label: Words
+    y: float
+    value: Words
+
+
+@dataclass(frozen=True, slots=True)
 class Panel:
     """One pair of axes.
 
@@ -119,7 +144,7 @@ class Panel:
     ----------
     heading
         Above the panel, where a figure has more than one; None otherwise.
-    curves, bands, readings, arrows, brackets, levels
+    curves, bands, readings, arrows, brackets, levels, bars
         What is drawn.
     """
 
@@ -130,6 +155,7 @@ class Panel:
     arrows: tuple[Arrow, ...] = ()
     brackets: tuple[Bracket, ...] = ()
     levels: tuple[Level, ...] = ()
+    bars: tuple[Bar, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -150,6 +176,8 @@ class Figure:
         As printed.
     panels
         From top to bottom; they share the position axis.
+    spans_are_alike
+        Whether lengths of all panels compare by eye: not where one shows what is left of the other.
     """
 
     key: str
@@ -160,3 +188,4 @@ class Figure:
     x_unit: str
     y_unit: str
     panels: tuple[Panel, ...]
+    spans_are_alike: bool = True

@@ -16,7 +16,7 @@ from zlmreport.figures.figure import Figure, Panel
 from zlmreport.figures.frame import Box, Frame, PlacedLabel
 from zlmreport.figures.legend import LEGEND_GAP, LegendLayout, lay_out_legend
 from zlmreport.figures.panel_layout import PanelLayout, bracket_width, lay_out_panel, level_width
-from zlmreport.figures.scale import Scale, position_scale, value_scales
+from zlmreport.figures.scale import Scale, category_scale, position_scale, value_scales
 from zlmreport.figures.style import TEXT_SIZE, TICK_TEXT_SIZE
 from zlmreport.language import Language
 from zlmreport.quantities.arrays import FloatArray
@@ -38,6 +38,8 @@ _LEAST_MARGIN = 6.0
 _VALUE_ROOM = 11.0
 _POSITION_ROOM = 12.0
 _LEAST_TICK_DISTANCE = 18.0
+#: From line to line of a label below the frame.
+TICK_LINE = 1.2 * TICK_TEXT_SIZE
 #: What a legend of one row takes from a panel's height, with the gaps above and below.
 _ABOUT_LEGEND = 28.0
 
@@ -60,7 +62,9 @@ def figure_height(figure: Figure) -> float:
 def lay_out(figure: Figure, language: Language) -> FigureLayout:
     """Return the places of everything in a figure."""
     height = figure_height(figure)
+    has_bars = any(panel.bars for panel in figure.panels)
     bottom = _EDGE + 1.35 * TEXT_SIZE + _TITLE_GAP + TICK_TEXT_SIZE + TICK_GAP + TICK_LENGTH
+    bottom += TICK_LINE if has_bars else 0.0
     # The width of the values' labels is the left margin, and the legend's rows follow from it; so the
     # values come first, for the height that a legend of one row leaves.
     y_scales = _y_scales(figure, language, (height - bottom) / max(1, len(figure.panels)) - _ABOUT_LEGEND)
@@ -69,14 +73,18 @@ def lay_out(figure: Figure, language: Language) -> FigureLayout:
     levels = max(map(level_width, figure.panels), default=0.0)
     brackets = max(map(bracket_width, figure.panels), default=0.0)
     right = WIDTH - _EDGE - max(levels + brackets, _LEAST_MARGIN)
-    x_scale = position_scale(
-        _positions(figure.panels), right - left, _POSITION_ROOM, language.decimal_sign, _tick_width
-    )
+    if has_bars:
+        names = [bar.label.in_language(language) for panel in figure.panels for bar in panel.bars]
+        x_scale = category_scale(names, right - left, _tick_width)
+    else:
+        x_scale = position_scale(
+            _positions(figure.panels), right - left, _POSITION_ROOM, language.decimal_sign, _tick_width
+        )
 
     legends = [lay_out_legend(panel, language, WIDTH - _EDGE - left) for panel in figure.panels]
     boxes = _boxes(left, bottom, right, height, legends)
     panels = tuple(
-        lay_out_panel(panel, Frame(box, x_scale, y_scale), legend, levels)
+        lay_out_panel(panel, Frame(box, x_scale, y_scale), legend, levels, language)
         for panel, box, y_scale, legend in zip(figure.panels, boxes, y_scales, legends, strict=True)
     )
     x_title = _axis_title(figure.x_title.in_language(language), figure.x_unit)
@@ -112,7 +120,8 @@ def _tick_width(text: str) -> float:
 def _y_scales(figure: Figure, language: Language, height: float) -> tuple[Scale, ...]:
     room = _VALUE_ROOM / (height - 2 * _VALUE_ROOM)
     most = int(height / _LEAST_TICK_DISTANCE)
-    return value_scales([_values(panel) for panel in figure.panels], room, most, language.decimal_sign)
+    values = [_values(panel) for panel in figure.panels]
+    return value_scales(values, room, most, language.decimal_sign, alike=figure.spans_are_alike)
 
 
 def _positions(panels: Iterable[Panel]) -> FloatArray:
@@ -133,6 +142,7 @@ def _values(panel: Panel) -> FloatArray:
     found.append(np.array([(arrow.low, arrow.high) for arrow in panel.arrows]))
     found.append(np.array([(bracket.low, bracket.high) for bracket in panel.brackets]))
     found.append(np.array([level.y for level in panel.levels]))
+    found.append(np.array([(0.0, bar.y) for bar in panel.bars]))
     return _joined(found)
 
 

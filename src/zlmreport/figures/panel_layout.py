@@ -19,16 +19,19 @@ from zlmreport.figures.dimensions import (
     margin_width,
     spread,
 )
-from zlmreport.figures.draw_lettering import symbol_label
+from zlmreport.figures.draw_lettering import plain_label, symbol_label
 from zlmreport.figures.figure import Arrow, Bracket, Level, Panel
 from zlmreport.figures.frame import Frame, PlacedLabel
 from zlmreport.figures.legend import LegendLayout
-from zlmreport.figures.style import TEXT_SIZE
+from zlmreport.figures.style import TEXT_SIZE, TICK_TEXT_SIZE
+from zlmreport.language import Language
 from zlmreport.quantities.arrays import FloatArray
 
 #: Between the frame and the first column of brackets, and between the end of a level and its label.
 _MARGIN_GAP = 9.0
 _LEVEL_GAP = 5.0
+#: Between the end of a bar and its value.
+_VALUE_GAP = 2.5
 #: Distance of the points that stand for a line when labels look for room.
 _SAMPLING = 2.0
 
@@ -49,6 +52,8 @@ class PanelLayout:
         Dimension lines in the margin, and beside targets.
     levels
         Each level with its height at the frame, and its label.
+    bar_values
+        What is written at the end of each bar.
     """
 
     panel: Panel
@@ -57,9 +62,12 @@ class PanelLayout:
     brackets: tuple[Dimension, ...]
     arrows: tuple[Dimension, ...]
     levels: tuple[tuple[Level, float, PlacedLabel], ...]
+    bar_values: tuple[PlacedLabel, ...]
 
 
-def lay_out_panel(panel: Panel, frame: Frame, legend: LegendLayout, level_width: float) -> PanelLayout:
+def lay_out_panel(
+    panel: Panel, frame: Frame, legend: LegendLayout, level_width: float, language: Language
+) -> PanelLayout:
     """Return the places of everything in a panel; labels of levels take a width beside the frame."""
     box = frame.box
     spans = [_span(bracket, frame, bracket.low_at, bracket.high_at) for bracket in drawable_brackets(panel)]
@@ -67,7 +75,8 @@ def lay_out_panel(panel: Panel, frame: Frame, legend: LegendLayout, level_width:
     drawable = [arrow for arrow in panel.arrows if np.isfinite((arrow.low, arrow.high, arrow.x)).all()]
     spans = [_span(arrow, frame, arrow.x, arrow.x) for arrow in drawable]
     arrows = beside_targets(spans, box, _marks(panel, frame), _lines(panel, frame, brackets))
-    return PanelLayout(panel, frame, legend, brackets, arrows, _levels(panel, frame))
+    levels, values = _levels(panel, frame), _bar_values(panel, frame, language)
+    return PanelLayout(panel, frame, legend, brackets, arrows, levels, values)
 
 
 def drawable_brackets(panel: Panel) -> list[Bracket]:
@@ -115,6 +124,14 @@ def _levels(panel: Panel, frame: Frame) -> tuple[tuple[Level, float, PlacedLabel
         for level, label, height, moved in zip(
             levels, labels, heights, spread(heights, distance, frame.box.bottom, frame.box.top), strict=True
         )
+    )
+
+
+def _bar_values(panel: Panel, frame: Frame, language: Language) -> tuple[PlacedLabel, ...]:
+    labels = [plain_label(bar.value.in_language(language), TICK_TEXT_SIZE) for bar in panel.bars]
+    return tuple(
+        PlacedLabel(label, frame.x_point(number) - label.width / 2, frame.y_point(bar.y) + _VALUE_GAP)
+        for number, (bar, label) in enumerate(zip(panel.bars, labels, strict=True))
     )
 
 

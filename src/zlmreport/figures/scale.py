@@ -32,7 +32,7 @@ class Scale:
     ticks
         Values with a label, rising.
     labels
-        What is written at them.
+        What is written at them; of several lines where there is a line break.
     marks
         Values with a small tick and no label.
     """
@@ -85,12 +85,11 @@ def round_ticks(lower: float, upper: float, most: int) -> tuple[tuple[float, ...
 
 
 def value_scales(
-    panels: Sequence[FloatArray], part: float, most: int, sign: DecimalSign
+    panels: Sequence[FloatArray], part: float, most: int, sign: DecimalSign, *, alike: bool = True
 ) -> tuple[Scale, ...]:
-    """Return the axes of deviations, one for each panel.
+    """Return the axes of deviations, one for each panel, each about its own values.
 
-    All have the same span, so that lengths compare by eye, each about its own values; beyond the
-    outermost values a part of the span is left free.
+    Beyond the outermost values a part of the span is left free.
 
     Parameters
     ----------
@@ -102,11 +101,14 @@ def value_scales(
         Largest number of ticks.
     sign
         The decimal sign of the labels.
+    alike
+        Whether all have the same span, so that lengths compare by eye.
     """
     limits = [with_zero(*extremes(values)) for values in panels]
-    span = max((upper - lower for lower, upper in limits), default=0.0)
+    longest = max((upper - lower for lower, upper in limits), default=0.0)
     scales = []
     for own_lower, own_upper in limits:
+        span = longest if alike else own_upper - own_lower
         middle = (own_lower + own_upper) / 2
         lower, upper = widened(middle - span / 2, middle + span / 2, part)
         scales.append(Scale(lower, upper, *_labelled_ticks(lower, upper, most, sign)))
@@ -163,6 +165,38 @@ def position_scale(
         most -= 1
         ticks, labels = _labelled_ticks(lower, upper, most, sign)
     return Scale(lower, upper, ticks, labels, positions if len(positions) <= _MOST_MARKED_TARGETS else ())
+
+
+def category_scale(names: Sequence[str], width: float, width_of: Callable[[str], float]) -> Scale:
+    """Return the axis of things that stand side by side, the first at 0, the next at 1.
+
+    Names that do not fit are parted into two lines at a hyphen; where even that is too long for one of them,
+    all have numbers instead.
+
+    Parameters
+    ----------
+    names
+        Of the things.
+    width
+        Of the axis, in points.
+    width_of
+        Returns the width of a label in points.
+    """
+    number = len(names)
+    room = width / max(1, number) - _LABEL_DISTANCE
+    labels = [name if width_of(name) <= room else _in_two_lines(name) for name in names]
+    if any(width_of(line) > room for label in labels for line in label.split("\n")):
+        labels = [str(index) for index in range(number)]
+    return Scale(-0.5, max(number, 1) - 0.5, tuple(map(float, range(number))), tuple(labels))
+
+
+def _in_two_lines(name: str) -> str:
+    """Return a name parted after the hyphen or blank that is nearest to its middle."""
+    places = [index + 1 for index, character in enumerate(name) if character in "- "]
+    if not places:
+        return name
+    place = min(places, key=lambda index: abs(2 * index - len(name)))
+    return f"{name[:place].rstrip()}\n{name[place:]}"
 
 
 def _labelled_ticks(

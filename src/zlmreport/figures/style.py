@@ -66,6 +66,11 @@ ROLES = {
     Role.REVERSAL: _style(_VIOLET, 0.7, (4.0, 1.3, 0.9, 1.3), None, 0.14),
     Role.BAND_LIMIT: _style(_BLACK, 0.8, (9.0, 2.4), None, 0.06),
     Role.TOLERANCE: _style(_BLACK, 0.9, (9.0, 1.6, 1.4, 1.6, 1.4, 1.6), None, 0.06),
+    Role.MODEL_POSITIVE: _style(_BLUE, 1.1, (14.0, 1.2), None, 0.11),
+    Role.MODEL_NEGATIVE: _style(_VERMILION, 1.1, (4.4, 1.5), None, 0.11),
+    Role.UNCERTAINTY_POSITIVE: _style(_BLUE, 0.6, (1.8, 1.0), None, 0.14),
+    Role.UNCERTAINTY_NEGATIVE: _style(_VERMILION, 0.6, (0.7, 0.9), None, 0.14),
+    Role.NOISE: _style(_BLACK, 0.7, (3.2, 1.8), None, 0.07),
 }
 MARK_SIZES = {Mark.UP: 4.6, Mark.DOWN: 4.6, Mark.DISC: 3.8}
 #: Parts a mark from the line that it sits on.
@@ -75,6 +80,9 @@ READINGS = {
     Approach.POSITIVE: (Mark.UP, Stroke((0.35, 0.6, 0.76), 0.45)),
     Approach.NEGATIVE: (Mark.DOWN, Stroke((0.88, 0.56, 0.34), 0.45)),
 }
+
+#: A bar: its outline and its inside.
+BAR = (Stroke(_BLUE, 0.8), Fill(_BLUE, 0.2))
 
 FRAME = Stroke(INK, 0.6)
 TICK = Stroke(INK, 0.5)

@@ -81,9 +81,9 @@ class Written:
         dashes, colons = [], []
         for token in yaml.scan(text, Loader=yaml.SafeLoader):
             if isinstance(token, yaml.BlockEntryToken):
-                dashes.append(token.start_mark.index)
+                dashes.append(_index(token.start_mark))
             elif isinstance(token, yaml.ValueToken):
-                colons.append(token.start_mark.index)
+                colons.append(_index(token.start_mark))
         events = yaml.parse(text, Loader=yaml.SafeLoader)
         starts = (yaml.StreamStartEvent, yaml.DocumentStartEvent)
         first = next(event for event in events if not isinstance(event, starts))
@@ -114,17 +114,30 @@ class Written:
         first = self.line_end(0)
         return self.break_at(first) if 0 < first < len(self.text) else "\n"
 
+    def before_break(self, index: int) -> int:
+        """Return where the line break begins that ends before an index; the index if none does."""
+        before = self.text[:index]
+        for mark in ("\r\n", "\n", "\r"):
+            if before.endswith(mark):
+                return index - len(mark)
+        return index
+
     def column(self, index: int) -> int:
         """Return the column of a character, from 0."""
         return index - self.line_start(index)
 
 
+def _index(mark: Any) -> int:
+    """Return the index of a parser's mark, which its types allow to be missing."""
+    return int(mark.index)
+
+
 def _extent(event: Any, events: Iterator[Any], text: str) -> Extent:
-    start = event.start_mark.index
+    start = _index(event.start_mark)
     if isinstance(event, yaml.AliasEvent):
-        return Extent(Form.ALIAS, start, event.end_mark.index)
+        return Extent(Form.ALIAS, start, _index(event.end_mark))
     if isinstance(event, yaml.ScalarEvent):
-        end = event.end_mark.index
+        end = _index(event.end_mark)
         if event.style in {"|", ">"}:  # the mark stands where the next value begins
             end = start + len(text[start:end].rstrip())
         return Extent(Form.SCALAR, start, end, text=event.value)
@@ -134,8 +147,10 @@ def _extent(event: Any, events: Iterator[Any], text: str) -> Extent:
         parts.append(_extent(after, events, text))
     if event.flow_style:
         # A single pair stands in the brackets of a list without braces of its own.
-        has_braces = text.startswith(("[", "{"), event.end_mark.index - 1) and event.end_mark.index > start
-        end = after.end_mark.index if has_braces else _end(parts, start)
+        has_braces = (
+            text.startswith(("[", "{"), _index(event.end_mark) - 1) and _index(event.end_mark) > start
+        )
+        end = _index(after.end_mark) if has_braces else _end(parts, start)
         return Extent(Form.BRACKETS if is_list else Form.BRACES, start, end, tuple(parts))
     return Extent(Form.LINES if is_list else Form.INDENTED, start, _end(parts, start), tuple(parts))
 

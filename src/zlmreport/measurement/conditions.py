@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 
+from zlmreport.language import Words
 from zlmreport.measurement.reading_units import (
     CELSIUS,
     HECTOPASCAL,
@@ -36,6 +37,20 @@ class ConditionKind:
     lowest: float
     highest: float
 
+
+#: What the conditions are called on pages.
+CONDITION_NAMES: Mapping[str, Words] = MappingProxyType(
+    {
+        "axis_temperature": Words(
+            en="Temperature of the machine's scale", de="Temperatur des Maschinenmaßstabs"
+        ),
+        "screw_temperature": Words(en="Temperature of the screw", de="Temperatur der Spindel"),
+        "air_temperature": Words(en="Air temperature", de="Lufttemperatur"),
+        "material_temperature": Words(en="Material temperature", de="Materialtemperatur"),
+        "air_pressure": Words(en="Air pressure", de="Luftdruck"),
+        "relative_humidity": Words(en="Relative humidity", de="Relative Luftfeuchte"),
+    }
+)
 
 _TEMPERATURE = ConditionKind(TEMPERATURE_UNITS, CELSIUS, -50.0, 150.0)
 _PRESSURE = ConditionKind(PRESSURE_UNITS, HECTOPASCAL, 0.0, 1200.0)

@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import TypeVar
+from typing import TypeVar, overload
 
 from zlmreport.errors import did_you_mean
 from zlmreport.measurement.axis import AxisKind
 from zlmreport.measurement.text_file import quoted
+from zlmreport.quantities.arrays import FloatArray
 from zlmreport.quantities.units import (
     ARCSECOND,
     DEGREE,
@@ -47,6 +48,14 @@ class Scale:
     def to_si(self, value: float) -> float:
         """Convert from this unit to SI."""
         return value * self.si + self.zero
+
+    @overload
+    def from_si(self, value: float) -> float: ...
+    @overload
+    def from_si(self, value: FloatArray) -> FloatArray: ...
+    def from_si(self, value: float | FloatArray) -> float | FloatArray:
+        """Convert from SI to this unit."""
+        return (value - self.zero) / self.si
 
 
 CELSIUS = Scale("°C", zero=273.15)

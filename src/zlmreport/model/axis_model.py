@@ -139,10 +139,8 @@ class AxisModel:
         for term in self.terms:
             for contained in term.effect.contains:
                 if contained in names:
-                    yield (
-                        f"{term.effect.identifier} contains {contained}, and no readings can tell them apart; "
-                        f"remove {contained}"
-                    )
+                    name = term.effect.identifier
+                    yield f"{name} contains {contained}, and no readings part the two; remove {contained}"
 
     def _unknown_parameters(self) -> Iterator[str]:
         for term in self.terms:
@@ -177,6 +175,8 @@ def refuse_collisions(model: AxisModel, columns: Sequence[FloatArray]) -> None:
     ModelError
         Naming, for each dependence, the effects that take part.
     """
+    if not columns:
+        return
     owner = np.repeat(np.arange(len(columns)), [each.shape[1] for each in columns])
     together = np.concatenate(columns, axis=1)
     lengths = np.linalg.norm(together, axis=0)

@@ -6,9 +6,14 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from zlmreport.language import Words
-from zlmreport.model.axis_model import AxisModel
+from zlmreport.model.axis_model import AxisModel, ModelError, refuse_collisions
 from zlmreport.model.design import Design
 from zlmreport.model.effect import Effect
+
+_IMITATED = Words(
+    en="at these targets the model imitates it entirely",
+    de="an diesen Zielpositionen ahmt das Modell ihn vollständig nach",
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,7 +25,7 @@ class NotTestable:
     effect
         Its identifier.
     reason
-        What it needs.
+        What it needs, or that the model imitates it.
     """
 
     effect: str
@@ -53,11 +58,21 @@ def entrants(model: AxisModel, design: Design, effects: Iterable[Effect]) -> Ent
     forms: list[Effect] = []
     not_testable = []
     for effect in effects:
-        reasons = [(form, form.untestable(design)) for form in effect.forms()]
-        testable = [form for form, reason in reasons if reason is None]
-        if not testable:
-            reason = next(reason for _, reason in reasons if reason is not None)
-            not_testable.append(NotTestable(effect.identifier, reason))
         least = present.get(effect.identifier, 0)
-        forms.extend(form for form in testable if len(form.linear) > least)
+        listed = [form for form in effect.forms() if len(form.linear) > least]
+        reasons = [form.untestable(design) or _collision(model, design, form) for form in listed]
+        forms.extend(form for form, reason in zip(listed, reasons, strict=True) if reason is None)
+        if listed and None not in reasons:
+            not_testable.append(NotTestable(effect.identifier, reasons[0] or _IMITATED))
     return Entrants(tuple(forms), tuple(not_testable))
+
+
+def _collision(model: AxisModel, design: Design, effect: Effect) -> Words | None:
+    """Return that the model would not be determined with the effect in it; None if it is."""
+    extended = model.with_effect(effect)
+    columns = [term.columns(design, term.grid(design)[0])[0] for term in extended.terms]
+    try:
+        refuse_collisions(extended, columns)
+    except ModelError:
+        return _IMITATED
+    return None

@@ -1,4 +1,4 @@
-"""The contest: how much better would each effect explain the readings than the model alone?
+"""The contest: how much better each effect would explain the readings than the model alone.
 
 Two numbers for each effect. Its likelihood ratio LR, of the best values of its parameters and of the noise,
 says whether something is missing once it is held against what chance would give (`calibration`). Its
@@ -180,7 +180,7 @@ class Contest:
 
     @property
     def _prior(self) -> float:
-        """Variance of an effect before the readings are known, over that which they leave: one reading's worth."""
+        """Variance of an effect before any reading, over that which all leave: one reading's worth."""
         return float(self.space.degrees)
 
     def _by_effect(
@@ -217,7 +217,7 @@ class Contest:
 
     def _criterion(self, trial: _Trial, squares: FloatArray) -> FloatArray:
         """Return −2 ln(likelihood) of residual squares, σ profiled out."""
-        return self.space.degrees * np.log(squares) + self._metrics[trial.index].log_determinant
+        return self.space.criterion(self._metrics[trial.index], squares)
 
     def _explained(self, trial: _Trial) -> Iterator[tuple[BlockGroup, FloatArray]]:
         """Yield for each group what its blocks explain of the squares, shape (blocks, B)."""

@@ -17,12 +17,12 @@ from zlmreport.model.noise import NoisePart
 from zlmreport.quantities.arrays import FloatArray
 
 #: Columns that add less than this share of their length to those before them add nothing.
-_DEPENDENT = 1e-9
+_DEPENDENT = 1e-11
 _REFINEMENTS = (4.0, 2.0, 1.4, 1.15)
 #: Likelihood that a further step must gain.
 _WORTHWHILE = 1e-3
 _SMALLEST_RATIO = 1e-3
-#: Square of a residual that is no residual at all, m² or rad².
+#: Sum of squares of a residual that is no residual at all, m² or rad².
 _NOTHING = 1e-60
 
 
@@ -96,7 +96,11 @@ class Contrasts:
         metric = self.metric(ratios)
         shared = metric.root @ (self.factors.T @ contrasts)
         squares = np.sum(contrasts**2, axis=0) - np.sum(shared**2, axis=0)
-        return self.degrees * np.log(np.maximum(squares, _NOTHING)) + metric.log_determinant, squares
+        return self.criterion(metric, squares), squares
+
+    def criterion(self, metric: Metric, squares: FloatArray) -> FloatArray:
+        """Return −2 ln(restricted likelihood) of residual sums of squares, σ profiled out."""
+        return self.degrees * np.log(np.maximum(squares, _NOTHING)) + metric.log_determinant
 
 
 def contrasts_of(base: FloatArray, parts: Sequence[NoisePart], weights: FloatArray) -> Contrasts:

@@ -17,13 +17,12 @@ from zlmreport.model.equals import discriminate_by, equals_of
 from zlmreport.model.failures.find import failures, residual_tests
 from zlmreport.model.failures.residuals import residuals_of
 from zlmreport.model.failures.scatter import flagged
-from zlmreport.model.fit import Fit, fit
-from zlmreport.model.instrument import InstrumentError
+from zlmreport.model.fit import Assumptions, Fit, fit
 from zlmreport.model.noise_floor import noise_floor
 from zlmreport.model.observe import Observations
 from zlmreport.model.outliers import outliers
 from zlmreport.model.ranking import Ranked
-from zlmreport.model.steps import Step, add, is_named, steps
+from zlmreport.model.steps import Step, add, named_effects, steps
 from zlmreport.model.visibility import visibility
 
 #: Candidates that are shown, the leaders in any case.
@@ -50,8 +49,7 @@ def diagnose(
     model: AxisModel,
     observed: Observations,
     effects: Sequence[Effect],
-    *,
-    instrument: InstrumentError | None = None,
+    assumptions: Assumptions | None = None,
 ) -> Diagnosis:
     """Hold a model against the readings of a test, and try every effect that might be missing.
 
@@ -63,8 +61,8 @@ def diagnose(
         The readings.
     effects
         All that are installed.
-    instrument
-        The error of the instrument, for the uncertainty of parameters.
+    assumptions
+        What the fits take for granted.
 
     Raises
     ------
@@ -73,18 +71,19 @@ def diagnose(
     """
     aside = outliers(observed.design, observed.deviation)
     kept = observed.without(aside.readings)
-    fitted = fit(model, kept.design, kept.deviation, instrument=instrument)
+    fitted = fit(model, kept.design, kept.deviation, assumptions)
     if fitted.degrees < _FEWEST_DEGREES:
-        raise ModelError(
-            [
-                f"the test has {len(kept.deviation)} readings and the model {len(kept.deviation) - fitted.degrees} "
-                f"parameters; a diagnosis needs at least {_FEWEST_DEGREES} readings more than parameters"
-            ]
+        readings = len(kept.deviation)
+        sentence = (
+            f"the test has {readings} readings and the model {readings - fitted.degrees} parameters; "
+            f"a diagnosis needs at least {_FEWEST_DEGREES} readings more than parameters"
         )
+        raise ModelError([sentence])
     found = steps(fitted, effects)
     first = found[0]
-    verdict = _verdict(found)
-    error = _error(fitted)
+    names = named_effects(found)
+    verdict = _verdict(first, names)
+    error = error_numbers(fitted)
     tests = residual_tests(residuals_of(fitted, first.noise))
     stand_off = flagged(observed.design, aside)
     candidates = () if verdict is Verdict.ADEQUATE else _candidates(first, error)
@@ -97,7 +96,7 @@ def diagnose(
         tests=tests,
         failures=failures(tests) + ((stand_off,) if stand_off else ()),
         candidates=candidates,
-        further=tuple(step.best.identifier for step in found[1:] if step.something_is_missing and step.best),
+        further=names[1:],
         unnamed=_unnamed(found) if verdict is Verdict.UNEXPLAINED else None,
         not_testable=not_testable,
         not_excluded=_not_excluded(candidates, not_testable),
@@ -107,13 +106,14 @@ def diagnose(
     )
 
 
-def _verdict(found: Sequence[Step]) -> Verdict:
-    if not found[0].something_is_missing:
+def _verdict(first: Step, names: Sequence[str]) -> Verdict:
+    if not first.something_is_missing:
         return Verdict.ADEQUATE
-    return Verdict.MISSING if is_named(found) else Verdict.UNEXPLAINED
+    return Verdict.MISSING if names else Verdict.UNEXPLAINED
 
 
-def _error(fitted: Fit) -> ErrorNumbers:
+def error_numbers(fitted: Fit) -> ErrorNumbers:
+    """Return how far a fitted model is from the readings."""
     floor = noise_floor(fitted.design, fitted.deviation)
     return ErrorNumbers(
         fitted.rms,
@@ -132,7 +132,7 @@ def _candidates(step: Step, before: ErrorNumbers) -> tuple[Candidate, ...]:
 
 def _candidate(step: Step, ranked: Ranked, before: ErrorNumbers) -> Candidate:
     after = add(step.fit, ranked)
-    error = _error(after)
+    error = error_numbers(after)
     share = _share(step.fit, after, before.noise_rms)
     equals = equals_of(ranked, step.ranking)
     return Candidate(

@@ -138,7 +138,7 @@ class Diagnosis:
     candidates
         Effects that may be missing, best first; none where the model is adequate.
     further
-        Effects that are found after the first candidate is added, in this order.
+        Effects that are missing beside the first candidate, in the order in which they are found after it.
     unnamed
         What is left without a name; None unless the verdict is `UNEXPLAINED`.
     not_testable

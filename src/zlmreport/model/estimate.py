@@ -73,7 +73,7 @@ class Estimate:
 
     @property
     def distance_from_expected(self) -> float | None:
-        """z = (value − expected)/u; None where nothing is expected, or the value has no uncertainty."""
+        """The value less the expected one, over u; None where nothing is expected, or u is zero."""
         if self.expected is None or self.standard_uncertainty == 0:
             return None
         return (self.value - self.expected) / self.standard_uncertainty

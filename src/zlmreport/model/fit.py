@@ -8,7 +8,7 @@ covariance is that of all parameters, the searched ones included.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -17,15 +17,34 @@ from zlmreport.model.contrasts import Contrasts, contrasts_of, restricted_estima
 from zlmreport.model.design import Design
 from zlmreport.model.estimate import Estimate, Uncertainties, coverage_factor, estimates_of
 from zlmreport.model.instrument import InstrumentError
-from zlmreport.model.noise import Noise, NoisePart, noise_parts, coarse_grid
+from zlmreport.model.noise import Noise, NoisePart, coarse_grid, noise_parts
 from zlmreport.model.search import Place, Problem, Solution, Thetas, refine, search, tangents
 from zlmreport.model.spread import Spread, weights
 from zlmreport.model.variance import variance_of_variance
-from zlmreport.model.whitening import Whitener, whitener
+from zlmreport.model.whitening import whitener
 from zlmreport.quantities.arrays import FloatArray
 
 #: Variance of a source of shared scatter over that of single readings: none is larger in a fit.
 _LARGEST_RATIO = 1e4
+
+
+@dataclass(frozen=True, slots=True)
+class Assumptions:
+    """What a fit takes for granted.
+
+    Attributes
+    ----------
+    instrument
+        The error of the instrument, for the uncertainty of all that is estimated.
+    parts
+        Sources of shared scatter; None for those that the design can show.
+    spread
+        How the scatter of single readings is taken to differ.
+    """
+
+    instrument: InstrumentError = field(default_factory=InstrumentError)
+    parts: tuple[NoisePart, ...] | None = None
+    spread: Spread = Spread.SHRUNK
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,6 +81,8 @@ class Fit:
         What was fitted to which readings.
     deviation, fitted : (N,) arrays
         x and the model's value, m or rad.
+    assumptions
+        What was taken for granted.
     estimates
         All parameters, in the order of the model.
     noise
@@ -78,6 +99,7 @@ class Fit:
     design: Design
     deviation: FloatArray
     fitted: FloatArray
+    assumptions: Assumptions
     estimates: tuple[Estimate, ...]
     noise: Noise
     solution: Solution
@@ -86,7 +108,7 @@ class Fit:
 
     @property
     def residual(self) -> FloatArray:
-        """x less the model, shape (N,), m or rad."""
+        """Deviations less model, shape (N,), m or rad."""
         return self.deviation - self.fitted
 
     @property
@@ -114,10 +136,7 @@ def fit(
     model: AxisModel,
     design: Design,
     deviation: FloatArray,
-    *,
-    instrument: InstrumentError | None = None,
-    parts: Sequence[NoisePart] | None = None,
-    spread: Spread = Spread.SHRUNK,
+    assumptions: Assumptions | None = None,
     start: Thetas | None = None,
 ) -> Fit:
     """Fit a model to the readings of a test.
@@ -130,12 +149,8 @@ def fit(
         The test.
     deviation : (N,) array
         x, m or rad.
-    instrument
-        Its error, for the uncertainty of all that is estimated; none if it is not given.
-    parts
-        Sources of shared scatter; those that the design can show if none are given.
-    spread
-        How the scatter of single readings is taken to differ.
+    assumptions
+        What is taken for granted.
     start
         Searched parameters near their best values; the whole grid is searched if they are not given.
 
@@ -145,32 +160,28 @@ def fit(
         If the model makes no sense on the design, or its columns depend on each other.
     """
     model.check(design)
-    sources = noise_parts(design) if parts is None else tuple(parts)
-    noise = Noise(0.0, {}, weights(design, deviation, spread))
-    problem = Problem(model, design, deviation, whitener(sources, noise))
+    taken = assumptions or Assumptions()
+    parts = noise_parts(design) if taken.parts is None else taken.parts
+    noise = Noise(0.0, {}, weights(design, deviation, taken.spread))
+    problem = Problem(model, design, deviation, whitener(parts, noise))
     solution = search(problem) if start is None else refine(problem, problem.solution(start))
     refuse_collisions(model, _columns(model, design, solution))
     for _ in range(2 if any(len(theta) for theta in solution.thetas) else 1):
-        places = problem.places(solution.thetas)
-        space, noise = estimate_noise(
-            _jacobian(model, design, solution, places), deviation, sources, noise.weights
-        )
-        whiten = whitener(sources, noise)
-        problem = Problem(model, design, deviation, whiten)
+        base = _jacobian(model, design, solution, problem.places(solution.thetas))
+        space = contrasts_of(base, parts, noise.weights)
+        noise = _estimated(space, deviation, noise.weights)
+        problem = Problem(model, design, deviation, whitener(parts, noise))
         solution = refine(problem, problem.solution(solution.thetas))
-    return _finished(problem, solution, space, noise, whiten, instrument or InstrumentError())
+    return _finished(problem, solution, space, noise, taken)
 
 
-def estimate_noise(
-    base: FloatArray, deviation: FloatArray, parts: Sequence[NoisePart], weights_: FloatArray
-) -> tuple[Contrasts, Noise]:
-    """Return the contrasts of a model, and the noise by restricted maximum likelihood."""
-    space = contrasts_of(base, parts, weights_)
+def _estimated(space: Contrasts, deviation: FloatArray, weights_: FloatArray) -> Noise:
+    """Return the noise by restricted maximum likelihood."""
     ratios, variance = restricted_estimate(
-        space, space.of(deviation), coarse_grid(parts), np.full(len(parts), _LARGEST_RATIO)
+        space, space.of(deviation), coarse_grid(space.parts), np.full(len(space.parts), _LARGEST_RATIO)
     )
-    by_source = {part.source: float(ratio) for part, ratio in zip(parts, ratios, strict=True)}
-    return space, Noise(float(np.sqrt(variance)), by_source, weights_)
+    by_source = {part.source: float(ratio) for part, ratio in zip(space.parts, ratios, strict=True)}
+    return Noise(float(np.sqrt(variance)), by_source, weights_)
 
 
 def _columns(model: AxisModel, design: Design, solution: Solution) -> list[FloatArray]:
@@ -194,28 +205,25 @@ def _jacobian(model: AxisModel, design: Design, solution: Solution, places: Sequ
 
 
 def _finished(
-    problem: Problem,
-    solution: Solution,
-    space: Contrasts,
-    noise: Noise,
-    whiten: Whitener,
-    instrument: InstrumentError,
+    problem: Problem, solution: Solution, space: Contrasts, noise: Noise, assumptions: Assumptions
 ) -> Fit:
     model, design = problem.model, problem.design
     places = problem.places(solution.thetas)
     jacobian = _jacobian(model, design, solution, places)
-    whitened = whiten(jacobian)
+    whitened = problem.whiten(jacobian)
     lengths = np.linalg.norm(whitened, axis=0)
     lengths = np.where(lengths > 0, lengths, 1.0)
     root = np.linalg.pinv(whitened / lengths) / lengths[:, np.newaxis]
     inverse = root @ root.T
-    systematic = root @ whiten(instrument.factor(design.position))
-    variances = variance_of_variance(space, noise, whiten, jacobian, inverse)
+    systematic = root @ problem.whiten(assumptions.instrument.factor(design.position))
+    weighted = problem.whiten(whitened) @ inverse
+    variances = variance_of_variance(space, noise, weighted)
     uncertainties = Uncertainties(noise.sigma, inverse, systematic, variances)
     return Fit(
         model=model,
         design=design,
         deviation=problem.deviation,
+        assumptions=assumptions,
         fitted=_value(model, design, solution),
         estimates=estimates_of(problem, solution, places, uncertainties),
         noise=noise,

@@ -131,13 +131,17 @@ def noise_parts(design: Design) -> tuple[NoisePart, ...]:
 
 def ratio_grid(parts: Sequence[NoisePart]) -> FloatArray:
     """Return every combination of the ratios that are tried, shape (f, parts)."""
-    return np.array(list(product(*(part.ratios for part in parts))), dtype=np.float64).reshape(-1, len(parts))
+    return _combinations([part.ratios for part in parts])
 
 
 def coarse_grid(parts: Sequence[NoisePart]) -> FloatArray:
     """Return every combination of none and a middling ratio: where a continuous search may begin."""
-    levels = ((0.0, part.ratios[len(part.ratios) // 2]) for part in parts)
-    return np.array(list(product(*levels)), dtype=np.float64).reshape(-1, len(parts))
+    return _combinations([(0.0, part.ratios[len(part.ratios) // 2]) for part in parts])
+
+
+def _combinations(levels: Sequence[Sequence[float]]) -> FloatArray:
+    rows = list(product(*levels))
+    return np.array(rows, dtype=np.float64).reshape(len(rows), len(levels))
 
 
 def _membership(labels: IntArray) -> FloatArray:

@@ -12,6 +12,7 @@ from zlmreport.language import Words, same
 from zlmreport.measurement.axis import AxisKind
 from zlmreport.measurement.conditions import CONDITIONS
 from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.model.axis_model import ModelError
 from zlmreport.model.design import Design
 from zlmreport.model.smoothing import smoothed
 from zlmreport.quantities.arrays import FloatArray, IntArray, read_only_floats, read_only_integers
@@ -32,8 +33,8 @@ _COUNTED = Words(
 )
 _OVERRUN = Words(
     en="The axis is taken to run over a target by {overrun} {unit} before it returns to it.",
-    de="Es ist angenommen, dass die Achse {overrun} {unit} über eine Zielposition hinausfährt, bevor sie zu ihr "
-    "zurückkehrt.",
+    de="Es ist angenommen, dass die Achse {overrun} {unit} über eine Zielposition hinausfährt, bevor sie zu "
+    "ihr zurückkehrt.",
 )
 _GAPS = Words(
     en="The log of {condition} has gaps (readings without it: {count}) and is left out.",
@@ -93,12 +94,19 @@ def observe(measurements: MeasurementSet, *, overrun: float | None = None) -> Ob
     overrun
         How far the axis runs over a target before it returns to it, m or rad; `OVERRUN` where it is not
         known.
+
+    Raises
+    ------
+    ModelError
+        If every reading is missing.
     """
     axis = measurements.axis
     beyond = OVERRUN[axis.kind] if overrun is None else overrun
     position = measurements.target_positions[measurements.target]
     direction = measurements.approach.astype(np.float64)
     present = np.flatnonzero(~np.isnan(measurements.deviation))
+    if not present.size:
+        raise ModelError(["no reading has a deviation; there is nothing to fit"])
     remarks = []
     time = measurements.time
     counted = time is None or bool(np.any(np.isnan(time[present])))
@@ -108,7 +116,7 @@ def observe(measurements: MeasurementSet, *, overrun: float | None = None) -> Ob
     if overrun is None:
         unit = axis.position_unit
         remarks.append(_OVERRUN.given(overrun=unit.from_si(beyond), unit=unit.symbol))
-    moments = time[present] - (time[present[0]] if present.size else 0.0)
+    moments = time[present] - time[present[0]]
     conditions = {}
     for name, log in measurements.conditions.items():
         gaps = int(np.count_nonzero(np.isnan(log[present])))

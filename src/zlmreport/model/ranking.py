@@ -12,10 +12,19 @@ from zlmreport.model.contest import Contest, Evidence, Scores
 from zlmreport.model.effect import Effect
 from zlmreport.quantities.arrays import FloatArray
 
+# Of evidence, 2·ln of a Bayes factor, less than 2 is "not worth more than a bare mention", 2 to 6 positive, 6
+# to 10 strong (R. E. Kass and A. E. Raftery, Journal of the American Statistical Association 90 (1995) 773).
+
+#: Evidence that anything must have to be worth a mention.
+MENTION = 2.0
+#: Evidence by which a name must surpass a shape without one.
+NAMED = 2.0
 #: Evidence by which two effects differ that the readings tell apart: a ratio of 1 : 12.
 TOLD_APART = 5.0
-#: Evidence by which a name must surpass a shape without one: a ratio of 1 : 7.
-NAMED = 4.0
+#: Evidence that each effect after the first must bring beyond that: a single cause is likelier than two.
+FURTHER = 8.0
+#: Share of all evidence that the effects found must explain.
+EXPLAINED = 0.75
 #: Two effects with the same columns differ by rounding only.
 _ALIKE = 1e-6
 

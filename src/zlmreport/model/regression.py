@@ -1,9 +1,9 @@
 """The regression of mean deviations on position, along one axis and in a plane of two.
 
-M. Halaj, E. Kureková, R. Palenčár and T. Loebl, The positional deviation in two axes: a cubic over the means of
-the targets (2), or a sum of two cubics over the plane of two axes (13), with the covariance of the means (9),
-(10). The error model of this program fits single readings instead (`zlmreport.model.fit`); this is the paper as
-it stands, for comparison with it, and for measurements in a plane.
+M. Halaj, E. Kureková, R. Palenčár and T. Loebl, The positional deviation in two axes: a cubic over the means
+of the targets (2), or a sum of two cubics over the plane of two axes (13), with the covariance of the means
+(9), (10). The error model of this program fits single readings instead (`zlmreport.model.fit`); this is the
+paper as it stands, for comparison with it, and for measurements in a plane.
 """
 
 from __future__ import annotations

@@ -1,7 +1,8 @@
 """Searched parameters by variable projection.
 
-G. H. Golub and V. Pereyra, SIAM Journal on Numerical Analysis 10 (1973) 413. For any value of θ the linear parameters are solved, so only the residual sum of squares as a function of θ is
-searched: over each effect's whole grid first, then between its values, then by Gauss-Newton steps.
+G. H. Golub and V. Pereyra, SIAM Journal on Numerical Analysis 10 (1973) 413. For any value of θ the linear
+parameters are solved, so only the residual sum of squares as a function of θ is searched: over each effect's
+whole grid first, then between its values, then by Gauss-Newton steps.
 """
 
 from __future__ import annotations

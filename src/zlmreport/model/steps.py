@@ -14,7 +14,7 @@ from zlmreport.model.contrasts import restricted_estimate
 from zlmreport.model.effect import Effect
 from zlmreport.model.fit import Fit, fit
 from zlmreport.model.noise import Noise
-from zlmreport.model.ranking import NAMED, Ranked, Ranking, rank
+from zlmreport.model.ranking import EXPLAINED, FURTHER, MENTION, NAMED, Ranked, Ranking, rank
 from zlmreport.model.search import Thetas
 from zlmreport.quantities.arrays import FloatArray
 
@@ -55,8 +55,18 @@ class Step:
 
     @property
     def something_is_missing(self) -> bool:
-        """Whether chance does not explain the contest."""
-        return self.p_value.value <= LEVEL
+        """Whether chance does not explain the contest, and anything else explains it better."""
+        return self.p_value.value <= LEVEL and self._most >= MENTION
+
+    @property
+    def _most(self) -> float:
+        leading = self.ranking.effects[0].evidence if self.ranking.effects else -np.inf
+        return max(leading, self.ranking.shape_evidence)
+
+    @property
+    def left(self) -> float:
+        """Evidence of what is missing beside this model, with or without a name; 0 if nothing is."""
+        return self._most if self.something_is_missing else 0.0
 
     @property
     def best(self) -> Ranked | None:
@@ -103,7 +113,7 @@ def add(fitted: Fit, found: Ranked) -> Fit:
         found.theta if term.effect.identifier == found.identifier else before[term.effect.identifier]
         for term in model.terms
     )
-    return fit(model, fitted.design, fitted.deviation, start=start)
+    return fit(model, fitted.design, fitted.deviation, fitted.assumptions, start)
 
 
 def steps(first: Fit, effects: Sequence[Effect]) -> tuple[Step, ...]:
@@ -117,20 +127,22 @@ def steps(first: Fit, effects: Sequence[Effect]) -> tuple[Step, ...]:
     return tuple(found)
 
 
-def is_named(found: Sequence[Step]) -> bool:
-    """Whether effects with names explain what is missing better than any shape without one.
+def named_effects(found: Sequence[Step]) -> tuple[str, ...]:
+    """Return the effects that explain what is missing better than any shape without a name; none if none do.
 
-    Effects that are found one after another add up. A shape without a name must be surpassed clearly at every
-    step at which something is still missing: also at the first, where it may describe what a later effect
-    explains.
+    Effects that are found one after another add up, each at the price of a further cause. They must surpass
+    the shapes clearly at every step: also at the first, where a shape may describe what a later effect
+    explains. What is still missing after them must be small beside what they explain.
     """
-    named = 0.0
-    unnamed = 0.0
+    names: list[str] = []
+    named, unnamed = 0.0, -np.inf
     for step in found:
-        if not step.something_is_missing:
-            return named >= unnamed + NAMED
+        price = NAMED + FURTHER * max(0, len(names) - 1)
+        if names and named >= unnamed + price and named * (1 - EXPLAINED) >= EXPLAINED * step.left:
+            return tuple(names)
+        if not step.something_is_missing or step.best is None:
+            break
         unnamed = max(unnamed, named + step.ranking.shape_evidence)
-        if step.best is None:
-            return False
         named += step.best.evidence
-    return False
+        names.append(step.best.identifier)
+    return ()

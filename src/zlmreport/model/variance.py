@@ -14,7 +14,6 @@ import numpy as np
 
 from zlmreport.model.contrasts import Contrasts
 from zlmreport.model.noise import Noise
-from zlmreport.model.whitening import Whitener
 from zlmreport.quantities.arrays import FloatArray
 
 _ACTIVE = 1e-3
@@ -53,9 +52,7 @@ class VarianceOfVariance:
         return float(np.clip(2 * variance**2 / spread, _FEWEST, _MOST))
 
 
-def variance_of_variance(
-    space: Contrasts, noise: Noise, whiten: Whitener, jacobian: FloatArray, inverse: FloatArray
-) -> VarianceOfVariance:
+def variance_of_variance(space: Contrasts, noise: Noise, weighted: FloatArray) -> VarianceOfVariance:
     """Return how well the variance of the parameters is known.
 
     Parameters
@@ -64,17 +61,12 @@ def variance_of_variance(
         The contrasts of the model.
     noise
         As estimated.
-    whiten
-        Its whitener.
-    jacobian : (N, p) array
-        J, not whitened.
-    inverse : (p, p) array
-        (JᵀV⁻¹J)⁻¹.
+    weighted : (N, p) array
+        V⁻¹J(JᵀV⁻¹J)⁻¹: the weight of each reading in each parameter.
     """
     active = [index for index, part in enumerate(space.parts) if noise.ratios.get(part.source, 0.0) > _ACTIVE]
     ratios = np.array([noise.ratios.get(part.source, 0.0) for part in space.parts])
     information = _information(space, ratios, active)
-    weighted = whiten(whiten(jacobian)) @ inverse
     factors = [space.parts[index].factor.T @ weighted for index in active]
     slopes = (weighted / space.scale[:, np.newaxis], *factors)
     return VarianceOfVariance(np.asarray(np.linalg.pinv(information), dtype=np.float64), slopes)

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from zlmreport.language import Words
 from zlmreport.model.axis_model import AxisModel, Term
-from zlmreport.model.bases import Bases
+from zlmreport.model.bases import Family
 from zlmreport.model.calibration import Calibration, calibrate
 from zlmreport.model.candidates import entrants
 from zlmreport.model.contest import Contest
@@ -18,7 +18,6 @@ from zlmreport.model.design import Design
 from zlmreport.model.effect import Effect
 from zlmreport.model.parameter import Parameter
 from zlmreport.quantities.arrays import FloatArray
-
 
 #: Values of searched parameters that are looked at.
 _VALUES = 12
@@ -33,13 +32,13 @@ class Visibility:
     effect
         Its identifier.
     share
-        Root mean square of what the model cannot imitate, over that of the effect about its mean: 0 to 1. Where
-        θ is searched, the median over its values. 0 for an effect that the plan cannot see at all.
+        Root mean square of what the model cannot imitate, over that of the effect about its mean: 0 to 1.
+        Where θ is searched, the median over its values. 0 for an effect that the plan cannot see at all.
     smallest_rms
         Root mean square value over all readings of the smallest effect that is found half of the time, m or
         rad; infinite where it is never found.
     smallest
-        For an effect of one linear parameter, the parameter and its smallest value found half of the time, SI.
+        For an effect of one linear parameter, this and its smallest value found half of the time, SI.
     reason
         Why it cannot be tested at all; None if it can.
     """
@@ -97,30 +96,46 @@ def visibility(
     found = []
     for index, forms in enumerate(contest.bases.contestants):
         needed = float(calibration.usual[index]) + calibration.threshold
-        found.append(_of_effect(contest, contest.bases, forms[0], metric, design, sigma * np.sqrt(needed)))
+        family = contest.bases.families[forms[0]]
+        lengths = [_lengths(contest, metric, design, family, theta) for theta in _some(family.thetas)]
+        found.append(_of_family(family, lengths, sigma * float(np.sqrt(needed))))
     return (*found, *(Visibility(effect.identifier, 0.0, np.inf) for effect in contest.bases.invisible))
 
 
-def _of_effect(
-    contest: Contest, bases: Bases, form: int, metric: Metric, design: Design, needed: float
-) -> Visibility:
-    """Return the visibility of one form; `needed` is the length that its whitened contrast must have."""
-    family = bases.families[form]
-    shares, sizes, amplitudes = [], [], []
-    for theta in family.thetas[:: 1 + len(family.thetas) // _VALUES]:
-        columns = family.effect.columns(design, theta)
-        contrasts = contest.space.of(columns)
-        seen = contrasts / contest.space.scale[:, np.newaxis]
-        moving = columns - columns.mean(axis=0)
-        shares.append(np.linalg.norm(seen) / (np.linalg.norm(moving) or 1.0))
-        shared = metric.root @ (contest.space.factors.T @ contrasts)
-        lengths = np.sqrt(np.maximum(np.sum(contrasts**2, axis=0) - np.sum(shared**2, axis=0), 0.0))
-        length = float(np.sqrt(np.mean(lengths**2)))
-        amplitudes.append(needed / length if length else np.inf)
-        sizes.append(amplitudes[-1] * float(np.sqrt(np.mean(columns**2))))
+@dataclass(frozen=True, slots=True)
+class _Lengths:
+    """Of one block of columns: the root mean square, the visible share, and the length to the noise."""
+
+    size: float
+    share: float
+    whitened: float
+
+
+def _some(thetas: FloatArray) -> FloatArray:
+    return thetas[:: 1 + len(thetas) // _VALUES]
+
+
+def _lengths(contest: Contest, metric: Metric, design: Design, family: Family, theta: FloatArray) -> _Lengths:
+    columns = family.effect.columns(design, theta)
+    contrasts = contest.space.of(columns)
+    seen = contrasts / contest.space.scale[:, np.newaxis]
+    moving = float(np.linalg.norm(columns - columns.mean(axis=0)))
+    shared = metric.root @ (contest.space.factors.T @ contrasts)
+    squares = np.maximum(np.sum(contrasts**2, axis=0) - np.sum(shared**2, axis=0), 0.0)
+    return _Lengths(
+        float(np.sqrt(np.mean(columns**2))),
+        float(np.linalg.norm(seen)) / (moving or 1.0),
+        float(np.sqrt(np.mean(squares))),
+    )
+
+
+def _of_family(family: Family, lengths: Sequence[_Lengths], needed: float) -> Visibility:
+    """Return the visibility of a form; `needed` is the length that its whitened contrast must have."""
+    amplitudes = [needed / each.whitened if each.whitened else np.inf for each in lengths]
+    sizes = [amplitude * each.size for amplitude, each in zip(amplitudes, lengths, strict=True)]
     linear = family.effect.linear
     smallest = (linear[0], float(np.median(amplitudes))) if len(linear) == 1 else None
-    share = min(1.0, float(np.median(shares)))
+    share = min(1.0, float(np.median([each.share for each in lengths])))
     return Visibility(family.effect.identifier, share, float(np.median(sizes)), smallest)
 
 

@@ -1,4 +1,4 @@
-"""Test against logged conditions: does the residual, or its slope along the axis, follow one of them?"""
+"""Test against logged conditions: whether the residual, or its slope along the axis, follows one."""
 
 from __future__ import annotations
 

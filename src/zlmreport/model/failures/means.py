@@ -1,4 +1,4 @@
-"""Tests of the means: do targets, directions and runs deviate from the model more than repeats allow?"""
+"""Tests of the means: whether targets, directions and runs deviate more than repeats allow."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Tests of order: does the residual remember the reading before, or repeat after a while?"""
+"""Tests of order: whether the residual remembers the reading before, or repeats after a while."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ _HARMONICS = (1, 2)
 
 
 def time_order(residuals: Residuals) -> Failure | None:
-    """Return von Neumann's ratio of the repeats in time order, against repeats exchanged within their cells."""
+    """Return von Neumann's ratio of the repeats in time order, against repeats exchanged in their cells."""
     fit = residuals.fit
     within = repeats(residuals.design, fit.residual)
     if within.degrees < 1 or within.squares == 0:

@@ -13,7 +13,9 @@ from zlmreport.model.noise import Noise, noise_parts
 from zlmreport.model.whitening import Whitener, whitener
 from zlmreport.quantities.arrays import FloatArray
 
-_DEPENDENT = 1e-9
+_DEPENDENT = 1e-11
+#: Sum of squares of a residual that is no residual at all, m² or rad².
+_NOTHING = 1e-60
 _TRIALS = 400
 _SEED = 20_261_118
 
@@ -85,7 +87,7 @@ class Residuals:
         random = np.random.default_rng(_SEED).standard_normal((readings, _TRIALS))
         together = np.column_stack([self.independent, random - self.base @ (self.base.T @ random)])
         shares = ((flat.T @ together) ** 2).reshape(size, width, -1).sum(axis=1)
-        shares /= np.sum(together**2, axis=0)
+        shares /= np.maximum(np.sum(together**2, axis=0), _NOTHING)
         most = shares.max(axis=0)
         reached = int(np.count_nonzero(most[1:] >= most[0]))
         return int(np.argmax(shares[:, 0])), (1 + reached) / (_TRIALS + 1)

@@ -1,4 +1,4 @@
-"""Tests of the scatter: is it the same everywhere, and do single readings stand off?"""
+"""Tests of the scatter: whether it is the same everywhere, and whether single readings stand off."""
 
 from __future__ import annotations
 

@@ -8,7 +8,7 @@ from functools import partial
 
 import numpy as np
 
-from measure import Cost, Measured, Sizes, alternately, cost, median, peak_megabytes
+from measure import Cost, Measured, Sizes, alternately, median, peak_megabytes, timed, wall
 from sample import RUNS, TARGETS
 from zlmreport.evaluation.statistics import PositionStatistics, position_statistics
 from zlmreport.measurement.approach import Approach
@@ -39,15 +39,15 @@ def measure(sizes: Sizes) -> list[Measured]:
     statistics = position_statistics(stack)
     costs = alternately(
         {
-            "statistics": lambda: cost(lambda: position_statistics(stack)),
+            "statistics": lambda: timed(lambda: position_statistics(stack))[0],
             **{each.identifier: partial(_cost_of_standard, each, statistics) for each in standards},
         },
         sizes.rounds,
     )
-    seconds = {name: median(one.wall for one in of_name) for name, of_name in costs.items()}
+    seconds = {name: median(wall(of_name)) for name, of_name in costs.items()}
     peak = peak_megabytes()
     chosen = stack[:_ONE_BY_ONE]
-    one_by_one = cost(partial(_one_after_the_other, standards, chosen)).wall / len(chosen)
+    one_by_one = timed(partial(_one_after_the_other, standards, chosen))[0].wall / len(chosen)
     return [
         Measured("means and standard deviations", seconds["statistics"], "s"),
         *(Measured(f"formulas of {identifier}", seconds[identifier], "s") for identifier in STANDARDS),
@@ -65,7 +65,7 @@ def measure(sizes: Sizes) -> list[Measured]:
 
 def _cost_of_standard(standard: Standard, statistics: PositionStatistics) -> Cost:
     options = standard.options()
-    return cost(lambda: standard.arithmetic(statistics, options))
+    return timed(lambda: standard.arithmetic(statistics, options))[0]
 
 
 def _one_after_the_other(standards: Sequence[Standard], tests: FloatArray) -> None:

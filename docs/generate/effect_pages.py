@@ -1,0 +1,204 @@
+"""What each installed effect says of itself: equation, parameters, needs, look, and what it is taken for."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
+
+import numpy as np
+from markdown import code, symbol, table
+
+from zlmreport.job.fields import keys_in
+from zlmreport.language import Language, Words
+from zlmreport.measurement.axis import AxisKind
+from zlmreport.model.design import Design
+from zlmreport.model.effect import Effect, Shape
+from zlmreport.model.observe import of_readings
+from zlmreport.model.parameter import Parameter, unit_of
+from zlmreport.plugins import Kind, find_plugins
+from zlmreport.testing import full_designs
+
+_EN, _DE = Language.ENGLISH, Language.GERMAN
+_HEADINGS = {
+    Shape.POSITION: "Along the position",
+    Shape.DIRECTION: "Between the directions",
+    Shape.TIME: "In time and with temperature",
+    Shape.RUN: "From run to run",
+}
+_MICROMETRE = 1e-6
+
+
+def text() -> str:
+    """Return a section for each effect that comes with this project, ordered by what it changes along."""
+    registry = find_plugins()
+    own = [
+        effect
+        for effect in registry.effects
+        if registry.origins[Kind.EFFECT, effect.identifier].distribution == "zlmreport"
+    ]
+    return "\n\n".join(part for shape in Shape for part in _group(shape, own))
+
+
+def _group(shape: Shape, effects: Sequence[Effect]) -> Iterator[str]:
+    listed = [effect for effect in effects if effect.shape is shape]
+    yield f"## {_HEADINGS[shape]}"
+    yield table(
+        ("Effect", "What it is", "Equation"),
+        ((_link(each.identifier), each.title.in_language(_EN), symbol(each.equation)) for each in listed),
+    )
+    for effect in listed:
+        yield from _section(effect)
+
+
+def _section(effect: Effect) -> Iterator[str]:
+    yield f"### {code(effect.identifier)}"
+    yield f"{effect.title.in_language(_EN)} ({effect.title.in_language(_DE)})."
+    yield symbol(effect.equation)
+    yield _doc(effect)
+    yield f"**Look.** {effect.look.in_language(_EN)}"
+    yield table(("Parameter", "Printed", "Meaning", "Plausible", "Found"), _parameters(effect))
+    keys = keys_in(effect.options)
+    if keys:
+        yield "Its key in a job:"
+        yield "\n".join(f"- {code(name)}: {field.description}" for name, field in keys.items())
+        yield f"A contest tries {_joined(code(_settings(form)) for form in effect.forms())}."
+    if effect.contains:
+        yield f"It contains {_joined(map(_link, effect.contains))}, which cannot stand beside it in a model."
+    lacking = _lacking(effect)
+    if lacking:
+        yield "**What a diagnosis says where it cannot be tried**"
+        yield "\n".join(f"- {reason}" for reason in lacking)
+    if effect.confusions:
+        yield "**What it is taken for, and what tells them apart**"
+        yield "\n".join(
+            f"- {_link(each.effect)}: {each.told_apart_by.in_language(_EN)}" for each in effect.confusions
+        )
+
+
+def _doc(effect: Effect) -> str:
+    """Return what the code says of the effect below the one line that names it."""
+    first, _, rest = (inspect.getdoc(type(effect)) or "").partition("\n\n")
+    return f"{first}\n\n{rest}".strip()
+
+
+def _parameters(effect: Effect) -> Iterator[tuple[str, ...]]:
+    for parameter in effect.linear:
+        yield (*_described(effect, parameter), "linear")
+    for parameter in effect.searched:
+        yield (*_described(effect, parameter), _how_found(effect))
+
+
+def _described(effect: Effect, parameter: Parameter) -> tuple[str, str, str, str]:
+    ranges = dict.fromkeys(_range(parameter, kind) for kind in _kinds(effect))
+    return (
+        code(parameter.name),
+        symbol(parameter.notation),
+        parameter.description.in_language(_EN),
+        "; ".join(ranges),
+    )
+
+
+def _range(parameter: Parameter, kind: AxisKind) -> str:
+    unit = unit_of(parameter.dimension, kind)
+    low, high = (
+        None if bound is None else _number(bound * unit.per_si)
+        for bound in (parameter.smallest, parameter.largest)
+    )
+    if low is None and high is None:
+        return f"any, {unit.symbol}" if unit.symbol else "any"
+    span = f"{low} to {high}" if low and high else (f"from {low}" if low else f"up to {high}")
+    return f"{span} {unit.symbol}".strip()
+
+
+def _number(value: float) -> str:
+    """Write a bound to three digits: those of a plausible range are round."""
+    return f"{float(f'{value:.3g}'):g}".replace("-", "−") if abs(value) < 1e4 else f"{value:.0f}"
+
+
+def _how_found(effect: Effect) -> str:
+    """Say whether a searched parameter is known from the job."""
+    stated = any(len(effect.grid(design)) == 1 for design in _full(effect))
+    unstated = any(
+        len(effect.grid(design)) > 1
+        for full in _full(effect)
+        for design in (full, *_without_keys(full))
+        if effect.untestable(design) is None
+    )
+    if stated:
+        return "stated in the job, else searched" if unstated else "stated in the job"
+    return "searched"
+
+
+def _kinds(effect: Effect) -> list[AxisKind]:
+    kinds = {design.axis.kind for design in _full(effect)}
+    return [kind for kind in AxisKind if kind in kinds]
+
+
+def _full(effect: Effect) -> list[Design]:
+    return [design for design in full_designs().values() if effect.untestable(design) is None]
+
+
+def _lacking(effect: Effect) -> list[str]:
+    """Return why it cannot be tried on tests that lack one thing each, in the words of a diagnosis."""
+    reasons: dict[str, None] = {}
+    for design in full_designs().values():
+        _note(effect.untestable(design), reasons)
+    for full in _full(effect):
+        for poorer in _poorer(full):
+            _note(effect.untestable(poorer), reasons)
+    return list(reasons)
+
+
+def _note(reason: Words | None, reasons: dict[str, None]) -> None:
+    if reason is not None:
+        # What stands behind a semicolon is what the test at hand has instead.
+        reasons.setdefault(reason.in_language(_EN).partition(";")[0])
+
+
+def _poorer(full: Design) -> Iterator[Design]:
+    """Yield a complete test without one thing that it has."""
+    for name in full.conditions:
+        yield replace(full, conditions={key: log for key, log in full.conditions.items() if key != name})
+    yield from _without_keys(full)
+    for kept in (
+        full.direction > 0,
+        full.run == full.run[0],
+        full.target == full.target[0],
+    ):
+        yield of_readings(full, np.flatnonzero(kept))
+    yield replace(full, time=np.zeros_like(full.time))
+    first = float(full.position.min())
+    yield replace(full, span=(first, first + _MICROMETRE))
+
+
+def _without_keys(full: Design) -> Iterator[Design]:
+    """Yield a complete test without one thing that the job states of the axis."""
+    axis = full.axis
+    for poorer in (
+        replace(axis, screw_pitch=None),
+        replace(axis, signal_period=None),
+        replace(axis, scale_element=None),
+        replace(axis, compensation_table=None),
+        replace(axis, angular_errors=None),
+        replace(axis, abbe_offset=None),
+    ):
+        yield replace(full, axis=poorer)
+
+
+def _settings(effect: Effect) -> str:
+    settings = effect.settings
+    return ", ".join(f"{name}: {_listed(getattr(settings, name))}" for name in keys_in(effect.options))
+
+
+def _listed(value: object) -> str:
+    return f"[{', '.join(map(str, value))}]" if isinstance(value, tuple) else str(value)
+
+
+def _link(identifier: str) -> str:
+    return f"[{code(identifier)}](#{identifier})"
+
+
+def _joined(items: Iterable[str]) -> str:
+    *others, last = items
+    return f"{', '.join(others)} and {last}" if others else last

@@ -1,0 +1,304 @@
+"""The tables of the annex on the error model: parameters, history, candidates, visibility."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+from zlmreport.certificate.document import Align, Cell, Column, Explained, Formulas, RowGroup, Symbol, Table
+from zlmreport.certificate.forecast import Forecast
+from zlmreport.certificate.scribe import NOTHING, Scribe
+from zlmreport.language import Language, Words
+from zlmreport.model import wording
+from zlmreport.model.amplitudes import Wave, waves
+from zlmreport.model.design import Design
+from zlmreport.model.diagnosis import Diagnosis
+from zlmreport.model.estimate import Estimate, Plausibility
+from zlmreport.model.parameter import ParameterUnit, unit_of
+from zlmreport.model.study import Fitted
+from zlmreport.model.visibility import Visibility
+from zlmreport.quantities.formatting import fixed_number
+from zlmreport.quantities.uncertain import rounded_pair
+
+_EFFECT = Words(en="Effect", de="Einfluss")
+_PERCENT = 100.0
+_READINGS = Words(en="readings", de="Messwerte")
+_AMPLITUDE = Words(
+    en="Amplitude of harmonic {order}, from the above", de="Amplitude der {order}. Harmonischen, aus Obigem"
+)
+_PHASE = Words(
+    en="Phase of harmonic {order}, from the above", de="Phase der {order}. Harmonischen, aus Obigem"
+)
+_PLAUSIBILITY = {
+    Plausibility.PLAUSIBLE: Words(en="yes", de="ja"),
+    Plausibility.DOUBTFUL: Words(en="doubtful", de="zweifelhaft"),
+    Plausibility.IMPLAUSIBLE: Words(en="no", de="nein"),
+    Plausibility.UNKNOWN: Words(en=NOTHING, de=NOTHING),
+}
+
+
+@dataclass(frozen=True, slots=True)
+class ModelTables:
+    """Writes the tables of one model.
+
+    Attributes
+    ----------
+    scribe
+        Of the document.
+    design
+        The test.
+    titles
+        What effects are called, by identifier.
+    """
+
+    scribe: Scribe
+    design: Design
+    titles: Mapping[str, Words]
+
+    def effect(self, identifier: str) -> Explained:
+        """Return an effect's identifier with its title."""
+        return Explained(identifier, self.scribe.say(self.titles[identifier]))
+
+    def equations(self, fitted: Fitted) -> Formulas:
+        """Return the model: the deviation as a sum of effects."""
+        caption = Words(
+            en="The model: the deviation x is the sum of these effects",
+            de="Das Modell: Die Abweichung x ist die Summe dieser Einflüsse",
+        )
+        return Formulas(
+            self.scribe.say(caption),
+            tuple(
+                (
+                    Symbol(term.effect.identifier),
+                    Symbol(term.effect.equation),
+                    self.scribe.say(term.effect.title),
+                )
+                for term in fitted.fit.model.terms
+            ),
+        )
+
+    def parameters(self, fitted: Fitted) -> Table:
+        """Return the parameters of the model with their expanded uncertainties."""
+        say = self.scribe.say
+        caption = Words(
+            en="Parameters of the model with expanded uncertainty U (coverage probability about 95 %). "
+            "Plausible: within what is usual for the effect",
+            de="Parameter des Modells mit erweiterter Messunsicherheit U (Überdeckungswahrscheinlichkeit "
+            "etwa 95 %). Plausibel: im Bereich des für den Einfluss Üblichen",
+        )
+        columns = (
+            Column(say(Words(en="Symbol", de="Zeichen"))),
+            Column(say(Words(en="Parameter", de="Parameter"))),
+            Column(say(Words(en="Value", de="Wert")), align=Align.RIGHT),
+            Column("U", align=Align.RIGHT),
+            Column(say(Words(en="Unit", de="Einheit"))),
+            Column(say(Words(en="Plausible", de="Plausibel"))),
+        )
+        of_waves = waves(fitted.fit)
+        groups = tuple(
+            RowGroup(
+                (
+                    *(self._parameter(each) for each in fitted.fit.estimates if each.effect == identifier),
+                    *(row for each in of_waves if each.effect == identifier for row in self._wave(each)),
+                ),
+                f"{identifier}: {say(term.effect.title)}",
+            )
+            for term in fitted.fit.model.terms
+            for identifier in (term.effect.identifier,)
+        )
+        return Table(say(caption), columns, groups)
+
+    def history(self, history: Sequence[Fitted], forecast: Forecast) -> Table:
+        """Return how the error fell, effect by effect, and what a standard would say after each."""
+        say, unit = self.scribe.say, self.scribe.deviation_unit.symbol
+        caption = Words(
+            en="How the error falls, effect by effect; the parameters of {designation} are predicted for an "
+            "axis whose control corrects all effects down to the row",
+            de="Wie die Abweichung sinkt, Einfluss für Einfluss; die Kenngrößen nach {designation} sind für "
+            "eine Achse vorhergesagt, deren Steuerung alle Einflüsse bis zu dieser Zeile korrigiert",
+        ).given(designation=forecast.designation)
+        columns = [
+            Column(say(_EFFECT)),
+            Column(say(Words(en="RMS error", de="Quadr. Mittel")), unit, Align.RIGHT),
+            Column("χ²/ν", align=Align.RIGHT),
+            Column(say(Words(en="Cross-validated", de="Kreuzvalidiert")), unit, Align.RIGHT),
+        ]
+        columns += [Column(Symbol(quantity.notation), unit, Align.RIGHT) for quantity in forecast.quantities]
+        names = [say(Words(en="without model", de="ohne Modell")), *_identifiers(history)]
+        rows = tuple(
+            (
+                name,
+                self._deviation(each.error.rms),
+                self._number(each.error.chi2_per_dof),
+                self._deviation(each.error.cross_validated_rms),
+                *(self.scribe.deviation(float(value)) for value in forecast.by_step[index]),
+            )
+            for index, (name, each) in enumerate(zip(names, history, strict=True))
+        )
+        floor = history[-1].error.noise_rms
+        noise = say(Words(en="noise floor", de="Grundrauschen"))
+        blank = ("",) * (len(columns) - 2)
+        last = () if floor is None else ((noise, self._deviation(floor), *blank),)
+        return Table(say(caption), tuple(columns), (RowGroup((*rows, *last)),))
+
+    def compensation(self, forecasts: Sequence[Forecast]) -> Table:
+        """Return what a compensation would leave of the leading parameters of each standard."""
+        say, unit = self.scribe.say, self.scribe.deviation_unit.symbol
+        caption = Words(
+            en="What a compensation would leave, predicted from the readings of this document",
+            de="Was eine Kompensation übrig ließe, vorhergesagt aus den Messwerten dieses Dokuments",
+        )
+        columns = (
+            Column(say(Words(en="Symbol", de="Zeichen"))),
+            Column(say(Words(en="Parameter", de="Kenngröße"))),
+            Column(say(Words(en="Measured", de="Gemessen")), unit, Align.RIGHT),
+            Column(say(Words(en="Table of positions", de="Positionstabelle")), unit, Align.RIGHT),
+            Column(say(Words(en="Whole model", de="Ganzes Modell")), unit, Align.RIGHT),
+        )
+        groups = tuple(
+            RowGroup(
+                tuple(
+                    (
+                        Symbol(quantity.notation),
+                        say(quantity.name),
+                        *map(self.scribe.deviation, map(float, values)),
+                    )
+                    for quantity, *values in zip(
+                        forecast.quantities,
+                        forecast.by_step[0],
+                        forecast.by_table,
+                        forecast.by_step[-1],
+                        strict=True,
+                    )
+                ),
+                forecast.designation,
+            )
+            for forecast in forecasts
+        )
+        return Table(say(caption), columns, groups)
+
+    def candidates(self, diagnosis: Diagnosis) -> Table:
+        """Return the effects that the model may lack, best first."""
+        say, unit = self.scribe.say, self.scribe.deviation_unit.symbol
+        caption = Words(
+            en="Effects that the model may lack, with their probabilities among all that were tried",
+            de="Einflüsse, die dem Modell fehlen können, mit ihrer Wahrscheinlichkeit unter allen geprüften",
+        )
+        columns = (
+            Column(say(_EFFECT)),
+            Column(say(Words(en="Probability", de="Wahrscheinlichkeit")), "%", Align.RIGHT),
+            Column(say(Words(en="RMS after", de="Quadr. Mittel danach")), unit, Align.RIGHT),
+            Column(say(Words(en="Not to be told from", de="Nicht zu unterscheiden von"))),
+            Column(say(Words(en="Told apart by", de="Zu unterscheiden durch"))),
+        )
+        rows = tuple(
+            (
+                self.effect(each.identifier),
+                self._percent(each.probability),
+                self._deviation(each.error.rms),
+                ", ".join(each.equals) or NOTHING,
+                say(each.discriminate_by) if each.discriminate_by else NOTHING,
+            )
+            for each in diagnosis.candidates
+        )
+        return Table(say(caption), columns, (RowGroup(rows),))
+
+    def visibility(self, visible: Sequence[Visibility]) -> Table:
+        """Return how much of each effect the plan of the test can see, the best hidden first."""
+        say, unit = self.scribe.say, self.scribe.deviation_unit.symbol
+        caption = Words(
+            en="What the plan of this test can see of effects that are not in the model: the share that the "
+            "model does not imitate, and the smallest effect that is found half of the time (root mean "
+            "square over all readings)",
+            de="Was der Plan dieser Messung von Einflüssen sieht, die nicht im Modell stehen: der Anteil, "
+            "den das Modell nicht nachahmt, und der kleinste Einfluss, der in der Hälfte der Fälle gefunden "
+            "wird (quadratischer Mittelwert über alle Messwerte)",
+        )
+        columns = (
+            Column(say(_EFFECT)),
+            Column(say(Words(en="Title", de="Bezeichnung"))),
+            Column(say(Words(en="Visible", de="Sichtbar")), "%", Align.RIGHT),
+            Column(say(Words(en="Found from", de="Gefunden ab")), unit, Align.RIGHT),
+        )
+        rows = tuple(
+            (
+                each.effect,
+                say(self.titles[each.effect]),
+                self._percent(each.share),
+                self._deviation(each.smallest_rms),
+            )
+            for each in sorted(visible, key=lambda each: (each.share, each.effect))
+        )
+        return Table(say(caption), columns, (RowGroup(rows),), dense=True)
+
+    def not_testable(self, diagnosis: Diagnosis) -> Iterator[str]:
+        """Yield what could not be tried, reason by reason."""
+        by_reason: dict[str, list[str]] = {}
+        for each in diagnosis.not_testable:
+            by_reason.setdefault(self.scribe.say(each.reason), []).append(each.effect)
+        for reason, effects in by_reason.items():
+            yield f"{', '.join(effects)}: {reason}"
+
+    def _parameter(self, estimate: Estimate) -> tuple[Cell, ...]:
+        parameter, kind = estimate.parameter, self.design.axis.kind
+        unit = unit_of(parameter.dimension, kind, time_is_counted=self.design.time_is_counted)
+        value, uncertainty = rounded_pair(
+            estimate.value * unit.per_si,
+            estimate.expanded_uncertainty * unit.per_si,
+            self.scribe.language.decimal_sign,
+        )
+        if estimate.is_given:
+            value = self.scribe.number(estimate.value * unit.per_si)
+            uncertainty = self.scribe.say(Words(en="given", de="vorgegeben"))
+        plausibility = estimate.plausibility(time_is_counted=self.design.time_is_counted)
+        return (
+            Symbol(parameter.notation),
+            self.scribe.say(parameter.description),
+            value,
+            uncertainty,
+            unit_symbol(unit, self.scribe.language),
+            self.scribe.say(_PLAUSIBILITY[plausibility]),
+        )
+
+    def _wave(self, wave: Wave) -> Iterator[tuple[Cell, ...]]:
+        """Yield amplitude and phase of a wave, which follow from its sine and cosine."""
+        harmonic, k, sign = wave.harmonic, wave.coverage_factor, self.scribe.language.decimal_sign
+        unit = self.scribe.deviation_unit
+        for notation, description, values, symbol in (
+            (
+                f"A_{{{harmonic.order}}}",
+                _AMPLITUDE,
+                (unit.from_si(harmonic.amplitude), k * unit.from_si(harmonic.amplitude_uncertainty)),
+                unit.symbol,
+            ),
+            (
+                f"φ_{{{harmonic.order}}}",
+                _PHASE,
+                (math.degrees(harmonic.phase), k * math.degrees(harmonic.phase_uncertainty)),
+                "°",
+            ),
+        ):
+            words = self.scribe.say(description.given(order=harmonic.order))
+            yield Symbol(notation), words, *rounded_pair(*values, sign), symbol, NOTHING
+
+    def _deviation(self, value: float | None) -> str:
+        """Write a deviation with three significant digits."""
+        if value is None or not math.isfinite(value):
+            return NOTHING
+        return self.scribe.say(wording.significant(self.scribe.deviation_unit.from_si(value)))
+
+    def _number(self, value: float | None) -> str:
+        return NOTHING if value is None else self.scribe.say(wording.significant(value))
+
+    def _percent(self, share: float) -> str:
+        return fixed_number(_PERCENT * share, 0, self.scribe.language.decimal_sign)
+
+
+def unit_symbol(unit: ParameterUnit, language: Language) -> str:
+    """Return a parameter's unit as it is printed: a number of readings is a word."""
+    return _READINGS.in_language(language) if unit.symbol == _READINGS.en else unit.symbol
+
+
+def _identifiers(history: Sequence[Fitted]) -> list[str]:
+    return [f"+ {name}" for name in history[-1].fit.model.identifiers]

@@ -1,0 +1,143 @@
+"""Where a model fails: readings against model, and what is left over position, run, time and conditions."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from zlmreport.figures import alternatives
+from zlmreport.figures.figure import Figure, Panel, Role
+from zlmreport.figures.model_diagram import MODEL, RESIDUAL_TITLE, ModelDiagram
+from zlmreport.figures.prescribed import MEANS, POSITION_TITLE
+from zlmreport.language import Words, same
+from zlmreport.measurement.conditions import CONDITION_NAMES, CONDITIONS
+from zlmreport.quantities.arrays import FloatArray, IntArray
+
+#: Groups of readings that follow one another, through whose means a curve leads.
+_GROUPS = 12
+_MINUTE = 60.0
+_LONG = 600.0
+
+_AGAINST_MODEL = Words(
+    en="Readings and error model over the target position; below, what the model leaves of the readings "
+    "(residual e = x − x̂), with twice the scatter of single readings",
+    de="Messwerte und Fehlermodell über der Sollposition; darunter, was das Modell von den Messwerten übrig "
+    "lässt (Residuum e = x − x̂), mit dem Doppelten der Streuung einzelner Messwerte",
+)
+_OVER = Words(
+    en="Residuals over {quantity}, with twice the scatter of single readings",
+    de="Residuen über {quantity}, mit dem Doppelten der Streuung einzelner Messwerte",
+)
+_MEASURED = Words(en="Measured and model", de="Gemessen und Modell")
+_RUN = (Words(en="Run", de="Durchlauf"), Words(en="the run", de="dem Durchlauf"))
+_TIME = (Words(en="Time", de="Zeit"), Words(en="time", de="der Zeit"))
+_COUNTED = (
+    Words(en="Number of the reading", de="Nummer des Messwerts"),
+    Words(en="their order", de="ihrer Reihenfolge"),
+)
+
+
+def over_position(diagram: ModelDiagram) -> Figure:
+    """Return readings and model, and the residuals below, over the target position for each direction."""
+    fit, x = diagram.fit, diagram.positions
+    model, residual = [], []
+    for approach in diagram.approaches:
+        chosen = diagram.of(approach)
+        arrow, targets = approach.arrow, fit.design.target[chosen]
+        model.append(
+            diagram.means(f"x̂_{{i}}{arrow}", MODEL[approach], x[chosen], fit.fitted[chosen], targets)
+        )
+        residual.append(
+            diagram.means(f"ē_{{i}}{arrow}", MEANS[approach], x[chosen], fit.residual[chosen], targets)
+        )
+    return diagram.figure(
+        "model",
+        _AGAINST_MODEL,
+        alternatives.text(
+            diagram.range_sentence(Words(en="Readings", de="Messwerte"), fit.deviation),
+            diagram.range_sentence(Words(en="Model", de="Modell"), fit.fitted),
+            *diagram.residual_sentences(),
+        ),
+        POSITION_TITLE,
+        diagram.axis.position_unit.symbol,
+        Panel(heading=_MEASURED, curves=tuple(model), readings=diagram.readings(x, fit.deviation)),
+        Panel(
+            heading=RESIDUAL_TITLE,
+            curves=tuple(residual),
+            readings=diagram.readings(x, fit.residual),
+            bands=(diagram.scatter_of_single_readings(x),),
+        ),
+    )
+
+
+def over_run(diagram: ModelDiagram) -> Figure:
+    """Return the residuals over the number of the run, with the mean of each run and direction."""
+    runs = diagram.design.run
+    curves = [
+        diagram.means(
+            f"ē{approach.arrow}", MEANS[approach], runs[chosen].astype(np.float64), residual, runs[chosen]
+        )
+        for approach in diagram.approaches
+        for chosen in (diagram.of(approach),)
+        for residual in (diagram.fit.residual[chosen],)
+    ]
+    panel = _panel(diagram, runs.astype(np.float64))
+    return _residuals(
+        diagram, "run", _RUN, "", Panel(curves=tuple(curves), readings=panel.readings, bands=panel.bands)
+    )
+
+
+def over_time(diagram: ModelDiagram) -> Figure:
+    """Return the residuals over time, or in their order where the source tells no times."""
+    design = diagram.design
+    if design.time_is_counted:
+        return _residuals(diagram, "time", _COUNTED, "", _panel(diagram, 1.0 + design.time))
+    in_minutes = design.duration > _LONG
+    time = design.time / _MINUTE if in_minutes else design.time
+    return _residuals(diagram, "time", _TIME, "min" if in_minutes else "s", _panel(diagram, time))
+
+
+def over_condition(diagram: ModelDiagram, condition: str) -> Figure:
+    """Return the residuals over a condition that was logged beside the readings."""
+    log = diagram.design.conditions[condition]
+    name, unit = CONDITION_NAMES.get(condition, same(condition)), ""
+    if condition in CONDITIONS:
+        scale = CONDITIONS[condition].unit
+        log, unit = scale.from_si(log), scale.symbol
+    return _residuals(diagram, condition.replace("_", "-"), (name, name), unit, _panel(diagram, log))
+
+
+def _residuals(
+    diagram: ModelDiagram, key: str, quantity: tuple[Words, Words], unit: str, panel: Panel
+) -> Figure:
+    title, in_sentence = quantity
+    caption = _OVER.given(quantity=in_sentence)
+    return diagram.figure(
+        f"residuals-{key}",
+        caption,
+        alternatives.text(
+            Words("{caption}.", "{caption}.").given(caption=caption), *diagram.residual_sentences()
+        ),
+        title,
+        unit,
+        panel,
+        y_title=RESIDUAL_TITLE,
+    )
+
+
+def _panel(diagram: ModelDiagram, x: FloatArray) -> Panel:
+    """Return the residuals over anything that changes from reading to reading."""
+    residual = diagram.fit.residual
+    curve = diagram.means("ē", Role.MEAN_BIDIRECTIONAL, x, residual, _followers(x))
+    return Panel(
+        curves=(curve,),
+        readings=diagram.readings(x, residual),
+        bands=(diagram.scatter_of_single_readings(x),),
+    )
+
+
+def _followers(x: FloatArray) -> IntArray:
+    """Return groups of readings that follow one another: alike in number, like values together."""
+    rank = np.unique(x, return_inverse=True)[1]
+    share = np.searchsorted(np.sort(x), x, side="left") / len(x)
+    group = np.floor(share * _GROUPS)
+    return np.asarray(group if len(np.unique(rank)) > _GROUPS else rank, dtype=np.int64)
