@@ -105,9 +105,9 @@ class Case:
         return np.random.default_rng(int.from_bytes(content.digest()[:16], "big"))
 
 
-def cases(draws: int) -> Iterator[Case]:
+def cases(draws: int, first: int = 0) -> Iterator[Case]:
     """Yield all cases, draw by draw, those of a draw mixed: wherever one stops, every cell has its share."""
-    for draw in range(draws):
+    for draw in range(first, first + draws):
         of_draw = [*_effects(draw), *_pairs(draw), *_strangers(draw), *_nothing(draw)]
         order = np.random.default_rng([draw, len(of_draw)]).permutation(len(of_draw))
         yield from (of_draw[place] for place in order)

@@ -9,18 +9,21 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from hidden_effects import records
-from hidden_effects.cases import cases
+from hidden_effects.cases import Kind, cases
 from hidden_effects.run import run
 from hidden_effects.tables import report
 
 _SECONDS_PER_MINUTE = 60
+_FIRST_DRAW = 1000
 
 
 def main(arguments: Sequence[str]) -> None:
     """Judge what is left to judge, and print the tables."""
     asked = _parser().parse_args(arguments)
     seconds = math.inf if asked.minutes is None else _SECONDS_PER_MINUTE * asked.minutes
-    run(cases(asked.draws), asked.results, asked.processes, seconds)
+    drawn = cases(asked.draws, asked.first)
+    listed = (case for case in drawn if asked.only in (None, case.kind))
+    run(listed, asked.results, asked.processes, seconds)
     state = records.state_of_code()
     print(report(records.of_state(records.read(asked.results), state), state))
 
@@ -33,6 +36,14 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "--draws", type=int, default=100, help="draws for each cell of the tables (%(default)s)"
     )
+    parser.add_argument(
+        "--first",
+        type=int,
+        default=_FIRST_DRAW,
+        metavar="DRAW",
+        help="number of the first draw (%(default)s): those before it are for trying things out",
+    )
+    parser.add_argument("--only", type=Kind, choices=tuple(Kind), help="judge only tests that hide this")
     parser.add_argument("--minutes", type=float, help="begin no more cases after so many minutes")
     parser.add_argument(
         "--processes", type=int, default=os.cpu_count() or 1, help="that work at the same time (%(default)s)"

@@ -17,8 +17,8 @@ from hidden_effects.judge import judged
 
 #: One process, one core: two that share cores through a library's threads are slower than each by itself.
 _SINGLE_THREADED = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
-#: Of the cases of the first draws on which generic ways are tried, the slow ones are tried on every so many.
-_SLOW_DRAWS, _SLOW_EVERY = 3, 10
+#: Of the cases on which generic ways are tried, the slow ones are tried on every so many, up to a number.
+_SLOW_EVERY, _MOST_SLOW = 10, 18
 _AHEAD = 4
 
 
@@ -54,8 +54,8 @@ def _with_slow_ways(cases: Iterable[Case]) -> Iterator[tuple[Case, bool]]:
     """Yield each case, and whether the slow ways are tried on it."""
     tried = 0
     for case in cases:
-        is_tried = case.kind is Kind.EFFECT and case.draw < _SLOW_DRAWS and is_tried_on(case)
-        yield case, is_tried and tried % _SLOW_EVERY == 0
+        is_tried = case.kind is Kind.EFFECT and is_tried_on(case)
+        yield case, is_tried and tried % _SLOW_EVERY == 0 and tried < _SLOW_EVERY * _MOST_SLOW
         tried += is_tried
 
 

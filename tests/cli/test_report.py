@@ -70,9 +70,13 @@ def test_missing_readings_are_told(shop: Shop) -> None:
     assert "target 100 mm ↑, run 1" in run.output
 
 
-def test_error_model_of_the_job_is_told_to_wait(shop: Shop) -> None:
+def test_model_that_cannot_be_fitted_is_refused_at_its_place_and_nothing_is_written(shop: Shop) -> None:
     shop.job(("evaluate:", "model: {effects: [exemplary-wave]}\nevaluate:"))
-    assert "note  model.effects is kept as it stands" in shop.run("job.yaml").output
+    run = shop.run("job.yaml")
+    assert run.code == 2
+    assert run.messages == (
+        "job.yaml:13:19: exemplary-wave cannot be fitted to these readings: it needs four targets\n"
+    )
 
 
 def test_output_goes_to_another_folder(shop: Shop) -> None:

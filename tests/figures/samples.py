@@ -13,6 +13,7 @@ from zlmreport.figures.draw_lettering import plain_label
 from zlmreport.figures.figure import (
     Arrow,
     Band,
+    Bar,
     Bracket,
     Curve,
     Figure,
@@ -127,6 +128,18 @@ def many_targets() -> Panel:
     )
 
 
+def bars(*heights: float, names: Sequence[str] = ()) -> Panel:
+    """Return bars with their values, and a level below the last."""
+    names = names or [f"effect-{number}" for number in range(len(heights))]
+    return Panel(
+        bars=tuple(
+            Bar(Words(name, name), height, Words(f"{height:.2f}", f"{height:.2f}".replace(".", ",")))
+            for name, height in zip(names, heights, strict=True)
+        ),
+        levels=(Level("σ₀", Role.TOLERANCE, min(heights) / 2),),
+    )
+
+
 def _lone(*values: float) -> Panel:
     """Return a curve with a band through values at the first targets."""
     y = np.array(values)
@@ -201,6 +214,12 @@ DEGENERATE = {
             levels=tuple(Level(name, Role.BAND_LIMIT, 2.0 + 0.01 * n) for n, name in enumerate("abc")),
         )
     ),
+    "a single bar": figure(bars(1.0)),
+    "bars of no height": figure(bars(0.0, 0.0)),
+    "thirty bars": figure(bars(*np.linspace(5.0, 0.5, 30).tolist())),
+    "bars with long names": figure(
+        bars(5.0, 3.0, 1.0, names=("ohne jeden Einfluss", "+ reversal-relaxation " * 4, "x" * 60))
+    ),
     "a legend of several rows": figure(
         replace(
             both_directions(),
@@ -216,6 +235,10 @@ ORDINARY = {
     "both directions": figure(both_directions()),
     "each direction": figure(*each_direction()),
     "200 targets": figure(many_targets()),
+    "a fall chart": figure(bars(5.77, 3.72, 0.54, names=("without model", "+ offset", "+ screw-pitch"))),
+    "a panel of what another leaves": replace(
+        figure(both_directions(), scaled(both_directions(), 0.1)), spans_are_alike=False
+    ),
     "a rotary axis": figure(both_directions(), x_unit="°", y_unit="″"),
 }
 ALL = ORDINARY | DEGENERATE

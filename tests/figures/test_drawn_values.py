@@ -8,10 +8,12 @@ import pytest
 from figures.samples import (
     BACKWARD,
     FORWARD,
+    ORDINARY,
     SPREAD,
     TARGETS,
     Readback,
     Recording,
+    bars,
     both_directions,
     drawn,
     each_direction,
@@ -159,3 +161,28 @@ def test_two_panels_share_the_positions() -> None:
     canvas = drawn(figure(*each_direction()))
     (forward,), (backward,) = canvas.of("curve mean_positive"), canvas.of("curve mean_negative")
     np.testing.assert_allclose(forward.points[:, 0], backward.points[:, 0], atol=EXACT)
+
+
+def test_bars_grow_from_zero_to_their_values() -> None:
+    canvas = drawn(figure(bars(5.0, 3.0, 0.5)))
+    readback = Readback(canvas)
+    ends = [tuple(sorted(set(np.round(readback.y(bar.points[:, 1]), 6)))) for bar in canvas.of("bar")]
+    assert ends == [(0.0, 5.0), (0.0, 3.0), (0.0, 0.5)]
+
+
+def test_bars_stand_above_their_names_and_below_their_values() -> None:
+    canvas = drawn(figure(bars(5.0, 3.0, names=("one", "other"))))
+    for bar, name, value in zip(
+        canvas.of("bar"), canvas.texts_of("tick x"), canvas.texts_of("bar"), strict=True
+    ):
+        middle = (bar.points[:, 0].min() + bar.points[:, 0].max()) / 2
+        for text in (name, value):
+            assert (text.box.left + text.box.right) / 2 == pytest.approx(middle, abs=1e-6)
+        assert value.box.top < bar.points[:, 1].min()  # y downwards
+    assert [text.text for text in canvas.texts_of("bar")] == ["5.00", "3.00"]
+
+
+def test_panels_with_spans_of_their_own_draw_lengths_each_in_its_own() -> None:
+    canvas = drawn(ORDINARY["a panel of what another leaves"])
+    upper, lower = (curve.points[:, 1] for curve in canvas.of("curve mean_positive"))
+    assert np.ptp(lower) == pytest.approx(np.ptp(upper), rel=1e-6)

@@ -8,6 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from zlmreport.figures.scale import (
+    category_scale,
     decimals_of,
     extremes,
     position_scale,
@@ -125,3 +126,35 @@ def test_labels_of_round_positions_keep_apart() -> None:
 def test_a_single_target_has_its_label() -> None:
     scale = position_scale(np.array([5.0]), 400.0, 12.0, POINT, _width)
     assert (scale.ticks, scale.labels) == ((5.0,), ("5",))
+
+
+def test_panels_may_have_spans_of_their_own() -> None:
+    one, other = value_scales([np.array([0.0, 10.0]), np.array([0.0, 1.0])], 0.1, 5, POINT, alike=False)
+    assert (one.upper - one.lower) / (other.upper - other.lower) == pytest.approx(10.0)
+
+
+def test_things_side_by_side_stand_at_whole_numbers() -> None:
+    scale = category_scale(("a", "b", "c"), 300.0, _width)
+    assert (scale.lower, scale.upper, scale.ticks, scale.labels) == (
+        -0.5,
+        2.5,
+        (0.0, 1.0, 2.0),
+        ("a", "b", "c"),
+    )
+
+
+def test_names_that_do_not_fit_are_parted_at_the_hyphen_nearest_to_their_middle() -> None:
+    scale = category_scale(("offset", "a-long-wave-name"), 130.0, _width)
+    assert scale.labels == ("offset", "a-long-\nwave-name")
+
+
+def test_where_a_name_does_not_fit_at_all_numbers_stand_for_all() -> None:
+    scale = category_scale(("offset", "x" * 40), 130.0, _width)
+    assert scale.labels == ("0", "1")
+
+
+@given(st.lists(st.text("ab- ", min_size=1, max_size=30), min_size=1, max_size=20))
+def test_names_side_by_side_never_overlap(names: list[str]) -> None:
+    scale = category_scale(names, 400.0, _width)
+    widest = max(_width(line) for label in scale.labels for line in label.split("\n"))
+    assert widest < 400.0 / len(names) or scale.labels == tuple(map(str, range(len(names))))

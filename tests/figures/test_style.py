@@ -64,6 +64,8 @@ def test_a_band_is_lighter_than_its_limits_and_lets_the_grid_through(role: Role)
         (Role.MEAN_POSITIVE, Role.MEAN_NEGATIVE),
         (Role.LIMIT_POSITIVE, Role.LIMIT_NEGATIVE),
         (Role.SPREAD, Role.REVERSAL),
+        (Role.MODEL_POSITIVE, Role.MODEL_NEGATIVE),
+        (Role.UNCERTAINTY_POSITIVE, Role.UNCERTAINTY_NEGATIVE),
     ],
 )
 def test_colours_of_a_pair_stay_apart_for_the_red_green_blind(one: Role, other: Role) -> None:

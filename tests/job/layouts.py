@@ -26,7 +26,7 @@ NAMES = ("offset", "scale-error", "backlash", "screw-pitch", "first-run", "dead-
 
 @dataclass(frozen=True)
 class Layout:
-    """A job before, in and after its list of effects; `comments` stand in the list, one for each line at most.
+    """A job before, in and after its list of effects.
 
     Attributes
     ----------

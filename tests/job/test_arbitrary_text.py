@@ -5,7 +5,7 @@ from __future__ import annotations
 import tempfile
 from pathlib import Path
 
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from job.jobs import REGISTRY, SOUND
@@ -70,6 +70,7 @@ def test_any_value_for_any_key(number: int, indentation: int, key: str, value: s
 
 
 @unhurried
+@example(start=293, inserted="\ud7fc", removed=2)  # a letter that does not exist, in a symbol
 @given(st.integers(0, len(SOUND)), st.text(max_size=5), st.integers(0, 20))
 def test_any_damage_to_a_sound_job(start: int, inserted: str, removed: int) -> None:
     _load((SOUND[:start] + inserted + SOUND[start + removed :]).encode("utf-8", "surrogatepass"))

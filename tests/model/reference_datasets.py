@@ -1,4 +1,4 @@
-"""The reference datasets of NIST as effects: each nonlinear function in the form that is linear in part of it."""
+"""The reference datasets of NIST as effects: each nonlinear function in the form that is linear in part."""
 
 from __future__ import annotations
 
@@ -105,7 +105,7 @@ class Predictors(Effect):
     def __init__(self, count: int) -> None:
         self.linear = tuple(_parameter(f"b{index}") for index in range(count + 1))
 
-    def columns(self, design: Design, theta: FloatArray) -> FloatArray:
+    def columns(self, design: Design, theta: FloatArray) -> FloatArray:  # noqa: ARG002 - nothing is searched
         """Return them."""
         return np.stack([np.ones(len(design.position)), *design.conditions.values()], axis=1)
 

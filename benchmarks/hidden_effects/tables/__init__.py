@@ -10,6 +10,7 @@ from hidden_effects.tables import named, unnamed, worth
 
 _TABLES: Sequence[tuple[str, Callable[[Sequence[Record]], Iterator[str]]]] = (
     ("All effects", named.all_effects),
+    ("Without offset, scale-error, cosine-error and gauge-misalignment", named.effects_that_vary),
     ("By positioning method", named.by_method),
     ("By effect", named.by_effect),
     ("By what the test can tell apart", named.by_distance),

@@ -16,15 +16,27 @@ from zlmreport.planning.methods import Method
 
 #: Distance of the nearest other effect from which on it is told apart: see `Trial.nearest`.
 _SEPARATES = 16.0
+#: Effects that are constant in a test, or a line over P: whatever has an absolute level looks like them.
+_CONSTANT = frozenset({"offset", "scale-error", "cosine-error", "gauge-misalignment"})
 _PROBABILITIES = (0.0, 0.5, 0.8, 0.95, 0.99, 1.0)
 _NOISE = "noise"
 
 
 def all_effects(records: Sequence[Record]) -> Iterator[str]:
     """Yield the table of all effects and methods together, by noise and size."""
+    return _of_effects(judged(records, kind="effect"))
+
+
+def effects_that_vary(records: Sequence[Record]) -> Iterator[str]:
+    """Yield the same table without the effects that are constant in a test, or a straight line."""
+    varying = [each for each in judged(records, kind="effect") if not _CONSTANT.intersection(each["hidden"])]
+    return _of_effects(varying)
+
+
+def _of_effects(records: Sequence[Record]) -> Iterator[str]:
     rows = []
     for scatter, size in product(Scatter, SIZES):
-        found = _outcomes(judged(records, kind="effect", scatter=scatter, size=size))
+        found = _outcomes(judged(records, scatter=scatter, size=size))
         rows.append(
             (
                 f"{scatter}, ρ = {size:g}",

@@ -79,9 +79,7 @@ def problem(mistake: Mistake, model: type[BaseModel], within: str, also_known: C
         Keys beside the model's own that belong to the same group.
     """
     field = field_at(model, mistake.path)
-    name = ".".join(
-        [*([within] if within else []), *(step for step in mistake.path if isinstance(step, str))]
-    )
+    name = _dotted(within, mistake.path)
     if mistake.kinds == {MISSING}:
         return Problem(mistake.place, _missing(mistake, name, field))
     if mistake.kinds == {UNKNOWN}:
@@ -90,8 +88,12 @@ def problem(mistake: Mistake, model: type[BaseModel], within: str, also_known: C
 
 
 def _dotted(within: str, path: tuple[Step, ...]) -> str:
-    """Return the dotted name of a key; items of a list are known by their place."""
-    return ".".join(step for step in (within, *path) if isinstance(step, str) and step)
+    """Return the dotted name of a key; items of a list are known by their place.
+
+    A user's own key, such as a tolerance's symbol, may hold what no terminal prints: it is shown escaped.
+    """
+    steps = (step for step in (within, *path) if isinstance(step, str) and step)
+    return ".".join(step if step.isprintable() else repr(step)[1:-1] for step in steps)
 
 
 def _missing(mistake: Mistake, name: str, field: FieldInfo | None) -> str:

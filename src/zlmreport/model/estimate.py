@@ -20,6 +20,8 @@ from zlmreport.quantities.arrays import FloatArray
 #: Probability of expanded uncertainties: that of two standard deviations of a normal variable.
 COVERAGE = 0.9545
 _WELL_KNOWN = 1e5
+#: Coverage factors that are computed where there are many.
+_FACTORS = 25
 
 
 class Plausibility(Enum):
@@ -96,6 +98,18 @@ class Estimate:
 def coverage_factor(degrees: float) -> float:
     """Return k for an expanded uncertainty of 95.45 %: 2 where the standard uncertainty is well known."""
     return 2.0 if degrees > _WELL_KNOWN else t_quantile(COVERAGE, degrees)
+
+
+def coverage_factors(degrees: FloatArray) -> FloatArray:
+    """Return k for many degrees of freedom, shape (M,).
+
+    k is smooth in 1/ν: between a few values it is interpolated, to 1e-3 where ν is at least 3.
+    """
+    inverse = 1.0 / degrees
+    known = np.unique(inverse)
+    if len(known) > _FACTORS:
+        known = np.linspace(known[0], known[-1], _FACTORS)
+    return np.interp(inverse, known, [coverage_factor(1.0 / each) for each in known.tolist()])
 
 
 @dataclass(frozen=True, slots=True)

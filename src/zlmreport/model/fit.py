@@ -15,7 +15,7 @@ import numpy as np
 from zlmreport.model.axis_model import AxisModel, refuse_collisions
 from zlmreport.model.contrasts import Contrasts, contrasts_of, restricted_estimate
 from zlmreport.model.design import Design
-from zlmreport.model.estimate import Estimate, Uncertainties, coverage_factor, estimates_of
+from zlmreport.model.estimate import Estimate, Uncertainties, coverage_factors, estimates_of
 from zlmreport.model.instrument import InstrumentError
 from zlmreport.model.noise import Noise, NoisePart, coarse_grid, noise_parts
 from zlmreport.model.search import Place, Problem, Solution, Thetas, refine, search, tangents
@@ -40,11 +40,14 @@ class Assumptions:
         Sources of shared scatter; None for those that the design can show.
     spread
         How the scatter of single readings is taken to differ.
+    weights : (N,) array or None
+        Variance of each reading over the mean one, where it is known already.
     """
 
     instrument: InstrumentError = field(default_factory=InstrumentError)
     parts: tuple[NoisePart, ...] | None = None
     spread: Spread = Spread.SHRUNK
+    weights: FloatArray | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -128,8 +131,8 @@ class Fit:
     def predict(self, design: Design) -> Prediction:
         """Return the deviation that the model gives for other readings; valid on the measured span only."""
         standard, degrees = self.uncertainties.of(_jacobian(self.model, design, self.solution, self.places))
-        factors = np.array([coverage_factor(each) for each in degrees.tolist()])
-        return Prediction(_value(self.model, design, self.solution), standard, factors)
+        value = _value(self.model, design, self.solution)
+        return Prediction(value, standard, coverage_factors(degrees))
 
 
 def fit(
@@ -162,7 +165,8 @@ def fit(
     model.check(design)
     taken = assumptions or Assumptions()
     parts = noise_parts(design) if taken.parts is None else taken.parts
-    noise = Noise(0.0, {}, weights(design, deviation, taken.spread))
+    known = weights(design, deviation, taken.spread) if taken.weights is None else taken.weights
+    noise = Noise(0.0, {}, known)
     problem = Problem(model, design, deviation, whitener(parts, noise))
     solution = search(problem) if start is None else refine(problem, problem.solution(start))
     refuse_collisions(model, _columns(model, design, solution))

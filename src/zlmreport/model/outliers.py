@@ -20,6 +20,9 @@ _LIMIT = 4.5
 _WINDOW = 15
 #: Standard deviation of a normal variable over its median absolute deviation.
 _NORMAL = 1.4826
+#: By 1.35/n the median of n readings draws their median absolute deviation from it towards zero: of an odd
+#: number one reading is the median itself.
+_SHARE_OF_MEDIAN = 1.35
 #: A cell of fewer readings has no median that an outlier would not move.
 _FEWEST_REPEATS = 3
 
@@ -60,10 +63,10 @@ def outliers(design: Design, deviation: FloatArray) -> Outliers:
     padded = np.pad(left, half, mode="reflect")
     left = left - np.median(np.lib.stride_tricks.sliding_window_view(padded, _WINDOW), axis=1)
     judged = count[cell] >= _FEWEST_REPEATS
-    spread = _NORMAL * float(np.median(np.abs(left[judged])))
+    typical = float(np.median(count[cell][judged]))
+    spread = _NORMAL * float(np.median(np.abs(left[judged]))) / (1.0 - _SHARE_OF_MEDIAN / typical)
     if spread == 0:
         return Outliers(read_only_integers([]), 1.0)
-    # The median of a cell follows its own readings; 1.3 is its variance in units of that of the mean.
-    sizes = np.where(judged, np.abs(left) * np.sqrt(1.0 - 1.3 / np.maximum(count[cell], 2)) / spread, 0.0)
+    sizes = np.where(judged, np.abs(left) / spread, 0.0)
     p_value = min(1.0, 2.0 * len(sizes) * normal_tail(float(sizes.max())))
     return Outliers(read_only_integers(np.flatnonzero(sizes > _LIMIT)), p_value)

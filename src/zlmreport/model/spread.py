@@ -13,14 +13,15 @@ from enum import Enum
 import numpy as np
 
 from zlmreport.language import Words
-from zlmreport.model.cells import repeats
+from zlmreport.model.cells import cells, repeats
 from zlmreport.model.design import Design
-from zlmreport.model.distributions import f_tail
 from zlmreport.quantities.arrays import FloatArray, IntArray
 
 #: Equality is refuted at this level: weights that are not needed cost more than those that are missing.
 _LEVEL = 0.01
 _FEWEST_READINGS = 3
+_TRIALS = 300
+_SEED = 20_261_118
 
 
 class Spread(Enum):
@@ -71,13 +72,21 @@ class SpreadTest:
 
 
 def spread_tests(design: Design, deviation: FloatArray) -> tuple[SpreadTest, ...]:
-    """Return the tests of equal scatter that the design allows."""
-    scatter = _drift_free(design, deviation)
+    """Return the tests of equal scatter that the design allows.
+
+    Few repeats in many cells make any such statistic larger than tables have it; so it is held against
+    simulated readings of equal scatter.
+    """
+    random = np.random.default_rng(_SEED).standard_normal((len(deviation), _TRIALS))
+    sizes = np.abs(_drift_free(design, np.column_stack([deviation, random])))
     found = []
     for factor, labels in _groupings(design).items():
-        tested = _levene(np.abs(scatter), labels)
-        if tested is not None:
-            found.append(SpreadTest(factor, *tested))
+        names, group = np.unique(labels, return_inverse=True)
+        if len(names) < 2 or np.bincount(group).min() < _FEWEST_READINGS or not sizes[:, 0].any():
+            continue
+        ratios, widest = _levene(sizes, group)
+        reached = int(np.count_nonzero(ratios[1:] >= ratios[0]))
+        found.append(SpreadTest(factor, (1 + reached) / (_TRIALS + 1), int(names[widest])))
     return tuple(found)
 
 
@@ -98,7 +107,7 @@ def weights(design: Design, deviation: FloatArray, spread: Spread = Spread.SHRUN
         return equal
     if spread is Spread.OWN:
         return _own(design, deviation)
-    scatter = _drift_free(design, deviation)
+    scatter = _drift_free(design, deviation[:, np.newaxis])[:, 0]
     found = equal
     for test in spread_tests(design, deviation):
         if test.p_value < _LEVEL:
@@ -115,32 +124,40 @@ def _groupings(design: Design) -> dict[SpreadFactor, IntArray]:
     }
 
 
-def _drift_free(design: Design, deviation: FloatArray) -> FloatArray:
-    """Return the scatter of each reading about its cell and its two neighbours in time, of its own variance.
+def _drift_free(design: Design, values: FloatArray) -> FloatArray:
+    """Return the scatter of readings about their cells, and about offset and slope of their passes.
 
-    Without the neighbours, an effect that grows with position and time would pass for scatter, and be given
-    little weight just where it shows.
+    A pass is what one run takes in one direction. Without it, an effect that grows with position and time
+    would pass for scatter, and be given little weight just where it shows.
+
+    Parameters
+    ----------
+    design
+        The test.
+    values : (N, B) array
+        Deviations of B sets.
     """
-    within = repeats(design, deviation)
-    padded = np.concatenate([within.centred[1:2], within.centred, within.centred[-2:-1]])
-    local = within.centred - 0.5 * (padded[:-2] + padded[2:])
-    kept = np.maximum(1.0 - 1.0 / within.count[within.cell], 1e-3)
-    return np.asarray(local / np.sqrt(1.5 * kept), dtype=np.float64)
+    cell = cells(design)
+    count = np.bincount(cell)
+    membership = (cell == np.arange(len(count))[:, np.newaxis]) / count[:, np.newaxis]
+    left = values - (membership @ values)[cell]
+    _, passes = np.unique(2 * design.run + (design.direction > 0), return_inverse=True)
+    for index in range(passes.max() + 1):
+        taken = np.flatnonzero(passes == index)
+        line = np.column_stack([np.ones(len(taken)), design.position[taken] - design.middle])
+        left[taken] -= line @ np.linalg.lstsq(line, left[taken], rcond=None)[0]
+    kept = (1.0 - 1.0 / count[cell]) * (1.0 - 2.0 / np.maximum(np.bincount(passes)[passes], 3))
+    return np.asarray(left / np.sqrt(np.maximum(kept, 1e-3))[:, np.newaxis], dtype=np.float64)
 
 
-def _levene(sizes: FloatArray, labels: IntArray) -> tuple[float, int] | None:
-    """Return p-value and widest group of Levene's test; None where a group is too small to be tested."""
-    names, group = np.unique(labels, return_inverse=True)
+def _levene(sizes: FloatArray, group: IntArray) -> tuple[FloatArray, int]:
+    """Return the ratio of variances between and within groups for each set, and the first's widest group."""
     count = np.bincount(group)
-    if len(names) < 2 or count.min() < _FEWEST_READINGS:
-        return None
-    means = np.bincount(group, weights=sizes) / count
-    between = float(np.sum(count * (means - sizes.mean()) ** 2)) / (len(names) - 1)
-    within = float(np.sum((sizes - means[group]) ** 2)) / (len(sizes) - len(names))
-    if within == 0:
-        return None
-    p_value = f_tail(between / within, len(names) - 1, len(sizes) - len(names))
-    return p_value, int(names[int(np.argmax(means))])
+    membership = (group == np.arange(len(count))[:, np.newaxis]) / count[:, np.newaxis]
+    means = membership @ sizes
+    between = count @ (means - sizes.mean(axis=0)) ** 2 / (len(count) - 1)
+    within = np.sum((sizes - means[group]) ** 2, axis=0) / (len(sizes) - len(count))
+    return between / within, int(np.argmax(means[:, 0]))
 
 
 def _shrunk(scatter: FloatArray, labels: IntArray) -> FloatArray:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -113,7 +113,8 @@ def add(fitted: Fit, found: Ranked) -> Fit:
         found.theta if term.effect.identifier == found.identifier else before[term.effect.identifier]
         for term in model.terms
     )
-    return fit(model, fitted.design, fitted.deviation, fitted.assumptions, start)
+    assumptions = replace(fitted.assumptions, weights=fitted.noise.weights)
+    return fit(model, fitted.design, fitted.deviation, assumptions, start)
 
 
 def steps(first: Fit, effects: Sequence[Effect]) -> tuple[Step, ...]:

@@ -1,0 +1,63 @@
+"""The example of the tutorial: a job whose model lacks an effect, and its readings."""
+
+from __future__ import annotations
+
+import shutil
+from functools import cache
+from pathlib import Path
+
+from environments import ROOT
+from zlmreport import pipeline
+from zlmreport.job.job import Job
+from zlmreport.job.loading import load
+from zlmreport.model.diagnosis import Diagnosis
+from zlmreport.model.study import Fitted, Study
+from zlmreport.plugins import Registry, find_plugins
+
+CONFIG = ROOT / "configs" / "hidden-effect"
+#: The line of the job's last effect.
+LAST = "    - backlash\n"
+
+
+@cache
+def registry() -> Registry:
+    return find_plugins()
+
+
+def written(folder: Path, *changes: tuple[str, str]) -> Path:
+    """Return a copy of the example in a folder; `changes` replace parts of its job."""
+    for file in CONFIG.iterdir():
+        shutil.copy(file, folder)
+    path = folder / "job.yaml"
+    text = path.read_text(encoding="utf-8")
+    for old, new in changes:
+        assert old in text
+        text = text.replace(old, new)
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def job(path: Path) -> Job:
+    return load(path, registry())
+
+
+def study(path: Path) -> Study:
+    """Return the study of a job."""
+    loaded = job(path)
+    return Study.of(loaded, pipeline.read(loaded, registry()), registry().effects)
+
+
+@cache
+def example() -> Study:
+    """Return the study of the example as it is."""
+    return study(CONFIG / "job.yaml")
+
+
+@cache
+def example_history() -> tuple[Fitted, ...]:
+    return example().history()
+
+
+@cache
+def example_diagnosis() -> Diagnosis:
+    return example().diagnosis(registry().effects)

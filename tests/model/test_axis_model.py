@@ -1,0 +1,85 @@
+"""What a model may be, and what is said where it may not."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from model.axis_tests import EFFECTS, USUAL, known, linear_test, model_of
+from zlmreport.model.axis_model import AxisModel, ModelError, Term
+from zlmreport.model.fit import fit
+from zlmreport.model.observe import of_readings
+from zlmreport_plugins.effects.polynomial import Polynomial
+
+DESIGN = linear_test(targets=7, runs=3)
+READINGS = known(DESIGN)
+
+
+def _refusal(model: AxisModel) -> tuple[str, ...]:
+    with pytest.raises(ModelError) as refused:
+        fit(model, DESIGN, READINGS)
+    return refused.value.sentences
+
+
+def test_an_effect_stands_in_a_model_once() -> None:
+    assert _refusal(model_of("offset", "backlash", "offset")) == (
+        "offset stands in the model 2 times; once is enough",
+    )
+
+
+def test_what_an_effect_contains_does_not_stand_beside_it() -> None:
+    (sentence,) = _refusal(model_of("offset", Polynomial(3)))
+    assert sentence == "polynomial contains offset, and no readings part the two; remove offset"
+
+
+def test_a_value_is_given_for_a_parameter_that_there_is() -> None:
+    (sentence,) = _refusal(AxisModel((Term(EFFECTS["backlash"], {"lostmotion": 1e-6}),)))
+    assert sentence.startswith("backlash has no parameter 'lostmotion'; did you mean 'lost_motion'?")
+
+
+def test_an_effect_that_the_test_cannot_show_is_refused_with_what_it_needs() -> None:
+    design = replace(DESIGN, conditions={})
+    with pytest.raises(ModelError) as refused:
+        fit(model_of("offset", "scale-expansion"), design, READINGS)
+    (sentence,) = refused.value.sentences
+    assert sentence == (
+        "scale-expansion cannot be fitted to these readings: "
+        "no column axis_temperature was logged beside the readings"
+    )
+
+
+def test_effects_of_the_same_columns_are_named() -> None:
+    (sentence,) = _refusal(model_of("offset", "scale-error", "cosine-error", "backlash"))
+    assert sentence == "these readings cannot tell scale-error and cosine-error apart; remove one of them"
+
+
+def test_all_mistakes_are_said_at_once() -> None:
+    model = AxisModel((Term(EFFECTS["offset"], {"level": 0.0}), Term(Polynomial(3)), Term(Polynomial(3))))
+    assert len(_refusal(model)) == 4
+
+
+def test_more_parameters_than_readings_are_refused() -> None:
+    few = of_readings(DESIGN, np.arange(2))
+    with pytest.raises(ModelError, match="3 parameters to estimate and the test 2 readings; measure more"):
+        fit(model_of("offset", "scale-error", "datum-temperature"), few, READINGS[:2])
+
+
+def test_an_effect_without_influence_is_named() -> None:
+    one_target = of_readings(DESIGN, np.flatnonzero(DESIGN.target == 3))
+    still = replace(one_target, position=np.zeros(len(one_target.position)))
+    with pytest.raises(ModelError, match="scale-error has no influence on any of these readings"):
+        fit(model_of("offset", "scale-error"), still, READINGS[: len(still.position)])
+
+
+def test_adding_a_polynomial_takes_out_what_it_contains() -> None:
+    model = model_of("offset", "scale-error", "backlash").with_effect(Polynomial(4))
+    assert model.identifiers == ("backlash", "polynomial")
+
+
+def test_adding_a_higher_order_takes_the_place_of_the_lower() -> None:
+    (term,) = (
+        term for term in USUAL.with_effect(Polynomial(5)).terms if term.effect.identifier == "polynomial"
+    )
+    assert len(term.effect.linear) == 6

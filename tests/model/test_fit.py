@@ -1,0 +1,213 @@
+"""The fit: recovery, an independent computation, given values, uncertainty."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from model.axis_tests import (
+    EFFECTS,
+    SIGMA,
+    USUAL,
+    hidden,
+    known,
+    linear_test,
+    model_of,
+    noise,
+    realistic_noise,
+)
+from zlmreport.model.axis_model import AxisModel, Term
+from zlmreport.model.design import Design
+from zlmreport.model.estimate import Plausibility
+from zlmreport.model.fit import Assumptions, Fit, fit
+from zlmreport.model.instrument import InstrumentError
+from zlmreport.model.noise import noise_parts
+from zlmreport.model.spread import Spread
+from zlmreport.quantities.arrays import FloatArray
+
+DESIGN = linear_test(targets=11)
+READINGS = known(DESIGN) + realistic_noise(DESIGN)
+WAVE = 0.23
+INDEPENDENT = Assumptions(parts=(), spread=Spread.POOLED)
+
+
+def _columns(fitted: Fit, design: Design) -> FloatArray:
+    return np.concatenate([term.effect.columns(design, np.empty(0)) for term in fitted.model.terms], axis=1)
+
+
+def _value(fitted: Fit, name: str) -> float:
+    return next(each.value for each in fitted.estimates if each.parameter.name == name)
+
+
+def test_generalized_least_squares_is_that_of_the_textbook() -> None:
+    fitted = fit(USUAL, DESIGN, READINGS, Assumptions(spread=Spread.POOLED))
+    columns, parts = _columns(fitted, DESIGN), noise_parts(DESIGN)
+    shared = sum(fitted.noise.ratios[part.source] * part.factor @ part.factor.T for part in parts)
+    inverse = np.linalg.inv(np.eye(len(READINGS)) + shared)
+    covariance = np.linalg.inv(columns.T @ inverse @ columns)
+    expected = covariance @ columns.T @ inverse @ READINGS
+    left = READINGS - columns @ expected
+    variance = left @ inverse @ left / (len(READINGS) - len(expected))
+    assert [each.value for each in fitted.estimates] == pytest.approx(expected, rel=1e-9)
+    assert fitted.noise.sigma == pytest.approx(np.sqrt(variance), rel=1e-9)
+    uncertainties = [each.standard_uncertainty for each in fitted.estimates]
+    assert uncertainties == pytest.approx(np.sqrt(variance * np.diag(covariance)), rel=1e-8)
+
+
+def test_readings_without_noise_give_their_parameters_back() -> None:
+    fitted = fit(USUAL, DESIGN, known(DESIGN))
+    assert _value(fitted, "lost_motion") == pytest.approx(-3e-6, rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("effect", "name", "theta"),
+    [("periodic", "period", WAVE), ("thermal-drift", "time_constant", 700.0), ("scale-kink", "kink", 0.43)],
+)
+def test_searched_parameters_are_found_between_the_values_of_the_grid(
+    effect: str, name: str, theta: float
+) -> None:
+    readings = known(DESIGN) + hidden(DESIGN, effect, [theta], size=3.0)
+    fitted = fit(USUAL.with_effect(EFFECTS[effect]), DESIGN, readings)
+    assert _value(fitted, name) == pytest.approx(theta, rel=1e-6)
+
+
+def test_two_searched_effects_are_found_together() -> None:
+    readings = known(DESIGN) + hidden(DESIGN, "periodic", [WAVE], size=2.0)
+    readings = readings + hidden(DESIGN, "thermal-drift", [500.0], size=2.0)
+    model = USUAL.with_effect(EFFECTS["periodic"]).with_effect(EFFECTS["thermal-drift"])
+    fitted = fit(model, DESIGN, readings + noise(DESIGN, sigma=1e-9))
+    assert _value(fitted, "period") == pytest.approx(WAVE, rel=1e-3)
+    assert _value(fitted, "time_constant") == pytest.approx(500.0, rel=1e-2)
+
+
+def test_standard_uncertainties_of_searched_parameters_are_those_of_repeated_tests() -> None:
+    model = USUAL.with_effect(EFFECTS["periodic"])
+    truth = known(DESIGN) + hidden(DESIGN, "periodic", [WAVE], size=3.0)
+    fits = [fit(model, DESIGN, truth + noise(DESIGN, seed), INDEPENDENT) for seed in range(40)]
+    spread = np.std([_value(each, "period") for each in fits], ddof=1)
+    stated = np.mean(
+        [
+            each.standard_uncertainty
+            for one in fits
+            for each in one.estimates
+            if each.parameter.name == "period"
+        ]
+    )
+    # A standard deviation of 40 values is known to 11 %.
+    assert stated == pytest.approx(spread, rel=0.35)
+
+
+def test_expanded_uncertainty_of_the_deviation_holds_where_nobody_measured() -> None:
+    between = replace(
+        DESIGN,
+        position=np.linspace(0.05, 0.9, 8),
+        direction=np.ones(8),
+        run=np.ones(8, dtype=np.int64),
+        target=np.zeros(8, dtype=np.int64),
+        time=np.zeros(8),
+        since_reversal=np.ones(8),
+        conditions={},
+    )
+    truth = known(between)
+    holds = []
+    for seed in range(60):
+        found = fit(USUAL, DESIGN, known(DESIGN) + realistic_noise(DESIGN, seed)).predict(between)
+        holds.append(np.abs(found.deviation - truth) <= found.expanded_uncertainty)
+    # 95 % at each place; the places of a test go together, so 60 tests know the share to about 3 %.
+    assert 0.88 <= np.mean(holds) <= 1.0
+
+
+def test_given_values_are_kept_and_have_no_uncertainty() -> None:
+    model = AxisModel((*USUAL.terms, Term(EFFECTS["thermal-drift"], {"time_constant": 600.0, "drift": 5e-6})))
+    fitted = fit(model, DESIGN, READINGS)
+    given = [each for each in fitted.estimates if each.is_given]
+    assert {each.parameter.name: each.value for each in given} == {"time_constant": 600.0, "drift": 5e-6}
+    assert all(each.standard_uncertainty == 0 for each in given)
+    assert fitted.degrees == len(READINGS) - 5
+
+
+def test_a_given_value_is_taken_from_the_readings_before_the_others_are_fitted() -> None:
+    model = AxisModel((*USUAL.terms[:1], Term(EFFECTS["backlash"], {"lost_motion": 4e-6})))
+    fitted = fit(model, DESIGN, known(DESIGN))
+    gap = fitted.residual[DESIGN.direction > 0].mean() - fitted.residual[DESIGN.direction < 0].mean()
+    assert gap == pytest.approx(-3e-6 - 4e-6, rel=1e-9)
+
+
+def test_a_known_period_is_not_searched() -> None:
+    fitted = fit(USUAL.with_effect(EFFECTS["screw-pitch"]), DESIGN, READINGS)
+    period = next(each for each in fitted.estimates if each.parameter.name == "period")
+    assert (period.value, period.is_given) == (0.01, True)
+
+
+def test_a_step_is_known_to_the_gap_in_which_it_lies() -> None:
+    targets = DESIGN.target_positions
+    readings = known(DESIGN) + hidden(DESIGN, "scale-joint", [float(targets[4:6].mean())], size=6.0)
+    fitted = fit(USUAL.with_effect(EFFECTS["scale-joint"]), DESIGN, readings + noise(DESIGN))
+    joint = next(each for each in fitted.estimates if each.parameter.name == "joint")
+    half = float(targets[5] - targets[4]) / 2
+    assert joint.standard_uncertainty == pytest.approx(half / np.sqrt(3), rel=0.15)
+
+
+def test_error_of_the_instrument_changes_nothing_but_the_uncertainty_of_the_constant() -> None:
+    common = 1e-6
+    without = fit(USUAL, DESIGN, READINGS)
+    with_it = fit(USUAL, DESIGN, READINGS, Assumptions(InstrumentError(common)))
+    assert np.array_equal(without.residual, with_it.residual)
+    before, after = (
+        np.array([each.standard_uncertainty for each in found.estimates]) for found in (without, with_it)
+    )
+    assert after[0] == pytest.approx(np.hypot(before[0], common), rel=1e-9)
+    assert after[1:] == pytest.approx(before[1:], rel=1e-6)
+
+
+def test_error_of_the_instrument_is_in_every_prediction() -> None:
+    before = fit(USUAL, DESIGN, READINGS).predict(DESIGN)
+    after = fit(USUAL, DESIGN, READINGS, Assumptions(InstrumentError(1e-6))).predict(DESIGN)
+    assert after.standard_uncertainty == pytest.approx(np.hypot(before.standard_uncertainty, 1e-6), rel=1e-9)
+
+
+def test_error_in_proportion_to_position_adds_to_the_slope() -> None:
+    model = model_of("offset", "scale-error", "backlash")
+    proportion = 5e-6
+    before = fit(model, DESIGN, READINGS).estimates[1].standard_uncertainty
+    assumed = Assumptions(InstrumentError(proportional=proportion))
+    after = fit(model, DESIGN, READINGS, assumed).estimates[1].standard_uncertainty
+    assert after == pytest.approx(np.hypot(before, proportion), rel=1e-9)
+
+
+def test_where_geometry_is_irregular_degrees_of_freedom_are_those_of_the_targets() -> None:
+    random = np.random.default_rng(3)
+    geometry = 3e-6 * random.standard_normal(11)[DESIGN.target]
+    rough = fit(USUAL, DESIGN, READINGS + geometry).estimates[2]
+    assert 5 < rough.degrees < 11  # 11 targets, 4 coefficients
+    assert rough.coverage_factor > 2.2
+
+
+def test_where_readings_are_independent_degrees_of_freedom_are_theirs() -> None:
+    fitted = fit(USUAL, DESIGN, READINGS, INDEPENDENT)
+    assert [each.degrees for each in fitted.estimates] == pytest.approx([fitted.degrees] * 5, rel=1e-9)
+
+
+def test_a_value_outside_the_plausible_range_is_said_to_be_so() -> None:
+    readings = READINGS + 400e-6 * DESIGN.position * (DESIGN.conditions["axis_temperature"] - 293.15)
+    fitted = fit(USUAL.with_effect(EFFECTS["scale-expansion"]), DESIGN, readings)
+    expansion = fitted.estimates[-1]
+    assert expansion.plausibility(time_is_counted=False) is Plausibility.IMPLAUSIBLE
+
+
+def test_what_the_job_expects_is_held_against_the_estimate() -> None:
+    axis = replace(DESIGN.axis, abbe_offset=0.25)
+    design = replace(DESIGN, axis=axis)
+    angles = axis.angular_errors
+    assert angles is not None
+    fitted = fit(USUAL.with_effect(EFFECTS["abbe"]), design, READINGS + 0.1 * angles.at(design.position))
+    offset = fitted.estimates[-1]
+    assert offset.expected == 0.25
+    assert offset.distance_from_expected == pytest.approx((offset.value - 0.25) / offset.standard_uncertainty)
+
+
+def test_pooled_scatter_of_a_clean_test_is_its_noise() -> None:
+    fitted = fit(USUAL, linear_test(), known(linear_test()) + noise(linear_test()), INDEPENDENT)
+    assert fitted.noise.sigma == pytest.approx(SIGMA, rel=0.15)

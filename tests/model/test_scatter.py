@@ -1,0 +1,121 @@
+"""Repeats: the noise floor, unequal scatter, and readings that stand off."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from model.axis_tests import SIGMA, linear_test, noise, pendulum_test
+from zlmreport.model.cells import apart_in_time
+from zlmreport.model.noise_floor import noise_floor
+from zlmreport.model.outliers import outliers
+from zlmreport.model.spread import Spread, SpreadFactor, spread_tests, weights
+from zlmreport.quantities.arrays import FloatArray
+
+DESIGN = linear_test()
+PENDULUM = pendulum_test()
+
+
+def test_repeats_lie_apart_in_time_by_the_linear_method_only() -> None:
+    assert apart_in_time(DESIGN)
+    assert not apart_in_time(PENDULUM)
+
+
+@pytest.mark.parametrize("design", [DESIGN, PENDULUM], ids=["linear", "pendulum"])
+def test_noise_floor_is_the_noise(design: object) -> None:
+    floors = [noise_floor(design, noise(design, seed)) for seed in range(30)]  # type: ignore[arg-type]
+    # 30 tests of 168 degrees of freedom know σ to 1 %; comparing neighbours costs some of it.
+    assert np.sqrt(np.mean(np.square(floors))) == pytest.approx(SIGMA, rel=0.04)
+
+
+def test_slow_drift_is_not_in_the_noise_floor() -> None:
+    drift = 20e-6 * DESIGN.time / DESIGN.duration
+    found = noise_floor(DESIGN, noise(DESIGN) + drift)
+    assert found == pytest.approx(noise_floor(DESIGN, noise(DESIGN)), rel=0.05)
+
+
+def test_geometry_is_not_in_the_noise_floor() -> None:
+    shape = 50e-6 * np.sin(9 * DESIGN.position) + 5e-6 * DESIGN.direction
+    assert noise_floor(DESIGN, noise(DESIGN) + shape) == pytest.approx(
+        noise_floor(DESIGN, noise(DESIGN)), rel=1e-6
+    )
+
+
+def test_a_single_run_has_no_noise_floor() -> None:
+    design = linear_test(runs=1)
+    assert noise_floor(design, noise(design)) is None
+
+
+def _uneven(factor: float) -> FloatArray:
+    return noise(DESIGN) * np.where(DESIGN.target >= 15, factor, 1.0)
+
+
+def test_equal_scatter_has_equal_weights() -> None:
+    assert np.array_equal(weights(DESIGN, noise(DESIGN)), np.ones(len(DESIGN.position)))
+
+
+def test_targets_that_scatter_more_have_larger_variances() -> None:
+    found = weights(DESIGN, _uneven(4.0))
+    wide, narrow = found[DESIGN.target >= 15].mean(), found[DESIGN.target < 15].mean()
+    assert 6 < wide / narrow < 20  # 16 in truth, drawn to the pooled variance
+    assert found.mean() == pytest.approx(1.0, rel=1e-12)
+
+
+def test_a_direction_that_scatters_more_has_larger_variances() -> None:
+    found = weights(DESIGN, noise(DESIGN) * np.where(DESIGN.direction > 0, 3.0, 1.0))
+    assert found[DESIGN.direction > 0].mean() > 5 * found[DESIGN.direction < 0].mean()
+
+
+def test_a_fan_that_opens_with_time_is_no_scatter() -> None:
+    fan = 10e-6 * DESIGN.position * DESIGN.time / DESIGN.duration
+    by_position = next(
+        each for each in spread_tests(DESIGN, noise(DESIGN) + fan) if each.factor is SpreadFactor.POSITION
+    )
+    assert by_position.p_value > 0.01
+
+
+def test_where_it_scatters_most_is_named() -> None:
+    found = spread_tests(DESIGN, noise(DESIGN) * np.where(DESIGN.run == 3, 4.0, 1.0))
+    by_run = next(each for each in found if each.factor is SpreadFactor.RUN)
+    assert by_run.widest == 3
+    assert by_run.p_value < 1e-6
+
+
+def test_pooled_scatter_is_equal_whatever_the_readings() -> None:
+    assert np.array_equal(weights(DESIGN, _uneven(4.0), Spread.POOLED), np.ones(len(DESIGN.position)))
+
+
+def test_own_weights_are_the_variances_of_each_position_and_direction() -> None:
+    readings = _uneven(4.0)
+    cell = (DESIGN.target == 4) & (DESIGN.direction > 0)
+    other = (DESIGN.target == 17) & (DESIGN.direction < 0)
+    found = weights(DESIGN, readings, Spread.OWN)
+    expected = np.var(readings[cell], ddof=1) / np.var(readings[other], ddof=1)
+    assert found[cell][0] / found[other][0] == pytest.approx(expected, rel=1e-9)
+
+
+def test_clean_readings_do_not_stand_off() -> None:
+    flagged = [len(outliers(DESIGN, noise(DESIGN, seed)).readings) for seed in range(20)]
+    assert sum(flagged) <= 4  # of 4200 normal readings
+
+
+def test_a_reading_far_off_is_flagged_and_no_other() -> None:
+    readings = noise(DESIGN)
+    readings[57] += 15 * SIGMA
+    found = outliers(DESIGN, readings)
+    assert found.readings.tolist() == [57]
+    assert found.p_value < 1e-10
+
+
+def test_a_first_run_that_stands_off_is_no_outlier() -> None:
+    readings = noise(DESIGN) + np.where(DESIGN.run == 1, 12 * SIGMA, 0.0)
+    assert not len(outliers(DESIGN, readings).readings)
+
+
+def test_targets_after_each_reversal_that_stand_off_are_no_outliers() -> None:
+    readings = noise(DESIGN) + 30 * SIGMA * DESIGN.direction * np.exp(-DESIGN.since_reversal / 0.02)
+    assert not len(outliers(DESIGN, readings).readings)
+
+
+def test_readings_without_any_scatter_have_no_outliers() -> None:
+    assert not len(outliers(DESIGN, np.zeros(len(DESIGN.position))).readings)

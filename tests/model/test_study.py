@@ -1,0 +1,117 @@
+"""A job's model beside its readings: fits, history, and mistakes at their place in the job."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from model.hidden_effect import LAST, example, example_diagnosis, example_history, study, written
+from zlmreport.errors import InputError
+
+
+def problem(path: Path) -> tuple[int, int, str]:
+    """Return line, column and message of what is wrong with a job's model."""
+    with pytest.raises(InputError) as caught:
+        study(path).fitted()
+    (only,) = caught.value.problems
+    assert only.place.file == str(path)
+    return only.place.line, only.place.column, only.message
+
+
+def test_the_model_has_the_effects_of_the_job_in_their_order() -> None:
+    assert example().model.identifiers == ("offset", "scale-error", "backlash")
+
+
+def test_values_of_the_job_are_held_fixed_in_si(tmp_path: Path) -> None:
+    path = written(tmp_path, (LAST, "    - backlash: {lost_motion: -4.5}\n"))
+    (estimate,) = [each for each in study(path).fitted().fit.estimates if each.effect == "backlash"]
+    assert (estimate.value, estimate.is_given) == (pytest.approx(-4.5e-6), True)
+
+
+def test_the_uncertainty_of_the_instrument_is_that_of_every_estimate(tmp_path: Path) -> None:
+    instrument = "instrument: {name: Laser, expanded_uncertainty: 3.0}\nmodel:\n"
+    found = study(written(tmp_path, ("model:\n", instrument))).fitted()
+    offset = found.fit.estimates[0]
+    without = example().fitted().fit.estimates[0]
+    # u² of the constant grows by that of the instrument: U = 3 µm with k = 2.
+    assert offset.standard_uncertainty**2 - without.standard_uncertainty**2 == pytest.approx(
+        (1.5e-6) ** 2, rel=1e-6
+    )
+    assert offset.value == pytest.approx(without.value, abs=1e-15)
+
+
+def test_an_uncertainty_in_words_is_none(tmp_path: Path) -> None:
+    instrument = "instrument: {name: Laser, expanded_uncertainty: see its certificate}\nmodel:\n"
+    found = study(written(tmp_path, ("model:\n", instrument)))
+    assert found.assumptions.instrument.common == 0.0
+
+
+def test_the_history_begins_with_the_readings_alone() -> None:
+    first = example_history()[0]
+    assert first.fit.model.terms == ()
+    assert first.error.rms == pytest.approx(float(np.sqrt(np.mean(first.fit.deviation**2))), rel=1e-12)
+
+
+def test_the_history_takes_the_effects_in_one_after_another() -> None:
+    assert [each.fit.model.identifiers for each in example_history()] == [
+        (),
+        ("offset",),
+        ("offset", "scale-error"),
+        ("offset", "scale-error", "backlash"),
+    ]
+
+
+def test_the_history_ends_with_the_model_that_is_diagnosed() -> None:
+    last = example_history()[-1]
+    assert last.error == example_diagnosis().error
+    assert [each.value for each in last.fit.estimates] == [
+        each.value for each in example_diagnosis().fit.estimates
+    ]
+
+
+def test_the_history_takes_a_fit_that_is_there() -> None:
+    whole = example_history()[-1]
+    assert example().history(whole)[-1] is whole
+
+
+def test_the_error_falls_to_the_noise_when_the_hidden_effect_is_added(tmp_path: Path) -> None:
+    path = written(tmp_path, (LAST, f"{LAST}    - screw-pitch\n"))
+    errors = [each.error for each in study(path).history()]
+    assert [each.rms for each in errors] == sorted((each.rms for each in errors), reverse=True)
+    assert errors[-1].noise_rms is not None
+    assert errors[-1].rms < 1.2 * errors[-1].noise_rms < 0.4 * errors[-2].rms
+
+
+def test_an_effect_that_cannot_be_fitted_is_refused_where_the_job_names_it(tmp_path: Path) -> None:
+    path = written(tmp_path, (LAST, f"{LAST}    - abbe\n"))
+    assert problem(path) == (
+        21,
+        7,
+        "abbe cannot be fitted to these readings: the job does not state axis.angular_errors",
+    )
+
+
+def test_effects_that_collide_are_named(tmp_path: Path) -> None:
+    path = written(tmp_path, (LAST, f"{LAST}    - polynomial\n"))
+    with pytest.raises(InputError) as caught:
+        study(path).fitted()
+    messages = [each.message for each in caught.value.problems]
+    assert [each.place.line for each in caught.value.problems] == [21, 21]
+    assert "polynomial contains offset" in messages[0]
+    assert "polynomial contains scale-error" in messages[1]
+
+
+def test_effects_that_the_readings_do_not_part_are_named(tmp_path: Path) -> None:
+    path = written(tmp_path, (LAST, f"{LAST}    - cosine-error\n"))
+    _, _, message = problem(path)
+    assert "scale-error and cosine-error apart" in message
+
+
+def test_too_few_readings_are_told(tmp_path: Path) -> None:
+    path = written(tmp_path)
+    table = path.with_name("x-axis.csv")
+    lines = table.read_text(encoding="utf-8").splitlines()
+    table.write_text("\n".join(lines[:5]) + "\n", encoding="utf-8")
+    assert "readings" in problem(path)[2]
