@@ -8,7 +8,7 @@ from functools import partial
 
 import numpy as np
 
-from measure import Cost, Measured, Sizes, alternately, median, peak_megabytes, timed, wall
+from measure import Cost, Measured, Sizes, alternately, cpu, median, peak_megabytes, timed
 from sample import RUNS, TARGETS
 from zlmreport.evaluation.statistics import PositionStatistics, position_statistics
 from zlmreport.measurement.approach import Approach
@@ -44,16 +44,16 @@ def measure(sizes: Sizes) -> list[Measured]:
         },
         sizes.rounds,
     )
-    seconds = {name: median(wall(of_name)) for name, of_name in costs.items()}
+    seconds = {name: median(cpu(of_name)) for name, of_name in costs.items()}
     peak = peak_megabytes()
     chosen = stack[:_ONE_BY_ONE]
-    one_by_one = timed(partial(_one_after_the_other, standards, chosen))[0].wall / len(chosen)
+    one_by_one = timed(partial(_one_after_the_other, standards, chosen))[0].cpu / len(chosen)
     return [
-        Measured("means and standard deviations", seconds["statistics"], "s"),
-        *(Measured(f"formulas of {identifier}", seconds[identifier], "s") for identifier in STANDARDS),
-        Measured(f"all of {sizes.tests} tests by {len(STANDARDS)} standards", sum(seconds.values()), "s"),
-        Measured("of that, per test", sum(seconds.values()) / sizes.tests * 1e6, "µs"),
-        Measured("one test after the other, per test", one_by_one * 1e6, "µs"),
+        Measured("means and standard deviations", seconds["statistics"], "s CPU"),
+        *(Measured(f"formulas of {identifier}", seconds[identifier], "s CPU") for identifier in STANDARDS),
+        Measured(f"all of {sizes.tests} tests by {len(STANDARDS)} standards", sum(seconds.values()), "s CPU"),
+        Measured("of that, per test", sum(seconds.values()) / sizes.tests * 1e6, "µs CPU"),
+        Measured("one test after the other, per test", one_by_one * 1e6, "µs CPU"),
         Measured("stack / one after the other", sum(seconds.values()) / sizes.tests / one_by_one),
         Measured("the stack itself", stack.nbytes / _MEGABYTE, "MB"),
         Measured(

@@ -64,8 +64,8 @@ def compose(job: Job, registry: Registry) -> Certificate:
     demand_mandatory_items(job)
     measurements = read(job, registry)
     evaluated = _evaluated(job, measurements, registry)
-    modelled = _modelled(job, measurements, registry) if job.effects else None
-    return build(job, evaluated, registry.versions(job), modelled)
+    studied = modelled(job, measurements, registry) if job.effects else None
+    return build(job, evaluated, registry.versions(job), studied)
 
 
 def _evaluated(job: Job, measurements: MeasurementSet, registry: Registry) -> tuple[Evaluated, ...]:
@@ -83,7 +83,7 @@ def _evaluated(job: Job, measurements: MeasurementSet, registry: Registry) -> tu
     return tuple(evaluated)
 
 
-def _modelled(job: Job, measurements: MeasurementSet, registry: Registry) -> Modelled:
+def modelled(job: Job, measurements: MeasurementSet, registry: Registry) -> Modelled:
     """Hold the job's error model against the readings, and ask its standards about a corrected axis."""
     study = Study.of(job, measurements, registry.effects)
     diagnosis = study.diagnosis(registry.effects)

@@ -83,14 +83,15 @@ def without(dotted: str) -> dict[str, Any]:
 def text_of(document: Certificate) -> str:
     """Return a document as plain lines, block by block, as a reader would read it aloud."""
     lines = [document.title, document.subtitle, document.number, ""]
-    lines.extend(line for block in document.cover for line in _lines(block))
+    lines.extend(line for block in document.cover for line in lines_of(block))
     for section in document.sections:
         lines.extend(["", f"# {section.title}"])
-        lines.extend(line for block in section.blocks for line in _lines(block))
+        lines.extend(line for block in section.blocks for line in lines_of(block))
     return "\n".join(lines) + "\n"
 
 
-def _lines(block: Block) -> list[str]:
+def lines_of(block: Block) -> list[str]:
+    """Return a block as plain lines."""
     match block:
         case Paragraph(text):
             return [text]

@@ -78,7 +78,7 @@ def test_where_it_scatters_most_is_named() -> None:
     found = spread_tests(DESIGN, noise(DESIGN) * np.where(DESIGN.run == 3, 4.0, 1.0))
     by_run = next(each for each in found if each.factor is SpreadFactor.RUN)
     assert by_run.widest == 3
-    assert by_run.p_value < 1e-6
+    assert by_run.p_value < 0.01
 
 
 def test_pooled_scatter_is_equal_whatever_the_readings() -> None:

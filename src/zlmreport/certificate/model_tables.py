@@ -16,6 +16,7 @@ from zlmreport.model.design import Design
 from zlmreport.model.diagnosis import Diagnosis
 from zlmreport.model.estimate import Estimate, Plausibility
 from zlmreport.model.parameter import ParameterUnit, unit_of
+from zlmreport.model.statements import serious_candidates
 from zlmreport.model.study import Fitted
 from zlmreport.model.visibility import Visibility
 from zlmreport.quantities.formatting import fixed_number
@@ -200,7 +201,7 @@ class ModelTables:
                 ", ".join(each.equals) or NOTHING,
                 say(each.discriminate_by) if each.discriminate_by else NOTHING,
             )
-            for each in diagnosis.candidates
+            for each in serious_candidates(diagnosis)
         )
         return Table(say(caption), columns, (RowGroup(rows),))
 

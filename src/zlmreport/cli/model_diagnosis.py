@@ -18,7 +18,7 @@ from zlmreport.job.job import Job
 from zlmreport.model import wording
 from zlmreport.model.diagnosis import Candidate, Diagnosis, Verdict
 from zlmreport.model.effect import Effect
-from zlmreport.model.statements import listed, verdict_statement
+from zlmreport.model.statements import listed, serious_candidates, verdict_statement
 from zlmreport.quantities.formatting import fixed_number
 
 _COLOURS = {
@@ -29,8 +29,6 @@ _COLOURS = {
 #: Share of an effect that a plan sees, below which it hides it.
 _HIDDEN = 0.1
 _LEAST_P = 1e-99
-#: Probability from which on a candidate is told in detail, beside the first and its equals.
-_WORTH_DETAILS = 0.01
 
 
 def diagnosis_lines(diagnosis: Diagnosis, job: Job, path: str) -> Iterator[str]:
@@ -85,7 +83,7 @@ def _candidates(diagnosis: Diagnosis) -> Iterator[str]:
     yield lines[0]
     for line, each in zip(lines[1:], diagnosis.candidates, strict=True):
         yield line
-        if each is diagnosis.candidates[0] or each.equals or each.probability >= _WORTH_DETAILS:
+        if each in serious_candidates(diagnosis):
             yield from _details(each, diagnosis)
 
 

@@ -55,12 +55,13 @@ _WORDS = {
     NoiseSource.TIME: Words(en="slow irregular drift", de="langsame unregelmäßige Drift"),
 }
 
-#: Ratios φ that are tried. What exceeds the last of them is no noise but something that the model lacks.
+#: Ratios φ that are tried. What is larger than half the repeatability of a single reading (φ = ¼) is no noise
+#: but something that the model lacks.
 _RATIOS = {
-    NoiseSource.POSITION: (0.0, 0.04, 0.15, 0.5),
-    NoiseSource.DIRECTION: (0.0, 0.05, 0.2),
-    NoiseSource.RUN: (0.0, 0.04, 0.2),
-    NoiseSource.TIME: (0.0, 0.06, 0.25, 0.8),
+    NoiseSource.POSITION: (0.0, 0.03, 0.1, 0.25),
+    NoiseSource.DIRECTION: (0.0, 0.05, 0.25),
+    NoiseSource.RUN: (0.0, 0.05, 0.25),
+    NoiseSource.TIME: (0.0, 0.03, 0.1, 0.25),
 }
 
 

@@ -13,8 +13,8 @@ def noise_floor(design: Design, deviation: FloatArray) -> float | None:
     """Return the standard deviation σ_f of a single reading, drift left out; None without repeats.
 
     Where the readings of a cell lie apart in time, neighbours within a run are compared: what drifts more
-    slowly than a reading drops out. Otherwise the pure error is drift-free as it is. The standard deviations of
-    ISO 230-2 contain the drift and are no floor.
+    slowly than a reading drops out. Otherwise the pure error is drift-free as it is. The standard deviations
+    of ISO 230-2 contain the drift and are no floor.
 
     Parameters
     ----------

@@ -157,7 +157,9 @@ def _levene(sizes: FloatArray, group: IntArray) -> tuple[FloatArray, int]:
     means = membership @ sizes
     between = count @ (means - sizes.mean(axis=0)) ** 2 / (len(count) - 1)
     within = np.sum((sizes - means[group]) ** 2, axis=0) / (len(sizes) - len(count))
-    return between / within, int(np.argmax(means[:, 0]))
+    # Readings that are all alike have no scatter, and none of them stands off.
+    ratio = np.divide(between, within, out=np.zeros_like(between), where=within > 0)
+    return ratio, int(np.argmax(means[:, 0]))
 
 
 def _shrunk(scatter: FloatArray, labels: IntArray) -> FloatArray:

@@ -6,7 +6,10 @@ from collections.abc import Sequence
 
 from zlmreport.language import Words
 from zlmreport.model import wording
-from zlmreport.model.diagnosis import Diagnosis, Verdict
+from zlmreport.model.diagnosis import Candidate, Diagnosis, Verdict
+
+#: Probability from which on a candidate is worth a word.
+_SERIOUS = 0.01
 
 _ADEQUATE = Words(
     en="The model describes the readings: nothing is left that their scatter does not explain.",
@@ -49,6 +52,15 @@ def verdict_statement(diagnosis: Diagnosis) -> Words:
     if not diagnosis.further:
         return _MISSING.given(effects=first)
     return _MISSING_TOGETHER.given(effects=listed([first, *diagnosis.further], _AND))
+
+
+def serious_candidates(diagnosis: Diagnosis) -> tuple[Candidate, ...]:
+    """Return the candidates that are worth a word: the first, its equals, and what is not improbable."""
+    return tuple(
+        each
+        for each in diagnosis.candidates
+        if each is diagnosis.candidates[0] or each.equals or each.probability >= _SERIOUS
+    )
 
 
 def listed(names: Sequence[str | Words], last: Words = _AND) -> Words:

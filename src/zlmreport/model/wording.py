@@ -41,9 +41,15 @@ def deviation(axis: Axis, value: float) -> Words:
 
 
 def position(axis: Axis, value: float) -> Words:
-    """Return a position or a distance along the axis given in m or rad."""
+    """Return a position on the axis given in m or rad."""
     unit = axis.position_unit
     return _QUANTITY.given(value=significant(unit.from_si(value), 4), unit=unit.symbol)
+
+
+def length(axis: Axis, value: float) -> Words:
+    """Return a distance along the axis given in m or rad."""
+    unit = axis.position_unit
+    return _QUANTITY.given(value=significant(unit.from_si(value)), unit=unit.symbol)
 
 
 def span_of_time(design: Design, value: float) -> Words:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from zlmreport.language import Words
@@ -30,6 +32,8 @@ _STEPS_PER_PERIOD = 4
 _MOST_PERIODS = 200
 _READINGS_PER_PERIOD = 4
 _HARMONICS = (1, 2)
+_FEWEST_TARGETS = 6
+_FINER = 41
 
 
 def time_order(residuals: Residuals) -> Failure | None:
@@ -51,40 +55,67 @@ def period_in_position(residuals: Residuals) -> Failure | None:
     """Return the strongest wave along the axis; periods that the job states are tried beside all others."""
     design = residuals.design
     targets = len(design.target_positions)
-    if targets < 6 or design.length == 0:
+    if targets < _FEWEST_TARGETS or design.length == 0:
         return None
-    most = min(targets / 2, _MOST_PERIODS)
-    periods = design.length / np.arange(_FEWEST_PERIODS, most, 1 / _STEPS_PER_PERIOD)
     stated = [each for each in (design.axis.screw_pitch, design.axis.signal_period) if each is not None]
     known = [each / harmonic for each in stated for harmonic in _HARMONICS if each <= design.length]
-    periods = np.concatenate([periods, known])
-    period, p_value, size = _strongest_wave(residuals, design.position, periods)
-    statement = _REPEATS_ALONG.given(period=wording.position(design.axis, period))
+    period, p_value, size = _strongest_wave(residuals, design.position, targets / 2, known)
+    statement = _REPEATS_ALONG.given(period=wording.length(design.axis, period))
     return Failure(ResidualTest.PERIOD_IN_POSITION, p_value, size, statement)
 
 
 def period_in_time(residuals: Residuals) -> Failure | None:
     """Return the strongest wave in time."""
     design = residuals.design
-    most = min(len(design.time) / _READINGS_PER_PERIOD, _MOST_PERIODS)
+    most = len(design.time) / _READINGS_PER_PERIOD
     if design.duration == 0 or most <= _FEWEST_PERIODS:
         return None
-    periods = design.duration / np.arange(_FEWEST_PERIODS, most, 1 / _STEPS_PER_PERIOD)
-    period, p_value, size = _strongest_wave(residuals, design.time, periods)
+    period, p_value, size = _strongest_wave(residuals, design.time, most, [])
     statement = _REPEATS_ALONG.given(period=wording.span_of_time(design, period))
     return Failure(ResidualTest.PERIOD_IN_TIME, p_value, size, statement)
 
 
 def _strongest_wave(
-    residuals: Residuals, where: FloatArray, periods: FloatArray
+    residuals: Residuals, where: FloatArray, most: float, known: Sequence[float]
 ) -> tuple[float, float, Words]:
-    """Return the period that explains most, the chance of it, and the amplitude in words."""
+    """Return the period that explains most, the chance of it, and the amplitude in words.
+
+    Parameters
+    ----------
+    residuals
+        The residuals.
+    where : (N,) array
+        Position or time.
+    most
+        Periods within the test that the readings can tell.
+    known
+        Periods that are exact, and not looked for.
+    """
+    extent = float(np.ptp(where))
+    counts = np.arange(_FEWEST_PERIODS, min(most, _MOST_PERIODS), 1 / _STEPS_PER_PERIOD)
+    periods = np.concatenate([known, extent / counts])
+    best, p_value = residuals.best_block(_waves(where, periods))
+    period = float(periods[best])
+    if best >= len(known):
+        finer = extent / (extent / period + np.linspace(-1.0, 1.0, _FINER) / _STEPS_PER_PERIOD)
+        left = [residuals.fit.residual - _fitted(residuals, wave) for wave in _waves(where, finer)]
+        period = float(finer[int(np.argmin([each @ each for each in left]))])
+    amplitude = np.hypot(*_coefficients(residuals, _waves(where, np.array([period]))[0]))
+    return period, p_value, _AMPLITUDE.given(size=wording.deviation(residuals.design.axis, float(amplitude)))
+
+
+def _waves(where: FloatArray, periods: FloatArray) -> FloatArray:
+    """Return sine and cosine of each period, shape (periods, N, 2)."""
     angles = 2 * np.pi * where / periods[:, np.newaxis]
-    waves = np.stack([np.sin(angles), np.cos(angles)], axis=2)
-    best, p_value = residuals.best_block(waves)
-    coefficients = np.linalg.lstsq(waves[best], residuals.fit.residual, rcond=None)[0]
-    amplitude = wording.deviation(residuals.design.axis, float(np.hypot(*coefficients)))
-    return float(periods[best]), p_value, _AMPLITUDE.given(size=amplitude)
+    return np.stack([np.sin(angles), np.cos(angles)], axis=2)
+
+
+def _coefficients(residuals: Residuals, wave: FloatArray) -> FloatArray:
+    return np.asarray(np.linalg.lstsq(wave, residuals.fit.residual, rcond=None)[0], dtype=np.float64)
+
+
+def _fitted(residuals: Residuals, wave: FloatArray) -> FloatArray:
+    return wave @ _coefficients(residuals, wave)
 
 
 def _ratio(centred: FloatArray) -> FloatArray:

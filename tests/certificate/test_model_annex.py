@@ -1,0 +1,128 @@
+"""The annex on the error model, as text: every sentence that a customer reads."""
+
+from __future__ import annotations
+
+import os
+import re
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+from certificate.documents import lines_of
+from model.hidden_effect import CONFIG, LAST, job, registry, written
+from zlmreport import pipeline
+from zlmreport.certificate import model_annex
+from zlmreport.certificate.document import Certificate, Graph, Section
+from zlmreport.certificate.model_annex import Modelled
+from zlmreport.certificate.scribe import Scribe
+from zlmreport.job.job import Job
+from zlmreport.language import Language, same
+from zlmreport.model.diagnosis import Diagnosis, Verdict
+from zlmreport.model.failures.failure import Failure, ResidualTest
+
+GOLDEN = Path(__file__).with_name("golden")
+#: Numbers are held by the tests of what computes them.
+_NUMBER = re.compile(r"\d+([.,]\d+)?")
+
+
+@cache
+def modelled(path: Path = CONFIG / "job.yaml") -> Modelled:
+    """Return the error model of a job, studied."""
+    loaded = job(path)
+    return pipeline.modelled(loaded, pipeline.read(loaded, registry()), registry())
+
+
+def section(of: Modelled, language: Language = Language.ENGLISH) -> Section:
+    loaded = job(CONFIG / "job.yaml")
+    return model_annex.section(of, Scribe.of(pipeline.read(loaded, registry()), language))
+
+
+def text(of: Modelled, language: Language = Language.ENGLISH) -> str:
+    annex = section(of, language)
+    return (
+        "\n".join([f"# {annex.title}", *(line for block in annex.blocks for line in lines_of(block))]) + "\n"
+    )
+
+
+def with_diagnosis(**changes: object) -> Modelled:
+    """Return the example with parts of its diagnosis replaced."""
+    diagnosis: Diagnosis = replace(modelled().diagnosis, **changes)
+    return replace(modelled(), diagnosis=diagnosis)
+
+
+def figures(of: Modelled) -> list[str]:
+    return [block.figure.key for block in section(of).blocks if isinstance(block, Graph)]
+
+
+def failure(test: ResidualTest, where: str = "somewhere") -> Failure:
+    return Failure(test, 0.001, same(where), same("the residual does something"))
+
+
+def composed(loaded: Job) -> Certificate:
+    return pipeline.compose(loaded, registry())
+
+
+@pytest.mark.parametrize("language", Language)
+def test_the_text_of_the_annex_is_what_was_read_and_approved(language: Language) -> None:
+    """Set ZLMREPORT_APPROVE=1 to take the present text as approved, and read the difference."""
+    wording = _NUMBER.sub("#", text(modelled(), language))
+    approved = GOLDEN / f"model-annex.{language}.txt"
+    if os.environ.get("ZLMREPORT_APPROVE"):
+        approved.write_text(wording, encoding="utf-8")
+    assert wording == approved.read_text(encoding="utf-8")
+
+
+def test_the_annex_is_marked_as_an_opinion_before_anything_else() -> None:
+    head = text(modelled()).splitlines()[:2]
+    assert "opinion and interpretation" in head[0]
+    assert (
+        head[1] == "! Opinion and interpretation (ISO/IEC 17025:2017, 7.8.7), not a result of the calibration"
+    )
+
+
+def test_the_annex_stands_on_pages_of_its_own_after_all_results(tmp_path: Path) -> None:
+    document = composed(job(written(tmp_path)))
+    assert [each.key for each in document.sections][-1] == "model"
+    assert document.sections[-1].new_page
+
+
+def test_a_job_without_a_model_has_no_annex(tmp_path: Path) -> None:
+    effects = f"model:\n  effects:\n    - offset\n    - scale-error\n{LAST}"
+    document = composed(job(written(tmp_path, (effects, ""))))
+    assert "model" not in [each.key for each in document.sections]
+    assert document.diagnosis is None
+
+
+def test_the_plugins_of_the_effects_are_named(tmp_path: Path) -> None:
+    assert "backlash" in composed(job(written(tmp_path))).plugins
+
+
+def test_an_adequate_model_shows_no_candidates() -> None:
+    shown = text(with_diagnosis(verdict=Verdict.ADEQUATE, candidates=(), failures=()))
+    assert "may lack" not in shown
+    assert "No test of the residuals fails" in shown
+
+
+def test_the_graphs_that_every_annex_has() -> None:
+    assert figures(with_diagnosis(failures=()))[:3] == ["model", "estimate", "fall"]
+
+
+@pytest.mark.parametrize(
+    ("failed", "graph"),
+    [
+        (failure(ResidualTest.RUNS), "residuals-run"),
+        (failure(ResidualTest.TIME_ORDER), "residuals-time"),
+        (failure(ResidualTest.PERIOD_IN_TIME), "residuals-time"),
+        (failure(ResidualTest.CONDITION, "air_pressure"), "residuals-air-pressure"),
+    ],
+)
+def test_a_test_that_fails_brings_the_graph_that_shows_it(failed: Failure, graph: str) -> None:
+    assert figures(with_diagnosis(failures=(failed,))) == ["model", "estimate", "fall", graph]
+
+
+def test_an_effect_that_no_table_takes_away_is_named(tmp_path: Path) -> None:
+    warm = modelled(written(tmp_path, (LAST, f"{LAST}    - thermal-drift\n")))
+    assert "thermal-drift: not fixed in position" in text(warm)
+    assert "not fixed in position" not in text(modelled())
