@@ -28,6 +28,11 @@ def main() -> None:
 
         hide(sys.argv[2:])
         return
+    if sys.argv[1:2] == ["coverage"]:
+        from coverage_of_u import main as hold  # noqa: PLC0415 - as above
+
+        hold(sys.argv[2:])
+        return
     arguments = _parser().parse_args()
     sizes = Sizes(arguments.rounds, arguments.tests, arguments.certificates)
     results: dict[str, list[Measured]] = {}
@@ -44,7 +49,7 @@ def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="./run benchmark",
         description="Measure zlmreport against a plain recipe.",
-        epilog="./run benchmark hidden-effects has options of its own: see its --help.",
+        epilog="./run benchmark hidden-effects and coverage have options of their own: see their --help.",
     )
     parser.add_argument("names", nargs="*", type=_benchmark, metavar="NAME", help=", ".join(BENCHMARKS))
     parser.add_argument(

@@ -18,8 +18,8 @@ SIZES = (0.6, 1.0, 2.0)
 SIZES_OF_PAIRS = (0.6, 1.0)
 METHODS = tuple(Method)
 
-#: Tests without a hidden effect in each draw, for each method and noise: 3200 for each noise in 100 draws.
-_NOTHING_HIDDEN = 8
+#: Tests without a hidden effect in each draw, for each method and noise: a few draws make a thousand.
+_NOTHING_HIDDEN = 32
 _PAIRS = 6
 
 #: Effects of which pairs are made: any linear axis can have them beside a cubic and backlash.

@@ -9,24 +9,40 @@ import contextlib
 import gc
 import os
 import tempfile
-from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
+from zlmreport.certificate.attachments import Attachment, arranged, media_type, source_attachments
 from zlmreport.certificate.build import build
 from zlmreport.certificate.clauses import demand_mandatory_items
 from zlmreport.certificate.document import Certificate
 from zlmreport.certificate.forecast import forecasts
 from zlmreport.certificate.model_annex import Modelled
 from zlmreport.certificate.results import Evaluated
+from zlmreport.correction.corrections import corrected
+from zlmreport.correction.of_job import corrections_of
 from zlmreport.errors import AccessError, Place
+from zlmreport.evaluation.decision import decided, decision_rule
 from zlmreport.evaluation.evaluate import evaluate
 from zlmreport.job.job import Job
+from zlmreport.language import Words
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.model.study import Fitted, Study
 from zlmreport.plugins import Registry
-from zlmreport.protocols import SourceContext, Standard
+from zlmreport.protocols import Renderer, SourceContext, Standard, carries_attachments, relationship_of
+from zlmreport.signing.signer import Signer
+from zlmreport.uncertainty.expanded import with_uncertainty
+from zlmreport.uncertainty.job_budget import budget_of
+
+#: The format that every document with attachments carries.
+RESULTS = "json"
+
+#: Files that can be signed.
+PDF = ".pdf"
+_SIGNATURE = Words(en="Electronic signature", de="Elektronische Signatur")
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,9 +70,11 @@ class Outcome:
 
 
 def read(job: Job, registry: Registry) -> MeasurementSet:
-    """Read the measurements that the job names."""
+    """Read the measurements that the job names, and correct them for what it asks."""
     source = registry.source(job.source.identifier)
-    return source.read(job.source.options, SourceContext(job.axis, job.source.place))
+    measurements = source.read(job.source.options, SourceContext(job.axis, job.source.place))
+    corrections = corrections_of(job, measurements)
+    return corrected(measurements, corrections) if corrections else measurements
 
 
 def compose(job: Job, registry: Registry) -> Certificate:
@@ -65,21 +83,27 @@ def compose(job: Job, registry: Registry) -> Certificate:
     measurements = read(job, registry)
     evaluated = _evaluated(job, measurements, registry)
     studied = modelled(job, measurements, registry) if job.effects else None
-    return build(job, evaluated, registry.versions(job), studied)
+    found = job.as_found
+    as_found = _evaluated(found, read(found, registry), registry) if found else ()
+    return build(job, evaluated, registry.versions(job), studied, as_found)
 
 
 def _evaluated(job: Job, measurements: MeasurementSet, registry: Registry) -> tuple[Evaluated, ...]:
-    evaluated = []
-    for choice in job.standards:
-        standard = registry.standard(choice.identifier)
-        evaluation = evaluate(
-            standard,
-            measurements,
-            choice.options,
-            choice.tolerances,
-            decides_without_uncertainty=job.keys.decision_rule == "simple",
+    stated = job.keys.decision_rule
+    rule = decision_rule(stated.rule, stated.guard_band_factor)
+    budget = budget_of(job, measurements)
+    chosen = standards(job, registry)
+    bare = [
+        (
+            evaluate(standard, measurements, options, choice.tolerances),
+            partial(standard.arithmetic, options=options),
         )
-        evaluated.append(Evaluated(evaluation, tuple(standard.figures(evaluation, choice.options))))
+        for (standard, options), choice in zip(chosen, job.standards, strict=True)
+    ]
+    evaluated = []
+    for (standard, options), evaluation in zip(chosen, with_uncertainty(bare, budget), strict=True):
+        complete = decided(evaluation, rule)
+        evaluated.append(Evaluated(complete, tuple(standard.figures(complete, options)), budget))
     return tuple(evaluated)
 
 
@@ -101,16 +125,69 @@ def standards(job: Job, registry: Registry) -> list[tuple[Standard, Any]]:
     return [(registry.standard(choice.identifier), choice.options) for choice in job.standards]
 
 
-def run(job: Job, registry: Registry) -> Outcome:
-    """Make every file of a job, in memory: a failure at any step leaves nothing behind."""
+def run(job: Job, registry: Registry, signer: Signer | None = None) -> Outcome:
+    """Make every file of a job, in memory: a failure at any step leaves nothing behind.
+
+    Parameters
+    ----------
+    job
+        The job.
+    registry
+        The plugins.
+    signer
+        Signs each PDF when it is finished; without one, the same job gives the same bytes.
+    """
     renderers = [registry.renderer(identifier) for identifier in job.formats]
     with _garbage_collected_once():
         certificate = compose(job, registry)
+        contents = render(certificate, renderers, registry)
+        if signer:
+            contents |= {
+                each.identifier: signer.sign(
+                    contents[each.identifier], _SIGNATURE.in_language(certificate.language)
+                )
+                for each in renderers
+                if each.suffix == PDF
+            }
         documents = tuple(
-            Document(job.directory / f"{certificate.number}{renderer.suffix}", renderer.render(certificate))
+            Document(job.directory / file_name(certificate, renderer), contents[renderer.identifier])
             for renderer in renderers
         )
     return Outcome(certificate, documents)
+
+
+def render(certificate: Certificate, renderers: Sequence[Renderer], registry: Registry) -> dict[str, bytes]:
+    """Return the content of each file by its renderer's identifier.
+
+    Files that others carry come first. A document that carries files carries the results file, whether or
+    not that is asked for; one that cannot be made because its renderer is switched off is left out.
+    """
+    carriers = [each for each in renderers if carries_attachments(each)]
+    others = [each for each in renderers if each not in carriers]
+    if carriers and all(each.identifier != RESULTS for each in others):
+        others += [each for each in registry.renderers if each.identifier == RESULTS]
+    contents = {each.identifier: each.render(certificate) for each in others}
+    if carriers:
+        attached = [
+            Attachment(
+                file_name(certificate, each),
+                contents[each.identifier],
+                media_type(file_name(certificate, each)),
+                relationship,
+                each.title.in_language(certificate.language),
+            )
+            for each in others
+            if (relationship := relationship_of(each))
+        ]
+        attached += source_attachments(certificate.sources, certificate.language)
+        complete = replace(certificate, attachments=arranged(attached, certificate.number))
+        contents |= {each.identifier: each.render(complete) for each in carriers}
+    return contents
+
+
+def file_name(certificate: Certificate, renderer: Renderer) -> str:
+    """Return the name of a certificate's file."""
+    return f"{certificate.number}{renderer.suffix}"
 
 
 @contextlib.contextmanager

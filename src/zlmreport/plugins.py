@@ -136,7 +136,7 @@ class Registry:
 
     def versions(self, job: Job) -> dict[str, str]:
         """Return the release of every plugin that a job's results come from, by its identifier."""
-        used = [(Kind.SOURCE, job.source.identifier)]
+        used = [(Kind.SOURCE, each.identifier) for each in (job.source, job.source_as_found) if each]
         used.extend((Kind.STANDARD, choice.identifier) for choice in job.standards)
         used.extend((Kind.EFFECT, choice.identifier) for choice in job.effects)
         return {key[1]: self.origins[key].release for key in used}

@@ -9,6 +9,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any, Protocol, runtime_checkable
 
+from zlmreport.certificate.attachments import Relationship
 from zlmreport.certificate.document import Certificate
 from zlmreport.errors import Place
 from zlmreport.evaluation.evaluation import Arithmetic, Evaluation
@@ -22,7 +23,15 @@ from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.model.effect import Effect
 
-__all__ = ["DataSource", "Effect", "Renderer", "SourceContext", "Standard"]
+__all__ = [
+    "DataSource",
+    "Effect",
+    "Renderer",
+    "SourceContext",
+    "Standard",
+    "carries_attachments",
+    "relationship_of",
+]
 
 
 @runtime_checkable
@@ -113,6 +122,11 @@ class DataSource(Protocol):
 class Renderer(Protocol):
     """A writer of certificates. It reads no clock and writes no file.
 
+    Two more attributes say what it has to do with attachments, and one that lacks them has nothing to do
+    with any. ``relationship`` is the `Relationship` of its file to a document that carries it.
+    ``carries_attachments`` is true of a document that carries the files of others: it is rendered last, with
+    ``certificate.attachments``.
+
     Attributes
     ----------
     identifier
@@ -129,3 +143,13 @@ class Renderer(Protocol):
 
     def render(self, certificate: Certificate) -> bytes:
         """Return the file's bytes; the same certificate gives the same bytes."""
+
+
+def relationship_of(renderer: Renderer) -> Relationship | None:
+    """Return how a renderer's file relates to a document that carries it; None if none carries it."""
+    return getattr(renderer, "relationship", None)
+
+
+def carries_attachments(renderer: Renderer) -> bool:
+    """Return whether a renderer's documents carry other files."""
+    return getattr(renderer, "carries_attachments", False)

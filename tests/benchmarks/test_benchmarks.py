@@ -53,3 +53,13 @@ def test_documents_of_very_different_length_are_not_compared(monkeypatch: pytest
     long = HTML(string="<p style='break-after: page'>page" * 3).write_pdf()
     with pytest.raises(ValueError, match="different numbers of pages"):
         alike.pages_of_same_document({}, short, long)
+
+
+def test_the_coverage_of_stated_uncertainties_is_counted_for_each_budget() -> None:
+    done = run("coverage", "--trials", "2", "--simulated", "50", "nmtba")
+    assert done.returncode == 0, done.stderr
+    heading, _, *rows = done.stdout.strip().splitlines()
+    assert heading == "| nmtba | P | Pa | Ps_max | Ps_mean | O |"
+    shares = [float(cell) for row in rows for cell in row.split("|")[2:-1]]
+    assert len(shares) == 5 * 5
+    assert set(shares) <= {0.0, 50.0, 100.0}

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import sys
 from collections import Counter
+from itertools import zip_longest
 from pathlib import Path
 
 import numpy as np
@@ -21,6 +22,7 @@ from hidden_effects.stepwise import stepwise
 from hidden_effects.tables import report
 from hidden_effects.tables.outcome import outcome
 from hidden_effects.tables.shares import Share
+from hidden_effects.tables.targets import targets
 from hidden_effects.trial import drawn_trial
 from zlmreport.planning.methods import Method
 from zlmreport.simulation.visibility import base_columns, beyond
@@ -169,20 +171,58 @@ class TestShares:
         assert str(Share(0, 0)) == "–"
 
 
-#: Effects of every kind, in all methods: so large that chance has no part in it.
+class TestTargets:
+    @staticmethod
+    def lines(first: int, wrong: int) -> dict[str, str]:
+        """Return what the table says of 20 tests, so many named right and wrong, the others not at all."""
+        verdicts = ["missing"] * (first + wrong) + ["adequate"] * (20 - first - wrong)
+        names = ["backlash"] * first + ["offset"] * wrong
+        found = [
+            {
+                "outcome": "judged",
+                "kind": "effect",
+                "size": 1.0,
+                "scatter": "clean",
+                "verdict": verdict,
+                "twins": ["backlash"],
+                "candidates": [{"effect": name, "equals": []}] if name else [],
+                "second": {"before": 1.0, "after": 0.21, "oracle": 0.2},
+                "readings": 210,
+                "seconds": 2.5,
+            }
+            for verdict, name in zip_longest(verdicts, names)
+        ]
+        rows = [line.strip("| ").split(" | ") for line in targets(found)]
+        return {row[0]: row[-1] for row in rows}
+
+    def test_what_is_reached_is_met(self) -> None:
+        found = self.lines(first=20, wrong=0)
+        assert found["ρ = 1, clean noise: first"] == "met"
+        assert found["ρ = 1, clean noise: mean group"] == "met"
+        assert found["error on a second test, ρ = 1, over that of the oracle, median"] == "met"
+
+    def test_what_is_not_reached_is_missed(self) -> None:
+        found = self.lines(first=18, wrong=2)
+        assert found["ρ = 1, clean noise: first"] == "**missed**"
+        assert found["ρ = 1, clean noise: wrong name"] == "**missed**"
+        assert found["a diagnosis of some 210 readings, s of one core, median"] == "**missed**"
+
+    def test_of_what_no_test_tells_nothing_is_said(self) -> None:
+        assert not any("realistic" in what for what in self.lines(first=20, wrong=0))
+
+
+#: Twelve tests: effects of every kind in all methods, so large that chance has no part in it; and quiet ones.
 LARGE = [
     case("screw-pitch", size=2.0),
     case("directional-pitch", method=Method.PENDULUM, size=2.0),
     case("first-run", method=Method.QUASI_PILGRIM, scatter=Scatter.REALISTIC, size=2.0),
-    case("time-periodic", method=Method.UNIDIRECTIONAL, size=2.0),
-    case("encoder-interpolation", method=Method.UNIDIRECTIONAL, scatter=Scatter.REALISTIC, size=2.0),
     case("datum-step", method=Method.UNIDIRECTIONAL, size=2.0),
     case("gear-mesh", method=Method.UNIDIRECTIONAL, scatter=Scatter.REALISTIC, size=2.0),
 ]
 STRANGER = case("step in one direction only", kind=Kind.STRANGER, size=2.0)
 NOTHING = [
     Case(Kind.NOTHING, (), Method.UNIDIRECTIONAL, Scatter.REALISTIC, 0.0, draw)
-    for draw in range(1_000_000, 1_000_012)
+    for draw in range(1_000_000, 1_000_006)
 ]
 
 
@@ -194,24 +234,29 @@ def fixed_part(tmp_path_factory: pytest.TempPathFactory) -> dict[str, records.Re
 
 
 class TestFixedPart:
-    @pytest.mark.parametrize("hidden", LARGE, ids=lambda each: each.key)
-    def test_a_large_effect_is_named(self, hidden: Case, fixed_part: dict[str, records.Record]) -> None:
-        record = fixed_part[hidden.key]
-        assert outcome(record).is_first, (record["verdict"], record["candidates"][:2])
+    def test_large_effects_are_first(self, fixed_part: dict[str, records.Record]) -> None:
+        found = {each.hidden[0]: fixed_part[each.key] for each in LARGE}
+        others = {
+            name: record["candidates"] for name, record in found.items() if not outcome(record).is_first
+        }
+        assert not others
 
-    @pytest.mark.parametrize("hidden", LARGE, ids=lambda each: each.key)
-    def test_with_the_effect_a_second_test_is_predicted_better(
-        self, hidden: Case, fixed_part: dict[str, records.Record]
+    def test_with_the_effect_a_second_test_is_predicted_as_well_as_by_an_oracle(
+        self, fixed_part: dict[str, records.Record]
     ) -> None:
-        second = fixed_part[hidden.key]["second"]
-        assert second["after"] < 0.5 * second["before"]
+        second = [fixed_part[each.key]["second"] for each in LARGE]
+        before, after, oracle = (
+            np.array([each[name] for each in second]) for name in ("before", "after", "oracle")
+        )
+        assert np.all(after < 0.5 * before)
+        assert np.median(after / oracle) <= 1.05
 
     def test_where_nothing_is_hidden_there_are_few_alarms(
         self, fixed_part: dict[str, records.Record]
     ) -> None:
         alarms = sum(fixed_part[each.key]["verdict"] != "adequate" for each in NOTHING)
-        # Of 12 tests at 5 % four or more alarms come once in 450 times.
-        assert alarms < 4
+        # Of 6 tests at 5 % three or more alarms come once in 450 times.
+        assert alarms < 3
 
     def test_a_large_stranger_is_left_without_a_name(self, fixed_part: dict[str, records.Record]) -> None:
         assert fixed_part[STRANGER.key]["verdict"] == "unexplained"

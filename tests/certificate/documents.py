@@ -69,15 +69,22 @@ def certificate(folder: Path, keys: Mapping[str, Any] = COMPLETE) -> Certificate
     return pipeline.compose(job(folder, keys), registry())
 
 
-def without(dotted: str) -> dict[str, Any]:
-    """Return the complete keys without one of them."""
-    group, _, key = dotted.partition(".")
-    keys = dict(COMPLETE)
-    if key:
-        keys[group] = {name: value for name, value in COMPLETE[group].items() if name != key}
-    else:
-        del keys[group]
-    return keys
+def without(*dotted: str, keys: Mapping[str, Any] = COMPLETE) -> dict[str, Any]:
+    """Return keys without some of them: ``machine.serial``, ``customer``."""
+    left = dict(keys)
+    for each in dotted:
+        group, _, inner = each.partition(".")
+        if inner:
+            left[group] = without(inner, keys=left[group])
+        else:
+            left.pop(group, None)
+    return left
+
+
+def having(dotted: str, value: Any, keys: Mapping[str, Any] = COMPLETE) -> dict[str, Any]:
+    """Return keys with one more, or with another value for one: ``machine.serial``."""
+    group, _, inner = dotted.partition(".")
+    return {**keys, group: having(inner, value, keys.get(group, {})) if inner else value}
 
 
 def text_of(document: Certificate) -> str:

@@ -2,43 +2,73 @@
 
 import pytest
 
-from certificate.documents import COMPLETE, certificate, without
-from zlmreport.certificate.clauses import MANDATORY_ITEMS
+from certificate.documents import COMPLETE, certificate, having, job, without
+from zlmreport.certificate.clauses import MANDATORY_ITEMS, demand_mandatory_items
 from zlmreport.errors import InputError
 
-ITEMS = [(item.key, item.clause) for item in MANDATORY_ITEMS]
+#: A job that states every item, those of an axis that was adjusted included.
+EVERYTHING = {
+    **COMPLETE,
+    "location": "Hall 1, Lane 2",
+    "as_found": {
+        "adjustment": "Backlash compensation renewed.",
+        "measurement": {"date": "2022-04-06", "source": COMPLETE["measurement"]["source"]},
+    },
+}
+#: What to take out so that an item is not stated, where that is not its key alone.
+TAKEN_OUT = {
+    "laboratory.name": ["laboratory"],
+    "location": ["location", "customer.address"],
+    "customer.name": ["customer"],
+    "machine.model": ["machine.manufacturer", "machine.model"],
+}
 
 
-def key_to_drop(key):
-    """Return what to drop: a name is mandatory in its own group, so the group goes with it."""
-    return key.partition(".")[0] if key.endswith(".name") else key
+def lacking(key):
+    return without(*TAKEN_OUT.get(key, [key]), keys=EVERYTHING)
+
+
+def refusals(folder, keys):
+    """Return the messages of all items that a job with these keys lacks."""
+    with pytest.raises(InputError) as refused:
+        demand_mandatory_items(job(folder, keys))
+    return [problem.message for problem in refused.value.problems]
 
 
 def test_a_complete_certificate_is_accepted(tmp_path):
+    assert certificate(tmp_path, EVERYTHING).title == "Calibration Certificate"
+
+
+def test_keys_of_the_usual_job_are_enough_for_a_certificate(tmp_path):
+    assert "location" not in COMPLETE
     assert certificate(tmp_path).title == "Calibration Certificate"
 
 
-@pytest.mark.parametrize(("key", "clause"), ITEMS)
-def test_a_missing_item_is_named_with_its_clause_and_key(tmp_path, key, clause):
-    with pytest.raises(InputError) as refused:
-        certificate(tmp_path, without(key_to_drop(key)))
-    messages = [problem.message for problem in refused.value.problems]
-    assert any(clause in message and f"add {key}" in message for message in messages)
+@pytest.mark.parametrize("item", MANDATORY_ITEMS, ids=lambda item: f"{item.clause}-{item.key}")
+def test_a_missing_item_is_named_with_its_clause_and_key(tmp_path, item):
+    messages = refusals(tmp_path, lacking(item.key))
+    assert any(f"{item.clause})" in each and f"add {item.key}," in each for each in messages)
+
+
+@pytest.mark.parametrize("item", MANDATORY_ITEMS, ids=lambda item: f"{item.clause}-{item.key}")
+def test_a_measuring_report_may_lack_the_item(tmp_path, item):
+    keys = having("certificate.kind", "report", lacking(item.key))
+    demand_mandatory_items(job(tmp_path, keys))
 
 
 def test_all_missing_items_are_named_at_once(tmp_path):
+    source = COMPLETE["measurement"]["source"]
     keys = {key: COMPLETE[key] for key in ("schema", "axis", "evaluate")}
     keys["certificate"] = {"number": "CAL-1"}
+    keys["measurement"] = {"source": source}
+    keys["as_found"] = {"measurement": {"source": source}}
+    assert len(refusals(tmp_path, keys)) == len(MANDATORY_ITEMS)
+
+
+def test_five_keys_are_enough_for_a_measuring_report(tmp_path):
+    keys = {key: COMPLETE[key] for key in ("schema", "axis", "evaluate")}
+    keys["certificate"] = {"number": "REP-1", "kind": "report"}
     keys["measurement"] = {"source": COMPLETE["measurement"]["source"]}
-    with pytest.raises(InputError) as refused:
-        certificate(tmp_path, keys)
-    assert len(refused.value.problems) == len(MANDATORY_ITEMS)
-
-
-@pytest.mark.parametrize("key", sorted({key_to_drop(key) for key, _ in ITEMS}))
-def test_a_measuring_report_may_lack_every_item(tmp_path, key):
-    keys = without(key)
-    keys["certificate"] = {**keys.get("certificate", {"number": "CAL-1"}), "kind": "report"}
     assert certificate(tmp_path, keys).title == "Measuring Report"
 
 

@@ -27,17 +27,31 @@ import re
 import shutil
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TypeAlias
 
-from documents.pages import ROOT, Block, blocks
+from documents.pages import DOCS, ROOT, Block, blocks
 from documents.shell import Shell
 from zlmreport.errors import ZlmreportError
 
-_ELLIPSIS = "…"
+ELLIPSIS = "…"
 _SHOWN = {"sh", "text", "toml"}
 _BASE = Path(__file__).with_name("base.yaml")
+_ELSEWHERE = {DOCS / "how-to" / "add-a-standard.md"}  # its examples have a test of their own
+
+#: What is done with a console block in a shell.
+Console: TypeAlias = Callable[[Block, Shell], None]
+
+#: The pages whose examples are executed.
+EXECUTED = [
+    ROOT / "README.md",
+    *sorted(
+        {*DOCS.glob("tutorial/*.md"), *DOCS.glob("how-to/*.md"), *DOCS.glob("explanation/*.md")} - _ELSEWHERE
+    ),
+    *sorted(DOCS.glob("reference/*.md")),
+]
 
 
 @dataclass(slots=True)
@@ -49,13 +63,24 @@ class Command:
     expected: list[str]
 
 
-def run_page(page: Path, folder: Path) -> None:
+def compare(block: Block, shell: Shell) -> None:
+    """Type the commands of a console block, and compare what they print with what the page says."""
+    for command, printed, status in typed(block, shell):
+        if command.expected or status:
+            assert matches(command.expected, printed), (
+                f"{command.place}: {command.text}\nsaid to print:\n"
+                + "\n".join(command.expected)
+                + f"\nprinted:\n{printed}"
+            )
+
+
+def run_page(page: Path, folder: Path, console: Console = compare) -> None:
     """Execute every example of a page in a folder."""
     shutil.copytree(ROOT / "configs", folder / "configs")
     page_blocks = blocks(page)
     with Shell(folder) as shell:
         for block in page_blocks:
-            run_block(block, folder, shell)
+            run_block(block, folder, shell, console)
 
 
 def commands(block: Block) -> Iterator[Command]:
@@ -77,14 +102,27 @@ def commands(block: Block) -> Iterator[Command]:
         yield command
 
 
+def typed(block: Block, shell: Shell) -> Iterator[tuple[Command, str, int]]:
+    """Type the commands of a console block; yield each with what it prints and its exit status.
+
+    One that fails must be followed by a look at the exit status.
+    """
+    listed = list(commands(block))
+    for number, command in enumerate(listed):
+        printed, status = shell.run(command.text)
+        yield command, printed, status
+        shown = number + 1 < len(listed) and listed[number + 1].text == "echo $?"
+        assert status == 0 or shown, f"{command.place}: {command.text} fails ({status}):\n{printed}"
+
+
 def matches(expected: list[str], printed: str) -> bool:
     """Return whether a command printed what the page says."""
     pattern = ""
     for line in expected:
-        if line.strip() == _ELLIPSIS:
+        if line.strip() == ELLIPSIS:
             pattern += r"(?:.*\n)*"
         else:
-            pattern += ".*".join(map(re.escape, line.split(_ELLIPSIS))) + r"\n"
+            pattern += ".*".join(map(re.escape, line.split(ELLIPSIS))) + r"\n"
     return re.fullmatch(pattern, "".join(f"{line.rstrip()}\n" for line in printed.splitlines())) is not None
 
 
@@ -98,9 +136,9 @@ def patched(block: Block, text: str) -> str:
     return f"\n{text}".replace(f"\n{old}", f"\n{new}", 1).removeprefix("\n")
 
 
-def run_block(block: Block, folder: Path, shell: Shell) -> None:
+def run_block(block: Block, folder: Path, shell: Shell, console: Console = compare) -> None:
     if block.language == "console":
-        _run_commands(block, shell)
+        console(block, shell)
     elif block.language == "diff":
         path = _current(shell) / block.file
         path.write_text(patched(block, path.read_text(encoding="utf-8")), encoding="utf-8")
@@ -119,20 +157,6 @@ def run_block(block: Block, folder: Path, shell: Shell) -> None:
 def _current(shell: Shell) -> Path:
     """Return the folder into which the commands so far have led."""
     return Path(shell.run("pwd")[0].strip())
-
-
-def _run_commands(block: Block, shell: Shell) -> None:
-    typed = list(commands(block))
-    for number, command in enumerate(typed):
-        printed, status = shell.run(command.text)
-        if command.expected or status:
-            assert matches(command.expected, printed), (
-                f"{command.place}: {command.text}\nsaid to print:\n"
-                + "\n".join(command.expected)
-                + f"\nprinted:\n{printed}"
-            )
-        shown = number + 1 < len(typed) and typed[number + 1].text == "echo $?"
-        assert status == 0 or shown, f"{command.place}: {command.text} fails ({status}):\n{printed}"
 
 
 def _run_python(block: Block, folder: Path) -> None:

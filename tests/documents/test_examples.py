@@ -7,25 +7,16 @@ from pathlib import Path
 
 import pytest
 
-from documents.examples import commands, matches, patched, run_page
-from documents.pages import DOCS, ROOT, Block, blocks, name
-
-_ELSEWHERE = {DOCS / "how-to" / "add-a-standard.md"}  # its examples have a test of their own
-_EXECUTED = [
-    ROOT / "README.md",
-    *sorted(
-        {*DOCS.glob("tutorial/*.md"), *DOCS.glob("how-to/*.md"), *DOCS.glob("explanation/*.md")} - _ELSEWHERE
-    ),
-    *sorted(DOCS.glob("reference/*.md")),
-]
+from documents.examples import EXECUTED, commands, matches, patched, run_page
+from documents.pages import ROOT, Block, blocks, name
 
 
-@pytest.mark.parametrize("page", _EXECUTED, ids=name)
+@pytest.mark.parametrize("page", EXECUTED, ids=name)
 def test_the_examples_of_a_page_work(page: Path, tmp_path: Path) -> None:
     run_page(page, tmp_path)
 
 
-@pytest.mark.parametrize("page", _EXECUTED, ids=name)
+@pytest.mark.parametrize("page", EXECUTED, ids=name)
 def test_commands_that_are_only_shown_exist(page: Path) -> None:
     known = set(re.findall(r"^  ([a-z]+) {2,}", (ROOT / "run").read_text(), re.MULTILINE))
     shown = [line for block in blocks(page) if block.language == "sh" for line in block.text.splitlines()]

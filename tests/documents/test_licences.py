@@ -19,6 +19,7 @@ _LISTED = {
     for section, text in re.findall(r"^## (.+)\n([^#]+)", _PAGE, re.MULTILINE)
 }
 _RUNTIME = _LISTED["What a user installs"]
+_EXTRAS = _LISTED["What an extra installs besides"]
 _DEVELOPMENT = _LISTED["What developers install besides"]
 _PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
 
@@ -75,6 +76,10 @@ def _needed(requirements: Iterable[str]) -> set[str]:
 
 
 _NEEDED = _needed(_PROJECT["project"]["dependencies"])
+_NEEDED_BY_EXTRAS = (
+    _needed(each for extra in _PROJECT["project"]["optional-dependencies"].values() for each in extra)
+    - _NEEDED
+)
 _TOOLS = [
     *_PROJECT["build-system"]["requires"],
     *(each for group in _PROJECT["dependency-groups"].values() for each in group),
@@ -89,7 +94,7 @@ def test_a_dependency_is_listed(requirement: str) -> None:
 
 @pytest.mark.parametrize("requirement", _TOOLS)
 def test_a_tool_is_listed(requirement: str) -> None:
-    assert _canonical(Requirement(requirement).name) in {**_RUNTIME, **_DEVELOPMENT}
+    assert _canonical(Requirement(requirement).name) in {**_RUNTIME, **_EXTRAS, **_DEVELOPMENT}
 
 
 @pytest.mark.parametrize("name", sorted(_NEEDED))
@@ -100,6 +105,16 @@ def test_what_a_user_installs_is_under_the_licence_that_is_listed(name: str) -> 
         assert _families(_stated(name)) & {"Apache", "BSD", "MIT", "PSF"}
 
 
+@pytest.mark.parametrize("extra", _PROJECT["project"]["optional-dependencies"].values())
+def test_what_an_extra_asks_for_is_listed(extra: list[str]) -> None:
+    assert {_canonical(Requirement(each).name) for each in extra} <= set(_EXTRAS)
+
+
+@pytest.mark.parametrize("name", sorted(_NEEDED_BY_EXTRAS & set(_EXTRAS)))
+def test_what_an_extra_installs_is_under_the_licence_that_is_listed(name: str) -> None:
+    assert _families(_stated(name)) == _families(_EXTRAS[name])
+
+
 @pytest.mark.parametrize("name", sorted(_NEEDED_BY_DEVELOPERS & set(_DEVELOPMENT)))
 def test_what_developers_install_is_under_the_licence_that_is_listed(name: str) -> None:
     assert _families(_stated(name)) == _families(_DEVELOPMENT[name])
@@ -107,8 +122,9 @@ def test_what_developers_install_is_under_the_licence_that_is_listed(name: str) 
 
 def test_the_list_is_in_order_and_names_nothing_twice() -> None:
     assert list(_RUNTIME) == sorted(_RUNTIME)
+    assert list(_EXTRAS) == sorted(_EXTRAS)
     assert list(_DEVELOPMENT) == sorted(_DEVELOPMENT)
-    assert not set(_RUNTIME) & set(_DEVELOPMENT)
+    assert len({*_RUNTIME, *_EXTRAS, *_DEVELOPMENT}) == len(_RUNTIME) + len(_EXTRAS) + len(_DEVELOPMENT)
 
 
 def test_the_project_is_under_the_licence_that_is_stated() -> None:

@@ -20,6 +20,8 @@ from figures.samples import (
     figure,
     many_targets,
 )
+from zlmreport.figures.figure import Bar, Panel
+from zlmreport.language import same
 from zlmreport.quantities.arrays import FloatArray
 
 #: Half a millionth of the height of the drawing: rounding of the straight line through the ticks.
@@ -168,6 +170,21 @@ def test_bars_grow_from_zero_to_their_values() -> None:
     readback = Readback(canvas)
     ends = [tuple(sorted(set(np.round(readback.y(bar.points[:, 1]), 6)))) for bar in canvas.of("bar")]
     assert ends == [(0.0, 5.0), (0.0, 3.0), (0.0, 0.5)]
+
+
+def test_a_whisker_reaches_as_far_as_the_uncertainty_to_both_sides() -> None:
+    canvas = drawn(figure(Panel(bars=(Bar(same("A"), 60.0, same("60"), uncertainty=15.0),))))
+    (whisker,) = canvas.of("whisker")
+    ends = sorted(set(np.round(Readback(canvas).y(whisker.points[:, 1]), 6)))
+    assert ends == [45.0, 75.0]
+
+
+def test_an_acceptance_limit_crosses_its_bar() -> None:
+    canvas = drawn(figure(Panel(bars=(Bar(same("A"), 60.0, same("60"), accepted=80.0),))))
+    (bar,), (accepted,) = canvas.of("bar"), canvas.of("accepted")
+    assert set(np.round(Readback(canvas).y(accepted.points[:, 1]), 6)) == {80.0}
+    assert accepted.points[:, 0].min() < bar.points[:, 0].min()
+    assert accepted.points[:, 0].max() > bar.points[:, 0].max()
 
 
 def test_bars_stand_above_their_names_and_below_their_values() -> None:

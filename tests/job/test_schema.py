@@ -62,6 +62,7 @@ def test_sound_job_fits() -> None:
         with_lines("model: {effects: [exemplary-waves]}"),
         with_lines("model: {effects: [{exemplary-wave: {height: high}}]}"),
         with_lines("model: {effects: [{exemplary-wave: {}, other: {}}]}"),
+        with_lines("decision_rule: {rule: guard-band, guard_band_factor: 0}"),
         "schema: zlmreport/job/1\n",
     ],
 )
@@ -79,6 +80,8 @@ def test_what_the_program_refuses_does_not_fit(text: str) -> None:
         with_line(14, "  - exemplary:1"),
         with_line(14, "  - {standard: 'exemplary:1', factor: 3, tolerances: {R: 0.5}}"),
         with_lines("environment: {air_temperature: 20.5, remarks: none}"),
+        with_lines("decision_rule: guard-band"),
+        with_lines("decision_rule: {rule: guard-band, guard_band_factor: 0.5}"),
         with_lines("laboratory:", "model: {effects: [exemplary-wave, {exemplary-wave: {height: 3}}]}"),
         "extends: base.yaml\nlaboratory: {address: Here}\ncertificate: {issued: 2026-11-20}\n",
     ],

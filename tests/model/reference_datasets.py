@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -116,6 +116,30 @@ class Nonlinear:
 
     effect: Function
     back: Back
+
+
+def jacobian(back: Back, gamma: FloatArray, theta: FloatArray) -> FloatArray:
+    """Return the derivatives of NIST's parameters by γ and θ, to the last digit: by imaginary steps."""
+    place, step = np.concatenate([gamma, theta]).astype(np.complex128), 1e-30
+    columns = []
+    for index in range(len(place)):
+        moved = place.copy()
+        moved[index] += 1j * step
+        columns.append(np.imag(np.array(back(moved[: len(gamma)], moved[len(gamma) :]))) / step)
+    return np.stack(columns, axis=1)
+
+
+def _polynomial(order: int) -> Function:
+    return Function(lambda x, _: [x**power for power in range(order + 1)], order + 1)
+
+
+LINEAR: Mapping[str, Effect] = {
+    "Norris": _polynomial(1),
+    "Pontius": _polynomial(2),
+    "Longley": Predictors(6),
+    **{f"Wampler{number}": _polynomial(5) for number in range(1, 6)},
+    "Filip": _polynomial(10),
+}
 
 
 def _steps(least: float, most: float, count: int = 13) -> Sequence[float]:

@@ -147,7 +147,28 @@ def test_a_step_is_known_to_the_gap_in_which_it_lies() -> None:
     fitted = fit(USUAL.with_effect(EFFECTS["scale-joint"]), DESIGN, readings + noise(DESIGN))
     joint = next(each for each in fitted.estimates if each.parameter.name == "joint")
     half = float(targets[5] - targets[4]) / 2
-    assert joint.standard_uncertainty == pytest.approx(half / np.sqrt(3), rel=0.15)
+    # The grid has the middles of the gaps; half-way to the next one is the target but for unequal gaps.
+    assert joint.is_scanned
+    assert joint.expanded_uncertainty == pytest.approx(half, rel=0.15)
+    # A rectangular distribution of this half-width.
+    assert joint.standard_uncertainty == pytest.approx(joint.expanded_uncertainty / np.sqrt(3))
+
+
+def test_a_step_that_hardly_shows_may_lie_in_other_gaps_too() -> None:
+    targets = DESIGN.target_positions
+    readings = known(DESIGN) + hidden(DESIGN, "scale-joint", [float(targets[9:11].mean())], size=0.4)
+    fitted = fit(USUAL.with_effect(EFFECTS["scale-joint"]), DESIGN, readings + noise(DESIGN))
+    joint = next(each for each in fitted.estimates if each.parameter.name == "joint")
+    assert joint.expanded_uncertainty > 1.4 * float(targets[10] - targets[9])
+
+
+def test_a_parameter_that_varies_continuously_is_not_scanned() -> None:
+    fitted = fit(
+        USUAL.with_effect(EFFECTS["scale-kink"]), DESIGN, READINGS + hidden(DESIGN, "scale-kink", [0.5])
+    )
+    kink = next(each for each in fitted.estimates if each.parameter.name == "kink")
+    assert not kink.is_scanned
+    assert kink.expanded_uncertainty == pytest.approx(kink.coverage_factor * kink.standard_uncertainty)
 
 
 def test_error_of_the_instrument_changes_nothing_but_the_uncertainty_of_the_constant() -> None:

@@ -79,9 +79,9 @@ def test_restricted_likelihood_is_that_of_the_textbook() -> None:
         squares = left @ inverse @ left
         determinants = np.linalg.slogdet(covariance)[1] + np.linalg.slogdet(inner)[1]
         expected = (len(base) - base.shape[1]) * np.log(squares) + determinants
-        found, found_squares = space.restricted(space.of(values)[:, np.newaxis], ratios)
-        assert found_squares[0] == pytest.approx(squares, rel=1e-9)
-        differences.append(found[0] - expected)
+        found, found_squares = space.restricted(space.of(values), ratios)
+        assert found_squares == pytest.approx(squares, rel=1e-9)
+        differences.append(found - expected)
     assert differences[0] == pytest.approx(differences[1], abs=1e-7)  # a constant of the base model only
 
 
@@ -89,10 +89,10 @@ def test_estimate_of_the_noise_is_nowhere_surpassed_on_the_grid() -> None:
     values = realistic_noise(DESIGN)
     space = contrasts_of(_base(DESIGN), PARTS, WEIGHTS)
     grid = ratio_grid(PARTS)
-    column = space.of(values)[:, np.newaxis]
-    ratios, _ = restricted_estimate(space, column[:, 0], grid, grid.max(axis=0))
-    best = min(float(space.restricted(column, each)[0][0]) for each in grid)
-    assert float(space.restricted(column, ratios)[0][0]) <= best
+    contrast = space.of(values)
+    ratios, _ = restricted_estimate(space, contrast, grid, grid.max(axis=0))
+    best = min(space.restricted(contrast, each)[0] for each in grid)
+    assert space.restricted(contrast, ratios)[0] <= best
 
 
 def test_noise_of_known_parts_is_found_on_average() -> None:

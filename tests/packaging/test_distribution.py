@@ -11,6 +11,7 @@ import tomllib
 import zipfile
 from collections.abc import Iterable, Iterator
 from importlib.metadata import entry_points, packages_distributions, requires
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -117,7 +118,8 @@ def test_the_installed_entry_points_are_those_of_this_tree(metadata: dict[str, A
 )
 def test_every_library_that_is_imported_comes_with_the_dependencies(project: Path, roots: list[str]) -> None:
     declared = tomllib.loads((project / "pyproject.toml").read_text(encoding="utf-8"))["project"]
-    lacking = undeclared([project / root for root in roots], declared["dependencies"]) - OPTIONAL
+    extras = chain(*declared.get("optional-dependencies", {}).values())
+    lacking = undeclared([project / root for root in roots], [*declared["dependencies"], *extras]) - OPTIONAL
     assert not lacking, f"imported, but no dependency in {project.name}'s pyproject.toml: {lacking}"
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import html
 import json
 from collections.abc import Iterable
@@ -109,8 +108,8 @@ class ExemplarySource:
             [[value] for value in values[3:]],
             axis=context.axis,
         )
-        digest = SourceFile(options.file.name, hashlib.sha256(content).hexdigest(), len(content))
-        return replace(test, provenance=Provenance(self.identifier, (digest,), (self.title,)))
+        file = SourceFile.of(options.file, content)
+        return replace(test, provenance=Provenance(self.identifier, (file,), (self.title,)))
 
 
 class ExemplaryRenderer:

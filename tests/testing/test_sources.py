@@ -58,6 +58,11 @@ def stale(measurements: MeasurementSet) -> MeasurementSet:
     return with_provenance(measurements, files=(replace(file, sha256="0" * 64),))
 
 
+def forgetful(measurements: MeasurementSet) -> MeasurementSet:
+    (file,) = measurements.provenance.files
+    return with_provenance(measurements, files=(replace(file, content=None),))
+
+
 def with_provenance(measurements: MeasurementSet, **changes: Any) -> MeasurementSet:
     return replace(measurements, provenance=replace(measurements.provenance, **changes))
 
@@ -114,6 +119,7 @@ SINS = [
     ),
     (sources.names_its_files, reading(lambda m: with_provenance(m, files=())), "do not name 'six.txt'"),
     (sources.names_its_files, reading(stale), "sha256 is not the digest"),
+    (sources.names_its_files, reading(forgetful), "content is not the bytes of the file"),
     (
         sources.remarks_are_worded,
         reading(lambda m: with_provenance(m, remarks=(same(""),))),

@@ -29,6 +29,7 @@ from zlmreport.certificate.document import (
     Table,
     Verdict,
 )
+from zlmreport.evaluation.decision import decided, decision_rule
 from zlmreport.evaluation.evaluate import evaluate
 from zlmreport.evaluation.evaluation import Arithmetic, Evaluation
 from zlmreport.evaluation.quantity import Group, PositionQuantity, Quantity
@@ -163,7 +164,8 @@ def measurements(
 def evaluation(readings: MeasurementSet) -> Evaluation:
     """The sample standard's evaluation, with a limit that is kept and one that is not."""
     unit = readings.axis.deviation_unit
-    return evaluate(SampleStandard(), readings, Options(), {"M": unit.to_si(20.0), "R_fwd": unit.to_si(1.5)})
+    limits = {"M": unit.to_si(20.0), "R_fwd": unit.to_si(1.5)}
+    return decided(evaluate(SampleStandard(), readings, Options(), limits), decision_rule("simple"))
 
 
 def figure(result: Evaluation, key: str = "means") -> Figure:

@@ -65,7 +65,7 @@ def with_everywhere(words: str) -> Certificate:
     table = Table(
         words,
         (Column(words, words), Column(Symbol(words))),
-        (RowGroup(((words, Verdict(Mark.OPEN, words)), (Symbol(words), words)), words, words),),
+        (RowGroup(((words, Verdict(Mark.OPEN, words)), (Symbol(words), words)), words, words, "key"),),
     )
     blocks = (Paragraph(words), Facts(((words, words),), words), Notice(words, (words,)), table)
     plain = certificate(standards=0)
@@ -97,6 +97,12 @@ def test_text_is_data_wherever_it_stands(words: str) -> None:
 def test_a_character_that_xml_cannot_hold_is_shown_as_replaced(character: str) -> None:
     set_text = tree(certificate(customer=f"before{character}after"))
     assert "before\N{REPLACEMENT CHARACTER}after" in text(set_text)
+
+
+def test_the_heading_of_a_group_leads_to_its_section() -> None:
+    link = tree(with_everywhere("words")).find(".//div[@class='cover']//a")
+    assert link is not None
+    assert (link.get("href"), text(link)) == ("#key", "words")
 
 
 @pytest.mark.parametrize("language", Language)

@@ -6,9 +6,10 @@ from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 
 from hidden_effects.records import Record
-from hidden_effects.tables import named, unnamed, worth
+from hidden_effects.tables import named, targets, unnamed, worth
 
 _TABLES: Sequence[tuple[str, Callable[[Sequence[Record]], Iterator[str]]]] = (
+    ("Targets", targets.targets),
     ("All effects", named.all_effects),
     ("Without offset, scale-error, cosine-error and gauge-misalignment", named.effects_that_vary),
     ("By positioning method", named.by_method),

@@ -18,7 +18,8 @@ from hidden_effects.tables.shares import Share
 
 _AS_GOOD_AS_THE_ORACLE = 1.05
 _WORSE = 1 + 1e-9
-_USUAL_READINGS = 190
+#: More have the tests of linear axes in both directions, and those of rotary ones.
+USUAL_READINGS = 190
 _OWN = "zlmreport"
 
 
@@ -87,7 +88,7 @@ def time(records: Sequence[Record]) -> Iterator[str]:
     """Yield the table of the time that a diagnosis of some 210 readings takes of one core."""
     rows = []
     for verdict in ("adequate", "missing", "unexplained"):
-        chosen = [each for each in judged(records, verdict=verdict) if each["readings"] > _USUAL_READINGS]
+        chosen = [each for each in judged(records, verdict=verdict) if each["readings"] > USUAL_READINGS]
         seconds = [each["seconds"] for each in chosen]
         if seconds:
             quantile = np.quantile(seconds, 0.95)

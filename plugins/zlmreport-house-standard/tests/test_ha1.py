@@ -2,13 +2,20 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
+from functools import partial
 
 import pytest
 
+from zlmreport.evaluation.decision import decided, decision_rule
 from zlmreport.evaluation.evaluate import evaluate
+from zlmreport.language import same
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.testing import STANDARD_CHECKS, bidirectional_test
+from zlmreport.uncertainty.budget import Budget
+from zlmreport.uncertainty.contribution import Acts, Contribution, Distribution
+from zlmreport.uncertainty.expanded import with_uncertainty
 from zlmreport_house_standard.ha1 import HouseAcceptance, HouseAcceptanceOptions
 
 #: The worked example of the rule: mm, and µm in a row for each target.
@@ -40,6 +47,25 @@ def test_worked_example(example: MeasurementSet, symbol: str, weight: float, exp
 
 
 def test_a_limit_is_held_against_the_value(example: MeasurementSet) -> None:
-    evaluation = evaluate(HouseAcceptance(), example, HouseAcceptanceOptions(), {"D": 10e-6, "W": 5e-6})
+    bare = evaluate(HouseAcceptance(), example, HouseAcceptanceOptions(), {"D": 10e-6, "W": 5e-6})
+    evaluation = decided(bare, decision_rule("simple"))
     conforms = {parameter.quantity.symbol: parameter.conforms for parameter in evaluation.parameters}
     assert conforms == {"D": False, "H": None, "W": True, "T": None}
+
+
+def test_the_uncertainty_of_its_parameters_takes_no_work_of_its_own(example: MeasurementSet) -> None:
+    options = HouseAcceptanceOptions()
+    evaluation = evaluate(HouseAcceptance(), example, options, {})
+    error = Contribution(
+        same("noise"), 0.1e-6, Acts.AT_EACH_READING, Distribution.NORMAL, same("u = 0.1 µm"), same("")
+    )
+
+    (found,) = with_uncertainty(
+        [(evaluation, partial(HouseAcceptance().arithmetic, options=options))], Budget((error,))
+    )
+
+    largest = found.parameter("D")
+    assert largest is not None
+    assert largest.expanded_uncertainty is not None
+    # D is a mean of three readings: U = 2·0.1 µm/√3, and 10,000 trials know it to within 4 %.
+    assert largest.expanded_uncertainty * 1e6 == pytest.approx(0.2 / math.sqrt(3), rel=0.04)

@@ -12,7 +12,7 @@ from zlmreport.model.parameter import Dimension, Parameter
 from zlmreport.quantities.arrays import FloatArray
 from zlmreport_plugins.effects import told_apart
 
-_MOST_MOMENTS = 40
+_MOST_MOMENTS = 200
 _LEAST_MOMENTS = 4
 
 

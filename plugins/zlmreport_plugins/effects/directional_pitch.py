@@ -25,7 +25,7 @@ class DirectionalPitch(Effect):
 
     identifier = "directional-pitch"
     title = Words(en="Periodic lost motion of the screw", de="Periodische Umkehrspanne der Spindel")
-    equation = "d·A·sin(2πP/p_{0} + φ)"
+    equation = "d·A·sin(2π·P/p_{0} + φ)"
     linear = harmonic_parameters([1], _LARGEST)
     searched = (
         Parameter(

@@ -19,7 +19,7 @@ class Ellipticity(Effect):
 
     identifier = "ellipticity"
     title = Words(en="Two waves a turn (coupling, wobble)", de="Zwei Wellen je Umdrehung (Kupplung, Taumeln)")
-    equation = "A·sin(2θ + φ)"
+    equation = "A·sin(2·θ + φ)"
     linear = harmonic_parameters([1], _LARGEST)
     shape = Shape.POSITION
     look = Words(

@@ -29,7 +29,7 @@ class EncoderInterpolation(Effect):
 
     identifier = "encoder-interpolation"
     title = Words(en="Interpolation error of the encoder", de="Interpolationsabweichung des Messsystems")
-    equation = "Σ A_{h}·sin(2πhP/Λ_{s} + φ_{h})"
+    equation = "Σ A_{h}·sin(2π·h·P/Λ_{s} + φ_{h})"
     searched = (
         Parameter(
             "period",

@@ -33,7 +33,7 @@ class GearMesh(Effect):
 
     identifier = "gear-mesh"
     title = Words(en="Periodic error of the gear", de="Periodische Abweichung des Getriebes")
-    equation = "A·sin(zθ + φ)"
+    equation = "A·sin(z·θ + φ)"
     linear = harmonic_parameters([1], _LARGEST)
     searched = (
         Parameter(

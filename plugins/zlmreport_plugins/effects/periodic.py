@@ -29,7 +29,7 @@ class Periodic(Effect):
 
     identifier = "periodic"
     title = Words(en="Periodic error of unknown period", de="Periodische Abweichung unbekannter Periode")
-    equation = "A·sin(2πP/Λ + φ)"
+    equation = "A·sin(2π·P/Λ + φ)"
     linear = harmonic_parameters([1], _LARGEST)
     searched = (
         Parameter(

@@ -28,7 +28,7 @@ class ScrewPitch(Effect):
 
     identifier = "screw-pitch"
     title = Words(en="Periodic error of the screw", de="Periodischer Steigungsfehler der Spindel")
-    equation = "Σ A_{h}·sin(2πhP/p_{0} + φ_{h})"
+    equation = "Σ A_{h}·sin(2π·h·P/p_{0} + φ_{h})"
     searched = (
         Parameter(
             "period",

@@ -26,7 +26,7 @@ class TimePeriodic(Effect):
 
     identifier = "time-periodic"
     title = Words(en="Periodic in time", de="Zeitlich periodische Abweichung")
-    equation = "A·sin(2πt/T + φ)"
+    equation = "A·sin(2π·t/T + φ)"
     linear = harmonic_parameters([1], _LARGEST)
     searched = (
         Parameter("period", "T", Dimension.TIME, Words(en="period in time", de="Periodendauer"), 0.0, 3600.0),

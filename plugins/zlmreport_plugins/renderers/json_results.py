@@ -12,15 +12,19 @@ import math
 from collections.abc import Iterator
 from typing import Any, TypeAlias
 
+from zlmreport.certificate.attachments import Relationship, Source
 from zlmreport.certificate.document import Certificate
+from zlmreport.evaluation.conformity import Decision
 from zlmreport.evaluation.evaluation import Evaluation, Parameter
 from zlmreport.hookspecs import hookimpl
 from zlmreport.language import Language, Words
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.measurement.provenance import SourceFile
 from zlmreport.model.report import report_error, report_model
 from zlmreport.quantities.units import Unit
+from zlmreport.uncertainty.budget import COVERAGE_PROBABILITY, NoBudget
 
 SCHEMA = "zlmreport/results/1"
 
@@ -35,6 +39,7 @@ class JsonResultsRenderer:
     identifier = "json"
     title = Words(en="Results file (JSON)", de="Ergebnisdatei (JSON)")
     suffix = ".json"
+    relationship = Relationship.DATA
 
     def render(self, certificate: Certificate) -> bytes:
         """Return the file, UTF-8."""
@@ -51,6 +56,8 @@ def _results(certificate: Certificate) -> Json:
         "evaluations": [
             _evaluation(evaluation, certificate.language) for evaluation in certificate.evaluations
         ],
+        **_as_found(certificate),
+        **_uncertainty(certificate),
         "model": _model(certificate),
         "measurements": _measurements(measurements),
         "provenance": _provenance(certificate),
@@ -65,7 +72,27 @@ def _certificate(certificate: Certificate) -> Json:
     }
     if certificate.issued is not None:
         identity["issued"] = certificate.issued.isoformat()
+    amends = certificate.job.keys.certificate.amends if certificate.job else None
+    if amends:
+        identity["amends"] = {"number": amends.number, "kind": amends.kind, "reason": amends.reason}
     return identity
+
+
+def _as_found(certificate: Certificate) -> Json:
+    """Return the results of the axis before it was adjusted; nothing where it was not."""
+    found = certificate.evaluations_as_found
+    if not found:
+        return {}
+    measurements = found[0].measurements
+    provenance = measurements.provenance
+    return {
+        "as_found": {
+            "evaluations": [_evaluation(evaluation, certificate.language) for evaluation in found],
+            "measurements": _measurements(measurements),
+            "source": provenance.source,
+            "files": [_file(file) for file in provenance.files],
+        }
+    }
 
 
 def _evaluation(evaluation: Evaluation, language: Language) -> Json:
@@ -105,7 +132,20 @@ def _parameter(parameter: Parameter, unit: Unit, language: Language) -> Json:
     if parameter.limit is not None:
         values["limit"] = unit.from_si(parameter.limit)
         values["conforms"] = parameter.conforms
+    if parameter.decision is not None:
+        values["decision"] = _decision(parameter.decision, unit)
     return values
+
+
+def _decision(decision: Decision, unit: Unit) -> Json:
+    stated: Json = {"statement": decision.conformity.value}
+    if decision.acceptance_limit is not None:
+        stated["acceptance_limit"] = unit.from_si(decision.acceptance_limit)
+    if decision.rejection_limit is not None:
+        stated["rejection_limit"] = unit.from_si(decision.rejection_limit)
+    if decision.risk is not None:
+        stated["risk"] = decision.risk
+    return stated
 
 
 def _position(evaluation: Evaluation, index: int) -> Json:
@@ -123,11 +163,49 @@ def _position(evaluation: Evaluation, index: int) -> Json:
         "reversal": statistics.reversal_value,
         **{column.quantity.symbol: column.values for column in evaluation.columns},
     }
+    expanded = evaluation.mean_uncertainty
+    if expanded is not None:
+        columns |= {
+            "U_mean_fwd": expanded.by_approach[Approach.POSITIVE.index],
+            "U_mean_bwd": expanded.by_approach[Approach.NEGATIVE.index],
+            "U_mean": expanded.bidirectional,
+        }
     for symbol, values in columns.items():
         value = float(values[index])
         if not math.isnan(value):
             row[symbol] = measurements.axis.deviation_unit.from_si(value)
     return row
+
+
+def _uncertainty(certificate: Certificate) -> Json:
+    """Return the uncertainty budget, or why there is none; nothing where nobody asked for one."""
+    budget, language = certificate.budget, certificate.language
+    if budget is None:
+        return {}
+    if isinstance(budget, NoBudget):
+        return {"uncertainty": {"not_evaluated": budget.reason.in_language(language)}}
+    unit = certificate.measurements.axis.deviation_unit
+    contributions = [
+        {
+            "name": each.name.in_language(language),
+            "stated": each.stated.in_language(language),
+            "source": each.source.in_language(language),
+            "distribution": each.distribution.value,
+            "acts": each.acts.value,
+            "standard_uncertainty": unit.from_si(each.standard_uncertainty),
+            "share": budget.share(each),
+        }
+        for each in budget.contributions
+    ]
+    return {
+        "uncertainty": {
+            "unit": unit.ascii,
+            "coverage_probability": COVERAGE_PROBABILITY,
+            "contributions": contributions,
+            "combined_standard_uncertainty": unit.from_si(budget.standard_uncertainty),
+            "not_considered": [words.in_language(language) for words in budget.not_considered],
+        }
+    }
 
 
 def _model(certificate: Certificate) -> Json:
@@ -170,8 +248,33 @@ def _provenance(certificate: Certificate) -> Json:
         "generator": certificate.generator,
         "plugins": dict(sorted(certificate.plugins.items())),
         "source": provenance.source,
-        "files": [{"name": file.name, "sha256": file.sha256, "size": file.size} for file in provenance.files],
+        "files": [_file(file) for file in provenance.files],
+        "sources": [_source(source) for source in certificate.sources],
         "remarks": [words.in_language(certificate.language) for words in provenance.remarks],
+        "corrections": [
+            {
+                "name": each.name.in_language(certificate.language),
+                "method": each.method.in_language(certificate.language),
+                "inputs": each.inputs.in_language(certificate.language),
+                "largest": certificate.measurements.axis.deviation_unit.from_si(each.largest),
+            }
+            for each in provenance.corrections
+        ],
+    }
+
+
+def _file(file: SourceFile) -> Json:
+    return {"name": file.name, "sha256": file.sha256, "size": file.size}
+
+
+def _source(source: Source) -> Json:
+    """Return a file that the certificate was made from, under its name as an attachment."""
+    return {
+        "role": source.role.key,
+        "name": source.name,
+        "path": source.path,
+        "sha256": source.file.sha256,
+        "size": source.file.size,
     }
 
 

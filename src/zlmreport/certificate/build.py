@@ -2,13 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 from zlmreport import __version__
-from zlmreport.certificate import conditions, cover, model_annex, origin, readings, results
-from zlmreport.certificate.document import Certificate, Letterhead, PageWords, Party
-from zlmreport.certificate.logo import read_logo
+from zlmreport.certificate import (
+    amendment,
+    conditions,
+    cover,
+    model_annex,
+    opinions,
+    origin,
+    readings,
+    results,
+    uncertainty,
+)
+from zlmreport.certificate.as_found import beside_as_found, readings_as_found
+from zlmreport.certificate.attachments import sources
+from zlmreport.certificate.document import Certificate, Letterhead, PageWords, Party, Section
+from zlmreport.certificate.identity import lines
+from zlmreport.certificate.logo import Logo, read_logo
+from zlmreport.certificate.marks import Marks
 from zlmreport.certificate.model_annex import Modelled
 from zlmreport.certificate.results import Evaluated
 from zlmreport.certificate.scribe import Scribe
@@ -16,13 +30,10 @@ from zlmreport.figures.figure import Figure
 from zlmreport.job.job import Job
 from zlmreport.job.model import Laboratory
 from zlmreport.language import Words
+from zlmreport.measurement.measurement_set import MeasurementSet
 
 GENERATOR = f"zlmreport {__version__}"
 
-_TITLES = {
-    "certificate": Words(en="Calibration Certificate", de="Kalibrierschein"),
-    "report": Words(en="Measuring Report", de="Messbericht"),
-}
 _SUBTITLE = Words(en="Positioning accuracy of axis {axis}", de="Positioniergenauigkeit der Achse {axis}")
 _DESCRIPTION = Words(
     en="Positioning accuracy of axis {axis}, evaluated by {standards}",
@@ -35,6 +46,7 @@ def build(
     evaluated: tuple[Evaluated, ...],
     plugins: Mapping[str, str],
     modelled: Modelled | None = None,
+    as_found: tuple[Evaluated, ...] = (),
 ) -> Certificate:
     """Build the document.
 
@@ -48,34 +60,39 @@ def build(
         Identifier and version of every plugin that took part.
     modelled
         The error model, studied; None where the job names none.
+    as_found
+        Evaluations of the axis before it was adjusted, by the same standards; empty where it was not.
     """
     certificate = job.keys.certificate
     measurements = evaluated[0].evaluation.measurements
-    scribe = Scribe.of(measurements, certificate.language)
+    scribe = Scribe.of(measurements, certificate.language, Marks.of(job.keys))
     if not certificate.readings_on_graphs:
-        evaluated = tuple(
-            replace(each, figures=tuple(map(_without_readings, each.figures))) for each in evaluated
-        )
-    title = scribe.say(_TITLES[certificate.kind])
+        evaluated, as_found = map(_without_readings, (evaluated, as_found))
     designations = tuple(each.evaluation.designation for each in evaluated)
+    logo = _logo(job)
+    read = (measurements, *(each.evaluation.measurements for each in as_found[:1]))
+    files = [file for each in read for file in each.provenance.files]
+    made_from = sources(job, files, logo.file if logo else None)
     return Certificate(
         number=certificate.number,
-        title=certificate.title or title,
+        title=scribe.say(amendment.title(certificate)),
         subtitle=scribe.say(_SUBTITLE.given(axis=job.axis.name)),
         language=certificate.language,
         issued=certificate.issued,
         paper=certificate.paper,
-        letterhead=_letterhead(job.keys.laboratory, job),
+        letterhead=_letterhead(job.keys.laboratory, logo),
         cover=cover.blocks(job, measurements, evaluated, scribe),
         sections=(
             conditions.section(job, measurements, scribe),
-            *(results.section(each, scribe) for each in evaluated),
-            readings.section(measurements, scribe),
-            origin.section(job, measurements, GENERATOR, plugins, scribe),
+            *_results(job, evaluated, as_found, scribe),
+            uncertainty.section(evaluated[0].budget, job.axis, scribe),
+            *_readings(job, measurements, as_found, scribe),
+            origin.section(made_from, read, GENERATOR, plugins, scribe),
+            *opinions.section(job.keys, scribe),
             *([model_annex.section(modelled, scribe)] if modelled else []),
         ),
         page_words=PageWords(
-            number=f"{title} {certificate.number}",
+            number=scribe.say(amendment.running_title(certificate)),
             page=scribe.say(Words(en="page", de="Seite")),
             of=scribe.say(Words(en="of", de="von")),
             end=scribe.say(Words(en="End of document", de="Ende des Dokuments")),
@@ -85,27 +102,61 @@ def build(
         description=scribe.say(_DESCRIPTION.given(axis=job.axis.name, standards=", ".join(designations))),
         measurements=measurements,
         evaluations=tuple(each.evaluation for each in evaluated),
+        evaluations_as_found=tuple(each.evaluation for each in as_found),
         generator=GENERATOR,
         keywords=designations,
         plugins=plugins,
         diagnosis=modelled.diagnosis if modelled else None,
+        budget=evaluated[0].budget,
+        job=job,
+        sources=made_from,
     )
 
 
-def _without_readings(figure: Figure) -> Figure:
-    """Return the figure without the single readings behind its curves."""
+def _results(
+    job: Job, evaluated: tuple[Evaluated, ...], as_found: tuple[Evaluated, ...], scribe: Scribe
+) -> Iterator[Section]:
+    """Yield the results by each standard; of an axis that was adjusted, those before, after, and compared."""
+    sections = (results.section(each, scribe) for each in evaluated)
+    keys = job.keys.as_found
+    return beside_as_found(keys, sections, as_found, evaluated, scribe) if keys else sections
+
+
+def _readings(
+    job: Job, measurements: MeasurementSet, as_found: tuple[Evaluated, ...], scribe: Scribe
+) -> Iterator[Section]:
+    """Yield the readings, unless the customer agreed to a document without them."""
+    if job.keys.agreement.simplified:
+        return
+    yield readings.section(measurements, scribe)
+    if job.keys.as_found:
+        yield readings_as_found(job.keys.as_found, as_found, scribe)
+
+
+def _without_readings(evaluated: tuple[Evaluated, ...]) -> tuple[Evaluated, ...]:
+    """Return evaluations whose figures lack the single readings behind their curves."""
+    return tuple(
+        replace(each, figures=tuple(map(_figure_without_readings, each.figures))) for each in evaluated
+    )
+
+
+def _figure_without_readings(figure: Figure) -> Figure:
     return replace(figure, panels=tuple(replace(panel, readings=()) for panel in figure.panels))
 
 
-def _letterhead(laboratory: Laboratory | None, job: Job) -> Letterhead | None:
+def _logo(job: Job) -> Logo | None:
+    laboratory = job.keys.laboratory
+    if laboratory is None or laboratory.logo is None:
+        return None
+    return read_logo(laboratory.logo, job.place_of("laboratory.logo"))
+
+
+def _letterhead(laboratory: Laboratory | None, logo: Logo | None) -> Letterhead | None:
     if laboratory is None:
         return None
-    logo, logo_type = (
-        read_logo(laboratory.logo, job.place_of("laboratory.logo")) if laboratory.logo else (None, "")
-    )
     return Letterhead(
-        Party(laboratory.name, cover.lines(laboratory.address)),
+        Party(laboratory.name, lines(laboratory.address)),
         laboratory.accreditation or "",
-        logo,
-        logo_type,
+        logo.file.content if logo else None,
+        logo.media_type if logo else "",
     )

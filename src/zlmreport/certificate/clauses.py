@@ -1,10 +1,15 @@
-"""What ISO/IEC 17025:2017 clause 7.8 makes mandatory, held against a job."""
+"""What ISO/IEC 17025:2017 clause 7.8 makes mandatory, held against a job.
+
+Not listed is what no job can lack: the title (7.8.2.1 a), the number (d), the standards evaluated by, as the
+method (f), the results (m), and the fixed statements (l).
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from zlmreport.certificate.place import place_of_work
 from zlmreport.errors import InputError, Problem
 from zlmreport.job.job import Job
 from zlmreport.job.model import JobKeys
@@ -23,7 +28,7 @@ class MandatoryItem:
     what
         The item in words, as the message names it.
     stated
-        Whether a job states it.
+        Whether a job states it, or need not.
     """
 
     clause: str
@@ -33,21 +38,26 @@ class MandatoryItem:
 
 
 MANDATORY_ITEMS = (
-    MandatoryItem(
-        "7.8.2.1 b", "laboratory.name", "the laboratory's name", lambda job: job.laboratory is not None
-    ),
+    MandatoryItem("7.8.2.1 b", "laboratory.name", "the laboratory's name", lambda job: job.laboratory),
     MandatoryItem(
         "7.8.2.1 b",
         "laboratory.address",
         "the laboratory's address",
         lambda job: job.laboratory and job.laboratory.address,
     ),
-    MandatoryItem("7.8.2.1 e", "customer.name", "the customer's name", lambda job: job.customer is not None),
+    MandatoryItem("7.8.2.1 c", "location", "where the work was done", place_of_work),
+    MandatoryItem("7.8.2.1 e", "customer.name", "the customer's name", lambda job: job.customer),
     MandatoryItem(
         "7.8.2.1 e",
         "customer.address",
         "how to reach the customer",
         lambda job: job.customer and job.customer.address,
+    ),
+    MandatoryItem(
+        "7.8.2.1 g",
+        "machine.model",
+        "what the machine is, by its manufacturer or its model",
+        lambda job: job.machine.manufacturer or job.machine.model,
     ),
     MandatoryItem(
         "7.8.2.1 g",
@@ -57,6 +67,12 @@ MANDATORY_ITEMS = (
     ),
     MandatoryItem(
         "7.8.2.1 i", "measurement.date", "the date of the measurement", lambda job: job.measurement.date
+    ),
+    MandatoryItem(
+        "7.8.2.1 i",
+        "as_found.measurement.date",
+        "the date of the measurement before the adjustment",
+        lambda job: job.as_found is None or job.as_found.measurement.date,
     ),
     MandatoryItem("7.8.2.1 j", "certificate.issued", "the date of issue", lambda job: job.certificate.issued),
     MandatoryItem(
@@ -69,7 +85,10 @@ MANDATORY_ITEMS = (
         "7.8.4.1 a",
         "instrument.expanded_uncertainty",
         "the measurement uncertainty of the instrument",
-        lambda job: job.instrument and job.instrument.expanded_uncertainty,
+        lambda job: (
+            job.instrument
+            and (job.instrument.expanded_uncertainty or job.instrument.expanded_uncertainty_per_metre)
+        ),
     ),
     MandatoryItem(
         "7.8.4.1 b",
@@ -82,6 +101,12 @@ MANDATORY_ITEMS = (
         "instrument.certificate",
         "the instrument's calibration certificate, for traceability",
         lambda job: job.instrument and job.instrument.certificate,
+    ),
+    MandatoryItem(
+        "7.8.4.1 d",
+        "as_found.adjustment",
+        "what was adjusted or repaired between the two measurements",
+        lambda job: job.as_found is None or job.as_found.adjustment,
     ),
 )
 

@@ -4,24 +4,26 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from zlmreport.certificate.conditions import AXIS_KINDS, MACHINE_KINDS, MaybeFact, stated
+from zlmreport.certificate import amendment, conformity, statements, uncertainty
+from zlmreport.certificate.as_found import on_cover
 from zlmreport.certificate.document import (
     Block,
     Column,
     Facts,
     Notice,
-    Paragraph,
     RowGroup,
     Symbol,
     Table,
 )
+from zlmreport.certificate.facts import stated
+from zlmreport.certificate.identity import identity
 from zlmreport.certificate.readings import missing_readings
-from zlmreport.certificate.results import Evaluated, value_cells, value_columns
+from zlmreport.certificate.results import Evaluated, section_key
 from zlmreport.certificate.scribe import Scribe
+from zlmreport.certificate.values import Values
 from zlmreport.evaluation.evaluation import Evaluation, Parameter
 from zlmreport.evaluation.quantity import Group
 from zlmreport.job.job import Job
-from zlmreport.job.model import JobKeys
 from zlmreport.language import Words
 from zlmreport.measurement.measurement_set import MeasurementSet
 
@@ -32,64 +34,25 @@ def blocks(
     """Return the blocks under the title."""
     evaluations = tuple(each.evaluation for each in evaluated)
     return (
-        Facts(stated(_identity(job, evaluations, scribe), scribe)),
+        *amendment.notice(job.keys.certificate, scribe),
+        Facts(stated(identity(job, evaluations, scribe), scribe)),
         _results(evaluations, scribe),
-        *_decision(job.keys, evaluations, scribe),
+        uncertainty.statement(evaluated[0].budget, scribe),
+        *conformity.rule_paragraph(job.keys.decision_rule, evaluations, scribe),
         *missing_readings(measurements, scribe),
         *_shortfalls(evaluations, scribe),
-        *_statements(job.keys, scribe),
-    )
-
-
-def _identity(job: Job, evaluations: tuple[Evaluation, ...], scribe: Scribe) -> Iterator[MaybeFact]:
-    keys = job.keys
-    machine = keys.machine
-    if keys.customer:
-        address = ", ".join(lines(keys.customer.address))
-        yield Words(en="Customer", de="Auftraggeber"), ", ".join(filter(None, (keys.customer.name, address)))
-    named = " ".join(filter(None, (machine.manufacturer, machine.model)))
-    kind = scribe.say(MACHINE_KINDS[machine.kind])
-    yield Words(en="Item calibrated", de="Gegenstand"), f"{named} ({kind})" if named else kind
-    yield Words(en="Serial number", de="Seriennummer"), machine.serial
-    yield (
-        Words(en="Axis", de="Achse"),
-        scribe.say(
-            Words("{name} ({kind})", "{name} ({kind})").given(
-                name=job.axis.name, kind=AXIS_KINDS[job.axis.kind]
-            )
-        ),
-    )
-    yield (
-        Words(en="Evaluated by", de="Ausgewertet nach"),
-        ", ".join(evaluation.designation for evaluation in evaluations),
-    )
-    date = keys.measurement.date
-    yield Words(en="Date of measurement", de="Datum der Messung"), scribe.date(date) if date else None
-    issued = keys.certificate.issued
-    yield Words(en="Date of issue", de="Ausstellungsdatum"), scribe.date(issued) if issued else None
-    person = keys.certificate.authorised_by
-    if person:
-        yield (
-            Words(en="Authorised by", de="Freigegeben durch"),
-            ", ".join(filter(None, (person.name, person.function))),
-        )
-
-
-def lines(address: str | None) -> tuple[str, ...]:
-    """Part an address into lines, at its commas or line breaks."""
-    if not address:
-        return ()
-    return tuple(
-        part for piece in address.split("\n") for part in (part.strip() for part in piece.split(",")) if part
+        *on_cover(job.keys.as_found, scribe),
+        *statements.notices(job.keys, scribe),
+        *statements.paragraphs(job.keys, scribe),
     )
 
 
 def _results(evaluations: tuple[Evaluation, ...], scribe: Scribe) -> Table:
-    values = value_columns(evaluations, scribe)
+    values = Values.of(evaluations, scribe)
     columns = (
         Column(scribe.say(Words(en="Symbol", de="Zeichen"))),
         Column(scribe.say(Words(en="Parameter", de="Kenngröße"))),
-        *values,
+        *values.columns,
     )
     groups = tuple(
         RowGroup(
@@ -97,11 +60,12 @@ def _results(evaluations: tuple[Evaluation, ...], scribe: Scribe) -> Table:
                 (
                     Symbol(parameter.quantity.notation),
                     scribe.say(parameter.quantity.name),
-                    *value_cells(parameter, values, scribe),
+                    *values.cells(parameter),
                 )
                 for parameter in _in_brief(evaluation)
             ),
             evaluation.designation,
+            section=section_key(evaluation),
         )
         for evaluation in evaluations
     )
@@ -115,36 +79,6 @@ def _in_brief(evaluation: Evaluation) -> tuple[Parameter, ...]:
         parameter for parameter in evaluation.parameters if parameter.quantity.group is Group.COMPOSITE
     )
     return limited or composite or evaluation.parameters
-
-
-_RULES = {
-    "simple": Words(
-        en="Decision rule: simple acceptance. A parameter conforms when its unrounded amount does not "
-        "exceed the limit; "
-        "the measurement uncertainty is not taken into account, so that the risk of a wrong acceptance "
-        "or rejection "
-        "reaches 50 % for a value at the limit.",
-        de="Entscheidungsregel: einfache Annahme. Eine Kenngröße hält den Grenzwert ein, wenn ihr "
-        "ungerundeter Betrag ihn nicht "
-        "überschreitet; die Messunsicherheit bleibt unberücksichtigt, sodass das Risiko einer falschen "
-        "Annahme oder "
-        "Ablehnung für einen Wert am Grenzwert bis zu 50 % beträgt.",
-    ),
-}
-_UNDECIDED = Words(
-    en="Decision rule: {rule}. It needs the expanded uncertainty of each parameter, which this document "
-    "does not state; "
-    "conformity is therefore not decided.",
-    de="Entscheidungsregel: {rule}. Sie braucht die erweiterte Messunsicherheit jeder Kenngröße, die "
-    "dieses Dokument nicht angibt; "
-    "über die Konformität ist daher nicht entschieden.",
-)
-
-
-def _decision(keys: JobKeys, evaluations: tuple[Evaluation, ...], scribe: Scribe) -> Iterator[Paragraph]:
-    if any(parameter.limit is not None for evaluation in evaluations for parameter in evaluation.parameters):
-        rule = _RULES.get(keys.decision_rule, _UNDECIDED.given(rule=keys.decision_rule))
-        yield Paragraph(scribe.say(rule))
 
 
 def _shortfalls(evaluations: tuple[Evaluation, ...], scribe: Scribe) -> Iterator[Notice]:
@@ -163,28 +97,3 @@ def _shortfalls(evaluations: tuple[Evaluation, ...], scribe: Scribe) -> Iterator
             de="Anforderungen der Normen, die die Messung nicht erfüllt",
         )
         yield Notice(scribe.say(heading), items)
-
-
-def _statements(keys: JobKeys, scribe: Scribe) -> Iterator[Paragraph]:
-    yield Paragraph(
-        scribe.say(
-            Words(
-                en="The results relate only to the item calibrated, in its condition at the time of the "
-                "measurement.",
-                de="Die Ergebnisse gelten nur für den kalibrierten Gegenstand in seinem Zustand zur Zeit "
-                "der Messung.",
-            )
-        )
-    )
-    if keys.certificate.kind == "certificate":
-        yield Paragraph(
-            scribe.say(
-                Words(
-                    en="This certificate may be reproduced only in full, unless the laboratory agrees in "
-                    "writing.",
-                    de="Dieser Kalibrierschein darf nur vollständig vervielfältigt werden; Auszüge "
-                    "bedürfen der "
-                    "schriftlichen Zustimmung des Laboratoriums.",
-                )
-            )
-        )

@@ -12,11 +12,14 @@ from datetime import date
 from enum import Enum
 from typing import TypeAlias
 
+from zlmreport.certificate.attachments import Attachment, Source
 from zlmreport.evaluation.evaluation import Evaluation
 from zlmreport.figures.figure import Figure
+from zlmreport.job.job import Job
 from zlmreport.language import Language
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.model.diagnosis import Diagnosis
+from zlmreport.uncertainty.budget import Budget, NoBudget
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,12 +77,14 @@ class Column:
 class RowGroup:
     """Rows under a heading of their own; no heading for a plain table.
 
-    `note` stands under the heading: what the group means.
+    `note` stands under the heading: what the group means. `section` is the key of the section that says
+    more; empty without one.
     """
 
     rows: tuple[tuple[Cell, ...], ...]
     heading: str = ""
     note: str = ""
+    section: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -208,10 +213,20 @@ class Certificate:
     measurements, evaluations, diagnosis
         What the sections were made of, for renderers of data; the diagnosis is None where the job names no
         error model.
+    budget
+        Of the uncertainties of the evaluations, or why there is none; None where nobody asked for it.
+    job
+        What was asked for, for renderers of data; None where the document was made of no job.
+    evaluations_as_found
+        Of the axis before it was adjusted, by the same standards; empty where it was not.
     generator
         Name and version of this program.
     plugins
         Identifier and version of every plugin that took part.
+    sources
+        The files that it was made from, the job first.
+    attachments
+        What a document that can carry files carries.
     """
 
     number: str
@@ -231,6 +246,11 @@ class Certificate:
     keywords: tuple[str, ...] = ()
     plugins: Mapping[str, str] = field(default_factory=dict)
     diagnosis: Diagnosis | None = None
+    evaluations_as_found: tuple[Evaluation, ...] = ()
+    budget: Budget | NoBudget | None = None
+    job: Job | None = None
+    sources: tuple[Source, ...] = ()
+    attachments: tuple[Attachment, ...] = ()
 
     @property
     def figures(self) -> tuple[Figure, ...]:

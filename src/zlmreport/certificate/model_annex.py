@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from zlmreport.certificate.document import Block, Facts, Graph, Notice, Paragraph, Section
 from zlmreport.certificate.forecast import Forecast
 from zlmreport.certificate.model_tables import ModelTables
+from zlmreport.certificate.opinions import OPINION
 from zlmreport.certificate.scribe import Scribe
 from zlmreport.figures.figure import Figure
 from zlmreport.figures.model_diagram import ModelDiagram
@@ -28,10 +29,6 @@ from zlmreport.model.study import Fitted
 _TITLE = Words(
     en="Annex: error model – opinion and interpretation",
     de="Anhang: Fehlermodell – Meinung und Interpretation",
-)
-_OPINION = Words(
-    en="Opinion and interpretation (ISO/IEC 17025:2017, 7.8.7), not a result of the calibration",
-    de="Meinung und Interpretation (ISO/IEC 17025:2017, 7.8.7), kein Ergebnis der Kalibrierung",
 )
 _BASIS = Words(
     en="It rests on the readings of this document alone: a model of physical effects was fitted to them. "
@@ -52,7 +49,7 @@ _MOVES = Words(
     "nur, wenn die Steuerung es während der Bewegung kompensiert oder die Ursache beseitigt wird.",
 )
 _FAILED = Words(en="Where the model fails", de="Wo das Modell versagt")
-_FAILURE = Words(en="{where}: {statement}", de="{where}: {statement}")
+_FAILURE = Words(en="{statement} ({where})", de="{statement} ({where})")
 _NO_FAILURE = Words(
     en="No test of the residuals fails: not that of the means against the repeats, nor those over direction, "
     "run, time and the logged conditions.",
@@ -93,7 +90,7 @@ def section(modelled: Modelled, scribe: Scribe) -> Section:
     tables = ModelTables(scribe, whole.fit.design, modelled.titles)
     diagram = ModelDiagram(whole.fit, whole.error)
     blocks: list[Block] = [
-        Notice(scribe.say(_OPINION), (scribe.say(_BASIS),)),
+        Notice(scribe.say(OPINION), (scribe.say(_BASIS),)),
         Paragraph(scribe.say(verdict_statement(diagnosis))),
         _error(whole, scribe),
         tables.equations(whole),

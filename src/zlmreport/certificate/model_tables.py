@@ -25,6 +25,7 @@ from zlmreport.quantities.uncertain import rounded_pair
 _EFFECT = Words(en="Effect", de="Einfluss")
 _PERCENT = 100.0
 _READINGS = Words(en="readings", de="Messwerte")
+_OF_GRID = Words(en="{half_width} (grid)", de="{half_width} (Raster)")
 _AMPLITUDE = Words(
     en="Amplitude of harmonic {order}, from the above", de="Amplitude der {order}. Harmonischen, aus Obigem"
 )
@@ -84,9 +85,11 @@ class ModelTables:
         say = self.scribe.say
         caption = Words(
             en="Parameters of the model with expanded uncertainty U (coverage probability about 95 %). "
+            "Grid: one of the values that were tried, with the half-width of the interval that holds it. "
             "Plausible: within what is usual for the effect",
             de="Parameter des Modells mit erweiterter Messunsicherheit U (Überdeckungswahrscheinlichkeit "
-            "etwa 95 %). Plausibel: im Bereich des für den Einfluss Üblichen",
+            "etwa 95 %). Raster: einer der geprüften Werte, mit der halben Weite des Intervalls, in dem er "
+            "liegt. Plausibel: im Bereich des für den Einfluss Üblichen",
         )
         columns = (
             Column(say(Words(en="Symbol", de="Zeichen"))),
@@ -252,6 +255,8 @@ class ModelTables:
         if estimate.is_given:
             value = self.scribe.number(estimate.value * unit.per_si)
             uncertainty = self.scribe.say(Words(en="given", de="vorgegeben"))
+        elif estimate.is_scanned:
+            uncertainty = self.scribe.say(_OF_GRID.given(half_width=uncertainty))
         plausibility = estimate.plausibility(time_is_counted=self.design.time_is_counted)
         return (
             Symbol(parameter.notation),

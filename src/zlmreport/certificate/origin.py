@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 
+from zlmreport.certificate.attachments import Role, Source
 from zlmreport.certificate.document import (
     Align,
     Block,
@@ -15,7 +16,6 @@ from zlmreport.certificate.document import (
     Table,
 )
 from zlmreport.certificate.scribe import Scribe
-from zlmreport.job.job import Job
 from zlmreport.language import Words
 from zlmreport.measurement.measurement_set import MeasurementSet
 
@@ -23,9 +23,27 @@ _TITLE = Words(en="Origin of the results", de="Herkunft der Ergebnisse")
 
 
 def section(
-    job: Job, measurements: MeasurementSet, generator: str, plugins: Mapping[str, str], scribe: Scribe
+    sources: Sequence[Source],
+    measurements: Sequence[MeasurementSet],
+    generator: str,
+    plugins: Mapping[str, str],
+    scribe: Scribe,
 ) -> Section:
-    """Return the section that lets anyone evaluate again: files with digests, program and plugins."""
+    """Return the section that lets anyone evaluate again: files with digests, program and plugins.
+
+    Parameters
+    ----------
+    sources
+        All files that the document was made from.
+    measurements
+        What was read: the axis as left, and as found if it was adjusted.
+    generator
+        Name and version of this program.
+    plugins
+        Identifier and version of every plugin that took part.
+    scribe
+        Of the document.
+    """
     programs = Facts(
         (
             (scribe.say(Words(en="Program", de="Programm")), generator),
@@ -33,13 +51,22 @@ def section(
         ),
         scribe.say(Words(en="Evaluated with", de="Ausgewertet mit")),
     )
-    blocks: list[Block] = [_files(job, measurements, scribe), programs]
-    if measurements.provenance.remarks:
-        blocks.append(_remarks(measurements, scribe))
+    blocks: list[Block] = [_files(sources, measurements, scribe), programs]
+    remarks = tuple(remark for each in measurements for remark in each.provenance.remarks)
+    if remarks:
+        blocks.append(_remarks(remarks, scribe))
     blocks.extend(Paragraph(scribe.say(words)) for words in _READING_AIDS)
     return Section("origin", scribe.say(_TITLE), tuple(blocks))
 
 
+#: Above the files of each measurement: of the axis as left, and as found if it was adjusted.
+_READINGS = (
+    Words(en="Readings, read by {source}", de="Messwerte, gelesen mit {source}"),
+    Words(
+        en="Readings as found, read by {source}",
+        de="Messwerte im vorgefundenen Zustand, gelesen mit {source}",
+    ),
+)
 _READING_AIDS = (
     Words(
         en="Values were computed from the unrounded readings, and limits are compared with unrounded values; "
@@ -57,37 +84,38 @@ _READING_AIDS = (
 )
 
 
-def _remarks(measurements: MeasurementSet, scribe: Scribe) -> Table:
+def _remarks(remarks: Iterable[Words], scribe: Scribe) -> Table:
     """Return what the reader of the files has to say of them."""
     heading = scribe.say(
         Words(en="How the readings were understood", de="Wie die Messwerte verstanden wurden")
     )
-    rows = tuple((scribe.say(remark),) for remark in measurements.provenance.remarks)
+    rows = tuple((said,) for said in dict.fromkeys(map(scribe.say, remarks)))
     return Table(scribe.say(Words(en="Remarks", de="Bemerkungen")), (Column(heading),), (RowGroup(rows),))
 
 
-def _files(job: Job, measurements: MeasurementSet, scribe: Scribe) -> Table:
+def _files(sources: Sequence[Source], measurements: Sequence[MeasurementSet], scribe: Scribe) -> Table:
     columns = (
         Column(scribe.say(Words(en="File", de="Datei"))),
         Column("Bytes", align=Align.RIGHT),
         Column("SHA-256"),
     )
-    readings = tuple((file.name, str(file.size), file.sha256) for file in measurements.provenance.files)
-    jobs = tuple((file.name, str(file.size), file.sha256) for file in job.files)
-    groups = (
+    readings = [source for source in sources if source.role is Role.READINGS]
+    groups = [
         RowGroup(
-            readings,
-            scribe.say(
-                Words(en="Readings, read by {source}", de="Messwerte, gelesen mit {source}").given(
-                    source=measurements.provenance.source
-                )
-            ),
-        ),
-        RowGroup(jobs, scribe.say(Words(en="Job", de="Auftrag"))),
-    )
+            tuple(_row(source) for source in readings if source.file in each.provenance.files),
+            scribe.say(heading.given(source=each.provenance.source)),
+        )
+        for heading, each in zip(_READINGS, measurements, strict=False)
+    ]
+    others = tuple(_row(source) for source in sources if source not in readings)
+    groups.append(RowGroup(others, scribe.say(Words(en="Job", de="Auftrag"))))
     return Table(
         scribe.say(Words(en="Files", de="Dateien")),
         columns,
         tuple(group for group in groups if group.rows),
         dense=True,
     )
+
+
+def _row(source: Source) -> tuple[str, str, str]:
+    return source.name, str(source.file.size), source.file.sha256

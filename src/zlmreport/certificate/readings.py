@@ -30,8 +30,18 @@ _CAPTION = Words(
 )
 
 
-def section(measurements: MeasurementSet, scribe: Scribe) -> Section:
-    """Return the section of raw readings: one row a target, runs as columns."""
+def section(measurements: MeasurementSet, scribe: Scribe, key: str = "measurement.source") -> Section:
+    """Return the section of raw readings: one row a target, runs as columns.
+
+    Parameters
+    ----------
+    measurements
+        The readings.
+    scribe
+        Of the document.
+    key
+        The job key that names their source: marked if the readings are the customer's.
+    """
     blocks: list[Block] = [*missing_readings(measurements, scribe)]
     columns = [
         (approach, index) for approach in measurements.approaches for index in range(len(measurements.runs))
@@ -40,7 +50,7 @@ def section(measurements: MeasurementSet, scribe: Scribe) -> Section:
     blocks.extend(
         _table(measurements, chosen, scribe) for chosen in ([columns] if fit else _by_approach(columns))
     )
-    return Section("readings", scribe.say(_TITLE), tuple(blocks), new_page=True)
+    return Section("readings", scribe.say(_TITLE) + scribe.marks.after(key), tuple(blocks), new_page=True)
 
 
 def missing_readings(measurements: MeasurementSet, scribe: Scribe) -> Iterator[Notice]:

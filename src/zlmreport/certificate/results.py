@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 
+import numpy as np
+
+from zlmreport.certificate import conformity
 from zlmreport.certificate.document import (
     Align,
     Block,
-    Cell,
     Column,
     Explained,
     Formulas,
@@ -22,21 +24,24 @@ from zlmreport.certificate.document import (
     Table,
     Verdict,
 )
-from zlmreport.certificate.scribe import NOTHING, Scribe
-from zlmreport.evaluation.evaluation import Evaluation, Parameter
+from zlmreport.certificate.scribe import Scribe
+from zlmreport.certificate.values import Values, written_uncertainty
+from zlmreport.evaluation.evaluation import Evaluation
 from zlmreport.evaluation.quantity import Group
 from zlmreport.evaluation.requirements import Basis, Finding
 from zlmreport.figures.figure import Figure
 from zlmreport.language import Words
 from zlmreport.quantities.arrays import FloatArray
+from zlmreport.uncertainty.budget import Budget, NoBudget
 
 
 @dataclass(frozen=True, slots=True)
 class Evaluated:
-    """An evaluation with the standard's prescribed graphs of it."""
+    """An evaluation with the standard's prescribed graphs of it, and the budget of its uncertainties."""
 
     evaluation: Evaluation
     figures: tuple[Figure, ...]
+    budget: Budget | NoBudget
 
 
 _GROUPS = {
@@ -63,12 +68,14 @@ _GROUPS = {
     ),
 }
 
-CONFORMS = Words(en="conforms", de="eingehalten")
-DOES_NOT_CONFORM = Words(en="does not conform", de="nicht eingehalten")
-UNDECIDED = Words(en="not decided", de="nicht entschieden")
 _MET = Words(en="met", de="erfüllt")
 _NOT_MET = Words(en="not met", de="nicht erfüllt")
 _OPEN = Words(en="open", de="offen")
+
+
+def section_key(evaluation: Evaluation) -> str:
+    """Return the key of the section on the results by one standard."""
+    return evaluation.standard.replace(":", "-")
 
 
 def section(evaluated: Evaluated, scribe: Scribe) -> Section:
@@ -80,53 +87,18 @@ def section(evaluated: Evaluated, scribe: Scribe) -> Section:
         *_shortfalls(evaluation, scribe),
         _parameters(evaluation, scribe),
         *map(Graph, evaluated.figures),
+        *conformity.blocks(evaluation, scribe),
         _positions(evaluation, scribe),
         _requirements(evaluation, scribe),
         _definitions(evaluation, scribe),
         *(Paragraph(scribe.say(note)) for note in evaluation.notes),
     ]
     return Section(
-        key=evaluation.standard.replace(":", "-"),
+        key=section_key(evaluation),
         title=scribe.say(title.given(designation=evaluation.designation)),
         blocks=tuple(blocks),
         new_page=True,
     )
-
-
-def value_columns(evaluations: Iterable[Evaluation], scribe: Scribe) -> tuple[Column, ...]:
-    """Return the columns for a parameter's value, and for its limit and conformity if any limit is stated."""
-    unit = scribe.deviation_unit.symbol
-    value = Column(scribe.say(Words(en="Value", de="Wert")), unit, Align.RIGHT)
-    if not any(parameter.limit is not None for each in evaluations for parameter in each.parameters):
-        return (value,)
-    return (
-        value,
-        Column(scribe.say(Words(en="Limit", de="Grenzwert")), unit, Align.RIGHT),
-        Column(scribe.say(Words(en="Conformity", de="Konformität"))),
-    )
-
-
-def value_cells(parameter: Parameter, columns: tuple[Column, ...], scribe: Scribe) -> tuple[Cell, ...]:
-    """Return the cells of a parameter under `value_columns`."""
-    cells = (scribe.deviation(parameter.printed_value), limit(parameter, scribe), _verdict(parameter, scribe))
-    return cells[: len(columns)]
-
-
-def _verdict(parameter: Parameter, scribe: Scribe) -> Cell:
-    if parameter.limit is None:
-        return NOTHING
-    if parameter.conforms is None:
-        return Verdict(Mark.OPEN, scribe.say(UNDECIDED))
-    if parameter.conforms:
-        return Verdict(Mark.MET, scribe.say(CONFORMS))
-    return Verdict(Mark.NOT_MET, scribe.say(DOES_NOT_CONFORM))
-
-
-def limit(parameter: Parameter, scribe: Scribe) -> str:
-    """Write a parameter's limit as the job states it, with no digits added."""
-    if parameter.limit is None:
-        return NOTHING
-    return scribe.number(scribe.deviation_unit.from_si(parameter.limit))
 
 
 def _shortfalls(evaluation: Evaluation, scribe: Scribe) -> Iterator[Notice]:
@@ -149,11 +121,11 @@ def _shortfalls(evaluation: Evaluation, scribe: Scribe) -> Iterator[Notice]:
 
 
 def _parameters(evaluation: Evaluation, scribe: Scribe) -> Table:
-    values = value_columns([evaluation], scribe)
+    values = Values.of([evaluation], scribe)
     columns = (
         Column(scribe.say(Words(en="Symbol", de="Zeichen"))),
         Column(scribe.say(Words(en="Parameter and what it means", de="Kenngröße und ihre Bedeutung"))),
-        *values,
+        *values.columns,
     )
     groups = []
     for group, (heading, note) in _GROUPS.items():
@@ -161,7 +133,7 @@ def _parameters(evaluation: Evaluation, scribe: Scribe) -> Table:
             (
                 Symbol(parameter.quantity.notation),
                 Explained(scribe.say(parameter.quantity.name), scribe.say(parameter.quantity.meaning)),
-                *value_cells(parameter, values, scribe),
+                *values.cells(parameter),
             )
             for parameter in evaluation.parameters
             if parameter.quantity.group is group
@@ -202,6 +174,9 @@ def _positions(evaluation: Evaluation, scribe: Scribe) -> Table:
     if measurements.is_bidirectional:
         add(f"x̄{index}", statistics.mean_bidirectional)
         add(f"B{index}", statistics.reversal_value)
+    for arrows, expanded in _mean_uncertainties(evaluation):
+        columns.append(Column(Symbol(f"U(x̄{index}{arrows})"), unit, Align.RIGHT))
+        cells.append(tuple(written_uncertainty(float(value), scribe) for value in expanded))
     for column in evaluation.columns:
         if any(value == value for value in column.values.tolist()):  # noqa: PLR0124 - NaN is what differs from itself
             add(column.quantity.notation, column.values)
@@ -209,6 +184,20 @@ def _positions(evaluation: Evaluation, scribe: Scribe) -> Table:
     return Table(
         scribe.say(caption), tuple(columns), (RowGroup(tuple(zip(*cells, strict=True))),), dense=True
     )
+
+
+def _mean_uncertainties(evaluation: Evaluation) -> Iterator[tuple[str, FloatArray]]:
+    """Yield U of the mean deviations by direction: once, if it is alike in both directions."""
+    expanded = evaluation.mean_uncertainty
+    if expanded is None:
+        return
+    approaches = evaluation.measurements.approaches
+    of_each = [expanded.by_approach[approach.index] for approach in approaches]
+    if all(np.array_equal(values, of_each[0], equal_nan=True) for values in of_each):
+        yield "".join(approach.arrow for approach in approaches), of_each[0]
+        return
+    for approach, values in zip(approaches, of_each, strict=True):
+        yield approach.arrow, values
 
 
 def _requirements(evaluation: Evaluation, scribe: Scribe) -> Table:

@@ -8,9 +8,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from zlmreport.certificate.marks import NO_MARKS, Marks
 from zlmreport.language import Language, Words
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.quantities.arrays import FloatArray
+from zlmreport.quantities.decimals import decimals_of
 from zlmreport.quantities.formatting import fixed_number, general_number
 from zlmreport.quantities.units import Unit
 
@@ -35,6 +37,8 @@ class Scribe:
     position_decimals, deviation_decimals
         Decimals in which the readings were given. Results are printed to the same decimals, for more
         would claim more than was read.
+    marks
+        Which values are the customer's, or an external provider's.
     """
 
     language: Language
@@ -42,17 +46,19 @@ class Scribe:
     deviation_unit: Unit
     position_decimals: int
     deviation_decimals: int
+    marks: Marks = NO_MARKS
 
     @classmethod
-    def of(cls, measurements: MeasurementSet, language: Language) -> Scribe:
+    def of(cls, measurements: MeasurementSet, language: Language, marks: Marks = NO_MARKS) -> Scribe:
         """Return the scribe for a document on these measurements."""
         axis = measurements.axis
         return cls(
             language,
             axis.position_unit,
             axis.deviation_unit,
-            _decimals(axis.position_unit.from_si(measurements.target_positions), _MOST_TARGET_DECIMALS),
-            _decimals(axis.deviation_unit.from_si(measurements.deviation), _MOST_DECIMALS),
+            decimals_of(axis.position_unit.from_si(measurements.target_positions), _MOST_TARGET_DECIMALS),
+            decimals_of(axis.deviation_unit.from_si(measurements.deviation), _MOST_DECIMALS),
+            marks,
         )
 
     def say(self, words: Words) -> str:
@@ -96,15 +102,3 @@ class Scribe:
     def celsius_span(self, kelvin: FloatArray) -> str:
         """Write the range of logged temperatures in °C."""
         return f"{self.span(kelvin - _ZERO_CELSIUS, 2)} °C"
-
-
-def _decimals(values: FloatArray, most: int) -> int:
-    """Return the decimals in which values were given: the fewest that hold them all, at most `most`."""
-    finite = values[np.isfinite(values)]
-    # A thousandth of the last digit that could be printed, or a double's rounding of a large value:
-    # a position read as 10000.0001 mm leaves its deviation a little off its own decimals.
-    tolerance = np.maximum(1e-3 * 10.0**-most, 1e-9 * np.abs(finite))
-    for decimals in range(most):
-        if np.all(np.abs(np.round(finite, decimals) - finite) <= tolerance):
-            return decimals
-    return most

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import math
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, NoReturn
@@ -13,13 +14,19 @@ from zlmreport.errors import InputError, Place, did_you_mean
 #: The job's own name, for it has no word of its own on the command line.
 MAIN_JOB = "report"
 
+#: Environment variable with the password of the key that signs.
+SIGN_PASSWORD = "ZLMREPORT_SIGN_PASSWORD"  # noqa: S105 (a name)
+
 _COMMANDS = {
     "check": "validate jobs, their data and the tests; write nothing",
     "init": "write a commented job with sample data that runs as it is",
     "model": "fit a job's error model, find what it lacks, add it, watch the error fall",
+    "plan": "choose targets and their sequence, and say what such a test will not see",
     "plugins": "list the plugins found, and why one failed to load",
     "schema": "print the JSON Schema of the job file, for editors",
     "simulate": "write simulated readings of a described axis, and a job for them",
+    "verify": "evaluate a certificate again from what it carries, and say whether it holds",
+    "surface": "fit the deviation over a plane, from lines that were measured in it",
 }
 
 _MAIN_DESCRIPTION = f"""\
@@ -128,6 +135,12 @@ def _main_job() -> _Parser:
     parser.add_argument(
         "--format", metavar="F,F", help="formats, parted by commas, instead of the job's: pdf,html,json"
     )
+    parser.add_argument(
+        "--sign",
+        metavar="ID",
+        help="sign the PDF with the key in a PKCS#12 file (ID.p12) or a token (pkcs11:…); its password is "
+        f"asked for, or stands in the environment variable {SIGN_PASSWORD}",
+    )
     parser.add_argument("--quiet", action="store_true", help="print nothing but mistakes")
     parser.add_argument("--json", action="store_true", help=_JSON_HELP)
     parser.add_argument(
@@ -195,6 +208,87 @@ def _simulate(command: str) -> _Parser:
     return parser
 
 
+def _plan(command: str) -> _Parser:
+    parser = _Parser(
+        f"zlmreport {command}",
+        "Plan the test of a job before anything is measured: target positions with random fractions, the\n"
+        "sequence of its positioning method, and what such a test will see of each installed effect.\n"
+        "The readings that the job names need not exist. Numbers come from its key plan.",
+        "examples:\n  zlmreport plan x-axis.yaml\n  zlmreport plan x-axis.yaml --output plan",
+    )
+    parser.add_argument("job", metavar="JOB.yaml", type=Path, help="job file")
+    parser.add_argument(
+        "-o",
+        "--output",
+        metavar="DIR",
+        type=Path,
+        help="write the targets, and a form for the readings, as CSV files into this folder",
+    )
+    parser.add_argument("--json", action="store_true", help="print the plan as JSON (zlmreport/plan/1)")
+    return parser
+
+
+def _surface(command: str) -> _Parser:
+    parser = _Parser(
+        f"zlmreport {command}",
+        "Fit the deviation of an axis over a plane of two axes. Each job measures one line; its key\n"
+        "measurement.plane says where: {axis: Y, at: 200}. Printed are the polynomial of each direction\n"
+        "of approach, and the deviation at points of the plane with its expanded uncertainty.",
+        "example:\n  zlmreport surface y-100.yaml y-200.yaml y-300.yaml y-400.yaml --at 250,130",
+    )
+    _add_jobs(parser)
+    parser.add_argument(
+        "--at",
+        metavar="P,R",
+        type=_point,
+        action="append",
+        default=[],
+        help="a point: positions of the axis under test and of the second one, mm (--at=-20,130 for one that "
+        "is negative); may be given several times",
+    )
+    parser.add_argument(
+        "--json", action="store_true", help="print the values in full precision as JSON (zlmreport/surface/1)"
+    )
+    return parser
+
+
+def _position(text: str) -> float:
+    """Read a position."""
+    try:
+        position = float(text)
+    except ValueError:
+        position = math.nan
+    if not math.isfinite(position):
+        raise argparse.ArgumentTypeError(f"{text!r} is no position; write a number, such as 250")
+    return position
+
+
+def _point(text: str) -> tuple[float, float]:
+    """Read two positions, parted by a comma."""
+    along, _, across = text.partition(",")
+    try:
+        point = float(along), float(across)
+    except ValueError:
+        point = math.nan, math.nan
+    if not all(map(math.isfinite, point)):
+        raise argparse.ArgumentTypeError(f"{text!r} is no point; write two positions in mm, such as 250,130")
+    return point
+
+
+def _verify(command: str) -> _Parser:
+    parser = _Parser(
+        f"zlmreport {command}",
+        "Evaluate a certificate again from the job and the readings that it carries, print it again, and\n"
+        "say for every number, page and attached file whether it holds. Nothing is written.",
+        "example:\n  zlmreport verify CAL-2026-0117.pdf\n\n"
+        "exit codes: 0 everything holds; 1 something does not; 2 the file is no certificate of zlmreport, or\n"
+        "cannot be evaluated here; 3 the file cannot be read",
+    )
+    parser.add_argument("certificate", metavar="FILE.pdf", type=Path, help="certificate, signed or not")
+    parser.add_argument("--json", action="store_true", help="print every finding as JSON")
+    return parser
+
+
 _MODEL_ACTIONS = {
     "fit": "the parameters with their uncertainties, and the error that is left",
     "diagnose": "where the model fails, and which effect is missing",
@@ -225,6 +319,14 @@ def _model(command: str) -> _Parser:
         default="",
         help="of add and remove: an installed effect; add takes it with keys as in a job, too",
     )
+    parser.add_argument(
+        "--at",
+        metavar="P",
+        type=_position,
+        action="append",
+        default=[],
+        help="of fit: a position, mm or degrees, at which to state the deviation; may be given several times",
+    )
     parser.add_argument("--json", action="store_true", help="print the values in full precision as JSON")
     return parser
 
@@ -238,6 +340,8 @@ def _demand_model_action(options: argparse.Namespace, parser: _Parser) -> None:
     takes_effect = options.action in {"add", "remove"}
     if takes_effect and not options.effect.strip():
         parser.error(f"{options.action} needs the name of an effect, such as backlash")
+    if options.at and options.action != "fit":
+        parser.error(f"--at belongs to fit, not to {options.action}")
     if not takes_effect and options.effect:
         parser.error(f"{options.action} takes no effect, but {options.effect!r} is given")
 
@@ -245,10 +349,13 @@ def _demand_model_action(options: argparse.Namespace, parser: _Parser) -> None:
 _PARSERS = {
     "check": _check,
     "init": _init,
-    "plugins": _plugins,
     "model": _model,
+    "plan": _plan,
+    "plugins": _plugins,
     "schema": _schema,
     "simulate": _simulate,
+    "verify": _verify,
+    "surface": _surface,
 }
 
 

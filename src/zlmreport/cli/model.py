@@ -9,8 +9,10 @@ from typing import Any
 from zlmreport import pipeline
 from zlmreport.cli.model_changes import add, remove
 from zlmreport.cli.model_diagnosis import diagnosis_lines
+from zlmreport.cli.model_fall import history_lines
 from zlmreport.cli.model_json import fit_values, history_values
-from zlmreport.cli.model_lines import fit_lines, history_lines
+from zlmreport.cli.model_lines import fit_lines
+from zlmreport.cli.model_points import point_lines, point_values, points_of
 from zlmreport.cli.model_session import Session
 from zlmreport.cli.summary import print_json
 from zlmreport.errors import InputError
@@ -24,7 +26,7 @@ def run(options: Namespace) -> int:
     registry = find_plugins(files=options.plugin)
     job = load(options.job, registry)
     session = Session(options.job, job, pipeline.read(job, registry), registry)
-    lines, values = _ACTIONS[options.action](session, options.effect)
+    lines, values = _ACTIONS[options.action](session, options)
     if options.json:
         print_json(values)
     else:
@@ -32,18 +34,25 @@ def run(options: Namespace) -> int:
     return 0
 
 
-def _fit(session: Session, _: str) -> tuple[Iterable[str], Any]:
+def _fit(session: Session, options: Namespace) -> tuple[Iterable[str], Any]:
     _demand_effects(session)
     fitted = session.study().fitted()
-    return (*fit_lines(fitted, session.job), "", _next("diagnose", session)), fit_values(fitted)
+    points = points_of(fitted.fit, options.at)
+    lines = (
+        *fit_lines(fitted, session.job),
+        *point_lines(points, session.job.axis),
+        "",
+        _next("diagnose", session),
+    )
+    return lines, fit_values(fitted) | point_values(points, session.job.axis)
 
 
-def _diagnose(session: Session, _: str) -> tuple[Iterable[str], Any]:
+def _diagnose(session: Session, _: Namespace) -> tuple[Iterable[str], Any]:
     diagnosis = session.study().diagnosis(session.registry.effects)
     return diagnosis_lines(diagnosis, session.job, session.shown_path), report(diagnosis)
 
 
-def _history(session: Session, _: str) -> tuple[Iterable[str], Any]:
+def _history(session: Session, _: Namespace) -> tuple[Iterable[str], Any]:
     _demand_effects(session)
     study = session.study()
     history = study.history()
@@ -52,7 +61,15 @@ def _history(session: Session, _: str) -> tuple[Iterable[str], Any]:
     return lines, history_values(history, forecasts)
 
 
-_ACTIONS = {"fit": _fit, "diagnose": _diagnose, "add": add, "remove": remove, "history": _history}
+def _add(session: Session, options: Namespace) -> tuple[Iterable[str], Any]:
+    return add(session, options.effect)
+
+
+def _remove(session: Session, options: Namespace) -> tuple[Iterable[str], Any]:
+    return remove(session, options.effect)
+
+
+_ACTIONS = {"fit": _fit, "diagnose": _diagnose, "add": _add, "remove": _remove, "history": _history}
 
 
 def _next(action: str, session: Session) -> str:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
+from zlmreport.cli.model_fall import change_lines
 from zlmreport.cli.model_json import change_values
-from zlmreport.cli.model_lines import change_lines
 from zlmreport.cli.model_session import Change, Session
 from zlmreport.errors import InputError, Place, Problem, did_you_mean
 from zlmreport.job.edit import NamedEffect, edit_effects, named_effect
@@ -69,7 +69,10 @@ def _refuse_useless(session: Session, change: Change) -> None:
 
 
 def _rms(fitted: Fitted) -> str:
-    return wording.deviation(fitted.fit.design.axis, fitted.error.rms).in_language(Language.ENGLISH)
+    """Write an error with so many digits that a slight change shows."""
+    unit = fitted.fit.design.axis.deviation_unit
+    digits = wording.significant(unit.from_si(fitted.error.rms), 4)
+    return f"{digits.in_language(Language.ENGLISH)} {unit.symbol}"
 
 
 def _written(session: Session, change: Change) -> tuple[Iterable[str], Any]:

@@ -28,7 +28,9 @@ _COLOURS = {
 }
 #: Share of an effect that a plan sees, below which it hides it.
 _HIDDEN = 0.1
-_LEAST_P = 1e-99
+#: Nobody knows the tails of real scatter better: below, a smaller chance is no stronger evidence.
+_LEAST_P = 1e-6
+_SMALL_P = 1e-3
 
 
 def diagnosis_lines(diagnosis: Diagnosis, job: Job, path: str) -> Iterator[str]:
@@ -57,7 +59,7 @@ def _failures(diagnosis: Diagnosis) -> Iterator[str]:
         return
     yield from ("", Colour.BOLD.of("where it fails"))
     for failure in diagnosis.failures:
-        text = f"{said(failure.where)}: {said(failure.statement)}  ({_p(failure.p_value)})"
+        text = f"{said(failure.statement)} ({said(failure.where)}; {_p(failure.p_value)})"
         yield from wrapped(text)
 
 
@@ -76,7 +78,7 @@ def _candidates(diagnosis: Diagnosis) -> Iterator[str]:
                 _percent(each.probability),
                 said(wording.significant(unit.from_si(each.error.rms))),
                 "–" if left_out is None else said(wording.significant(unit.from_si(left_out))),
-                f"{_p(each.p_value)}{' (extrapolated)' if each.p_value_is_extrapolated else ''}",
+                _p(each.p_value, is_extrapolated=each.p_value_is_extrapolated),
             )
         )
     lines = list(table(rows, right=(2, 3, 4), indent="  "))
@@ -131,10 +133,17 @@ def _argument(effect: Effect) -> str:
     return f"'{effect.identifier}: {json.dumps(settings)}'"
 
 
-def _p(value: float) -> str:
+def _p(value: float, *, is_extrapolated: bool = False) -> str:
+    """Write a chance with as many digits as it is known to: one if no simulated test comes near it."""
+    equals, digits, remark = ("≈", 0, " (extrapolated)") if is_extrapolated else ("=", 1, "")
     if value < _LEAST_P:
-        return "p < 1e-99"
-    return f"p = {value:.1e}" if value < 1e-3 else f"p = {value:.3f}"
+        return f"p < {_power(_LEAST_P, 0)}{remark}"
+    return f"p {equals} {_power(value, digits) if value < _SMALL_P else f'{value:.3f}'}{remark}"
+
+
+def _power(value: float, digits: int) -> str:
+    mantissa, exponent = f"{value:.{digits}e}".split("e")
+    return f"{mantissa}e{int(exponent)}"
 
 
 def _percent(share: float) -> str:

@@ -1,21 +1,18 @@
-"""What people read of an error model on a terminal: its parameters, how the error fell, what was changed."""
+"""What people read of an error model on a terminal: its error and its parameters."""
 
 from __future__ import annotations
 
+import re
 import shutil
-import sys
 import textwrap
 from collections.abc import Iterator, Sequence
 from math import degrees
 
-from zlmreport.certificate.forecast import Forecast
-from zlmreport.cli.model_session import Change, Session
-from zlmreport.cli.terminal import Colour, shown_path, table
+from zlmreport.cli.terminal import Colour, table
 from zlmreport.job.job import Job
 from zlmreport.language import Language, Words
 from zlmreport.model import wording
 from zlmreport.model.amplitudes import waves
-from zlmreport.model.correction import moves_with_time
 from zlmreport.model.design import Design
 from zlmreport.model.diagnosis import ErrorNumbers
 from zlmreport.model.estimate import Estimate, Plausibility
@@ -23,12 +20,14 @@ from zlmreport.model.fit import Fit
 from zlmreport.model.parameter import Dimension, unit_of
 from zlmreport.model.study import Fitted
 from zlmreport.quantities.formatting import fixed_number, general_number
-from zlmreport.quantities.notation import plain
 from zlmreport.quantities.uncertain import rounded_pair
 
 _USUAL_WIDTH, _SMALLEST_WIDTH = 110, 60
-_BAR_WIDTH = 28
-_EIGHTHS = " ▏▎▍▌▋▊▉█"
+#: A blank at which no line ends: before a number or a unit, and around a sign between numbers.
+_HELD = "\N{NO-BREAK SPACE}"
+_WITHIN_A_VALUE = re.compile(
+    r" (?=[−\d]|[±=<≈] )|(?<=[±=<≈]) |(?<=\d) (?=(?:[mµn]?m|s|min|readings|%|°|″)(?!\w))"
+)
 _DOUBTS = {Plausibility.DOUBTFUL: Colour.YELLOW, Plausibility.IMPLAUSIBLE: Colour.RED}
 
 
@@ -43,10 +42,15 @@ def width() -> int:
 
 
 def wrapped(text: str, indent: str = "  ") -> list[str]:
-    """Return a text in lines that fit, all but the first further in."""
-    return textwrap.wrap(
-        text, width(), initial_indent=indent, subsequent_indent=f"{indent}  ", break_on_hyphens=False
+    """Return a text in lines that fit, all but the first further in; no line ends within a value."""
+    lines = textwrap.wrap(
+        _WITHIN_A_VALUE.sub(_HELD, text),
+        width(),
+        initial_indent=indent,
+        subsequent_indent=f"{indent}  ",
+        break_on_hyphens=False,
     )
+    return [line.replace(_HELD, " ") for line in lines]
 
 
 def heading(job: Job, identifiers: Sequence[str]) -> str:
@@ -103,88 +107,6 @@ def estimate_text(estimate: Estimate, design: Design) -> str:
     return f"{estimate.parameter.name} {value} {uncertainty}".strip() + (f" ({remark})" if remark else "")
 
 
-def history_lines(history: Sequence[Fitted], forecasts: Sequence[Forecast], job: Job) -> Iterator[str]:
-    """Yield how the error fell, effect by effect."""
-    yield heading(job, history[-1].fit.model.identifiers)
-    yield ""
-    yield from fall_lines(history, forecasts)
-
-
-def change_lines(session: Session, change: Change) -> Iterator[str]:
-    """Yield what became of the job, and how the error changed."""
-    path, after = session.shown_path, change.history[-1]
-    if change.edit.inherited_from:
-        origin = shown_path(session.path.parent / change.edit.inherited_from)
-        yield f"{path} had its effects from {origin}; now they stand in {path} itself"
-    done = [f"− {name}" for name in change.removed] + ([f"+ {change.added}"] if change.added else [])
-    yield f"{path}: {', '.join(done)}"
-    yield ""
-    design = after.fit.design
-    rows = [
-        ("before", error_line(change.before.error, change.before.fit.design)),
-        ("after", error_line(after.error, design)),
-    ]
-    yield from table(rows, indent="  ")
-    yield ""
-    if change.added:
-        own = [each for each in after.fit.estimates if each.effect == change.added]
-        yield from wrapped(f"{change.added}: {', '.join(estimate_text(each, design) for each in own)}")
-        if all(each.is_given or abs(each.value) < each.expanded_uncertainty for each in own):
-            yield f"  {Colour.YELLOW.of('nothing')} of it exceeds its uncertainty: it may not be there"
-        yield ""
-    yield from fall_lines(change.history, change.forecasts)
-    yield ""
-    yield f"next: zlmreport model diagnose {path}"
-
-
-def fall_lines(history: Sequence[Fitted], forecasts: Sequence[Forecast]) -> Iterator[str]:
-    """Yield the fall chart: a bar for each effect, down to the noise floor, and what standards would say."""
-    whole = history[-1]
-    unit = whole.fit.design.axis.deviation_unit
-    largest = max(each.error.rms for each in history)
-    forecast = forecasts[0]
-    symbols = [plain(quantity.notation) for quantity in forecast.quantities]
-    rows = [("", "", f"rms {unit.symbol}", "left out", *symbols)]
-    names = ["without model", *(f"+ {name}" for name in whole.fit.model.identifiers)]
-    for name, each, values in zip(names, history, forecast.by_step.tolist(), strict=True):
-        rows.append(
-            (
-                name,
-                bar(each.error.rms / largest if largest else 0.0),
-                _number(unit.from_si(each.error.rms)),
-                _number_or_nothing(each.error.cross_validated_rms, whole),
-                *(_number(unit.from_si(value)) for value in values),
-            )
-        )
-    floor = whole.error.noise_rms
-    if floor is not None:
-        blank = ("",) * (1 + len(symbols))
-        share = floor / largest if largest else 0.0
-        rows.append(("noise floor", bar(share), _number(unit.from_si(floor)), *blank))
-    yield from table(rows, right=range(2, 4 + len(symbols)), indent="  ")
-    what = f"{', '.join(symbols)}: {forecast.designation}"
-    yield f"  {what}, predicted if the control corrects all effects so far"
-    moving = moves_with_time(whole.fit)
-    if moving:
-        yield f"  no table of positions takes away {', '.join(moving)}: not fixed in position"
-
-
-def bar(share: float) -> str:
-    """Return a bar of a length between 0 and 1."""
-    eighths = round(share * 8 * _BAR_WIDTH)
-    if not _can_print(_EIGHTHS):
-        return "#" * max(1, round(eighths / 8)) if eighths else ""
-    return (_EIGHTHS[-1] * (eighths // 8) + _EIGHTHS[eighths % 8]).rstrip()
-
-
-def _can_print(text: str) -> bool:
-    try:
-        text.encode(sys.stdout.encoding or "ascii")
-    except UnicodeEncodeError:
-        return False
-    return True
-
-
 def _wave_rows(fit: Fit) -> Iterator[tuple[str, ...]]:
     unit = fit.design.axis.deviation_unit
     angle = unit_of(Dimension.ANGLE, fit.design.axis.kind)
@@ -204,7 +126,8 @@ def _value(estimate: Estimate, design: Design) -> tuple[str, str]:
     if estimate.is_given:
         return general_number(estimate.value * unit.per_si), f"{unit.symbol} (given)".strip()
     value, half = rounded_pair(estimate.value * unit.per_si, estimate.expanded_uncertainty * unit.per_si)
-    return value, f"± {half} {unit.symbol}".rstrip()
+    grid = " (grid)" if estimate.is_scanned else ""
+    return value, f"± {half} {unit.symbol}".rstrip() + grid
 
 
 def _remark(estimate: Estimate, design: Design) -> str:
@@ -220,10 +143,10 @@ def _remark(estimate: Estimate, design: Design) -> str:
 
 def _deviation(value: float, design: Design) -> str:
     unit = design.axis.deviation_unit
-    return f"{_number(unit.from_si(value))} {unit.symbol}"
+    return f"{number(unit.from_si(value))} {unit.symbol}"
 
 
-def _number(value: float) -> str:
+def number(value: float) -> str:
     """Write a number with two decimals, or more if it is small."""
     if value != value:  # noqa: PLR0124 - NaN is what differs from itself
         return "–"
@@ -232,7 +155,3 @@ def _number(value: float) -> str:
         if abs(value) >= 0.1
         else said(wording.significant(value, 2))
     )
-
-
-def _number_or_nothing(value: float | None, fitted: Fitted) -> str:
-    return "–" if value is None else _number(fitted.fit.design.axis.deviation_unit.from_si(value))

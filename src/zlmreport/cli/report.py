@@ -8,20 +8,28 @@ from dataclasses import replace
 from zlmreport import pipeline
 from zlmreport.cli.jobs import do_all
 from zlmreport.cli.results import Result, load_all
+from zlmreport.cli.signature import demand_something_to_sign, signer_of
 from zlmreport.cli.terminal import report
 from zlmreport.errors import Place
 from zlmreport.job.job import Job
 from zlmreport.job.loading import chosen_formats
 from zlmreport.plugins import Registry, find_plugins
+from zlmreport.signing.signer import Signer
 
 
 def run(options: Namespace) -> int:
     """Make the certificates of all jobs and return the worst exit code."""
     registry = find_plugins(files=options.plugin)
     formats = _formats(options.format, registry)
+    with signer_of(options) as signer:
+        return _make(options, registry, formats, signer)
 
+
+def _make(options: Namespace, registry: Registry, formats: tuple[str, ...], signer: Signer | None) -> int:
     def made(result: Result, job: Job) -> Result:
-        outcome = pipeline.run(job, registry)
+        if signer:
+            demand_something_to_sign(job, registry)
+        outcome = pipeline.run(job, registry, signer)
         files = pipeline.write(outcome.documents)
         made = outcome.certificate
         return replace(result, evaluations=made.evaluations, diagnosis=made.diagnosis, files=files)

@@ -10,9 +10,10 @@ from collections.abc import Iterable, Iterator, Sequence
 from enum import Enum
 from pathlib import Path
 
+from zlmreport.certificate.conformity import STATEMENTS
 from zlmreport.certificate.readings import missing_readings
-from zlmreport.certificate.results import CONFORMS, DOES_NOT_CONFORM, UNDECIDED, limit
 from zlmreport.certificate.scribe import Scribe
+from zlmreport.certificate.values import limit, written
 from zlmreport.cli.messages import visible
 from zlmreport.cli.results import Result
 from zlmreport.evaluation.evaluation import Evaluation, Parameter
@@ -23,8 +24,9 @@ from zlmreport.model.statements import verdict_statement
 from zlmreport.quantities.notation import plain
 
 #: Of a terminal, in letters: its width where it has none, what a table needs beside the names of
-#: parameters, and how much of a name is always shown.
+#: parameters, and how much of a name is always shown; what the column of uncertainties needs.
 _USUAL_WIDTH, _OTHER_COLUMNS, _SHORTEST_NAME = 120, 44, 24
+_UNCERTAINTY_COLUMN = 7
 
 
 class Colour(Enum):
@@ -102,32 +104,49 @@ def _subject(job: Job) -> str:
 
 def _parameters(evaluation: Evaluation, scribe: Scribe) -> Iterator[str]:
     has_limits = any(parameter.limit is not None for parameter in evaluation.parameters)
-    longest_name = max(_SHORTEST_NAME, shutil.get_terminal_size((_USUAL_WIDTH, 0)).columns - _OTHER_COLUMNS)
-    rows = [
-        (
-            plain(parameter.quantity.notation),
-            _shortened(scribe.say(parameter.quantity.name), longest_name),
-            scribe.deviation(parameter.printed_value),
-            limit(parameter, scribe) if has_limits else "",
-            _verdict(parameter, scribe),
-        )
-        for parameter in evaluation.parameters
-    ]
-    headings = ("", "", scribe.deviation_unit.symbol, "limit" if has_limits else "", "")
-    first, *others = table([headings, *rows], right=(2, 3))
+    has_uncertainty = any(parameter.expanded_uncertainty is not None for parameter in evaluation.parameters)
+    other_columns = _OTHER_COLUMNS + (_UNCERTAINTY_COLUMN if has_uncertainty else 0)
+    longest_name = max(_SHORTEST_NAME, shutil.get_terminal_size((_USUAL_WIDTH, 0)).columns - other_columns)
+    names = [_shortened(scribe.say(each.quantity.name), longest_name) for each in evaluation.parameters]
+    values = zip(
+        *(_value(each, scribe, with_uncertainty=has_uncertainty) for each in evaluation.parameters),
+        strict=True,
+    )
+    rows = zip(
+        (plain(each.quantity.notation) for each in evaluation.parameters),
+        names,
+        *map(_on_the_point, values),
+        (limit(each, scribe) if has_limits else "" for each in evaluation.parameters),
+        (_verdict(each, scribe) for each in evaluation.parameters),
+        strict=True,
+    )
+    unit = scribe.deviation_unit.symbol
+    headings = ("", "", unit, *(["± U"] if has_uncertainty else []), "limit" if has_limits else "", "")
+    first, *others = table([headings, *rows], right=range(2, len(headings) - 1))
     room = len(first) - len(first.lstrip()) - 1
     yield f"  {evaluation.designation}".ljust(room) + first[room:]
     yield from others
 
 
+def _value(parameter: Parameter, scribe: Scribe, *, with_uncertainty: bool) -> tuple[str, ...]:
+    """Return a value, and with its uncertainty both as the certificate prints them."""
+    return written(parameter, scribe) if with_uncertainty else (scribe.deviation(parameter.printed_value),)
+
+
+def _on_the_point(numbers: Sequence[str]) -> list[str]:
+    """Return numbers that stand with their decimal points below each other when they end alike."""
+    decimals = [len(number) - number.find(".") if "." in number else 0 for number in numbers]
+    return [number + " " * (max(decimals) - own) for number, own in zip(numbers, decimals, strict=True)]
+
+
+_COLOURS = {True: Colour.GREEN, False: Colour.RED, None: Colour.YELLOW}
+
+
 def _verdict(parameter: Parameter, scribe: Scribe) -> str:
-    if parameter.limit is None:
+    if parameter.decision is None:
         return ""
-    if parameter.conforms is None:
-        return Colour.YELLOW.of(scribe.say(UNDECIDED))
-    if parameter.conforms:
-        return Colour.GREEN.of(scribe.say(CONFORMS))
-    return Colour.RED.of(scribe.say(DOES_NOT_CONFORM))
+    _, words = STATEMENTS[parameter.decision.conformity]
+    return _COLOURS[parameter.conforms].of(scribe.say(words))
 
 
 def _notices(result: Result, scribe: Scribe) -> Iterator[str]:

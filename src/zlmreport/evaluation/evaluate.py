@@ -40,10 +40,8 @@ def evaluate(
     measurements: MeasurementSet,
     options: Any,
     tolerances: Mapping[str, float],
-    *,
-    decides_without_uncertainty: bool = True,
 ) -> Evaluation:
-    """Evaluate one test by one standard.
+    """Evaluate one test by one standard; nothing is decided on its limits yet (`decision.decided`).
 
     Parameters
     ----------
@@ -55,9 +53,6 @@ def evaluate(
         The standard's own job keys, as its options class validated them.
     tolerances : mapping of symbol to limit
         m or rad.
-    decides_without_uncertainty
-        Whether the decision rule compares the bare value with the limit (simple acceptance). A rule that
-        needs the uncertainty of a parameter leaves the verdict open where there is none.
     """
     statistics = position_statistics(measurements.deviations())
     arithmetic = standard.arithmetic(statistics, options)
@@ -70,10 +65,7 @@ def evaluate(
             if limit is not None:
                 undefined.append(_undefined(quantity))
             continue
-        conforms = None
-        if limit is not None and decides_without_uncertainty:
-            conforms = _keeps(value, limit)
-        parameters.append(Parameter(quantity, value, limit, conforms))
+        parameters.append(Parameter(quantity, value, limit))
     columns = tuple(
         PositionColumn(quantity, read_only_floats(arithmetic.positions[quantity.symbol]))
         for quantity in standard.position_quantities
@@ -90,15 +82,6 @@ def evaluate(
         findings=(*standard.requirements(measurements, options), *undefined),
         notes=standard.notes,
     )
-
-
-#: Binary doubles cannot hold 1 µm and 3 µm exactly: a range of exactly 2 µm must not fail a limit of 2 µm.
-_ROUNDING_OF_DOUBLES = 1e-9
-
-
-def _keeps(value: float, limit: float) -> bool:
-    """Tell whether the unrounded amount keeps its limit; the rounding of doubles decides nothing."""
-    return abs(value) <= limit * (1 + _ROUNDING_OF_DOUBLES)
 
 
 def _undefined(quantity: Quantity) -> Finding:

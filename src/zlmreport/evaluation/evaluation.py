@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from zlmreport.evaluation.conformity import Decision
 from zlmreport.evaluation.quantity import PositionQuantity, Quantity
 from zlmreport.evaluation.requirements import Finding
 from zlmreport.evaluation.statistics import PositionStatistics
@@ -42,19 +43,30 @@ class Parameter:
         m or rad, unrounded, with the sign of the results file.
     limit
         Tolerance that the job states, m or rad; None without one.
-    conforms
-        Whether the unrounded value keeps the limit under the decision rule; None without a limit, or
-        where the rule cannot decide.
     expanded_uncertainty, coverage_factor
-        U (m or rad) and k; None where not evaluated.
+        U = k·u (m or rad) and k; None where not evaluated.
+    decision
+        What the decision rule says of the unrounded value; None without a limit.
     """
 
     quantity: Quantity
     value: float
     limit: float | None = None
-    conforms: bool | None = None
     expanded_uncertainty: float | None = None
     coverage_factor: float | None = None
+    decision: Decision | None = None
+
+    @property
+    def conforms(self) -> bool | None:
+        """Whether the limit counts as kept; None without a limit, or where the rule decides nothing."""
+        return None if self.decision is None else self.decision.conformity.conforms
+
+    @property
+    def standard_uncertainty(self) -> float | None:
+        """u, m or rad; None where not evaluated."""
+        if self.expanded_uncertainty is None or self.coverage_factor is None:
+            return None
+        return self.expanded_uncertainty / self.coverage_factor
 
     @property
     def printed_value(self) -> float:
@@ -68,6 +80,25 @@ class PositionColumn:
 
     quantity: PositionQuantity
     values: FloatArray
+
+
+@dataclass(frozen=True, slots=True)
+class MeanUncertainty:
+    """Expanded uncertainty U = k·u of the mean deviations, m or rad; NaN where there is no mean.
+
+    Attributes
+    ----------
+    coverage_factor
+        k.
+    by_approach : (approach, position) array
+        U of x̄_i↑ and x̄_i↓.
+    bidirectional : (position,) array
+        U of x̄_i.
+    """
+
+    coverage_factor: float
+    by_approach: FloatArray
+    bidirectional: FloatArray
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,6 +127,8 @@ class Evaluation:
         Requirements of the standard, met or not.
     notes
         What a reader must know: formulas' source, corrections of errata, sign conventions.
+    mean_uncertainty
+        Of the mean deviations by position; None where not evaluated.
     """
 
     standard: str
@@ -108,6 +141,7 @@ class Evaluation:
     columns: tuple[PositionColumn, ...]
     findings: tuple[Finding, ...]
     notes: tuple[Words, ...]
+    mean_uncertainty: MeanUncertainty | None = None
 
     def parameter(self, symbol: str) -> Parameter | None:
         """Return a parameter of the axis; None where the test does not define it."""

@@ -13,7 +13,7 @@ from zlmreport.figures.canvas import Fill, Stroke
 from zlmreport.figures.dimensions import GAP, HEAD, HEAD_HALF_WIDTH, OVERSHOOT, Dimension
 from zlmreport.figures.draw_artists import Lettering, Marks, Outline
 from zlmreport.figures.draw_lettering import plain_label
-from zlmreport.figures.figure import Band, Curve, Readings
+from zlmreport.figures.figure import Band, Bar, Curve, Readings, Role
 from zlmreport.figures.frame import Box, Frame, PlacedLabel
 from zlmreport.figures.layout import TICK_GAP, TICK_LENGTH, TICK_LINE
 from zlmreport.figures.panel_layout import PanelLayout
@@ -41,8 +41,10 @@ from zlmreport.quantities.arrays import BoolArray, FloatArray
 _MARK_DISTANCE = 11.0
 #: Half the length of the dash that stands for a value between two gaps.
 _LONE_DASH = 3.5
-#: Half the width of a bar, in distances of bars.
+#: Half the width of a bar, of its whisker's ends, and of the mark across it, in distances of bars.
 _HALF_BAR = 0.32
+_HALF_WHISKER = 0.07
+_HALF_ACCEPTED = 0.4
 
 PAGE = IdentityTransform()
 
@@ -138,6 +140,20 @@ def _bars(layout: PanelLayout) -> Iterator[Artist]:
         bottom, top = sorted((frame.y_point(0.0), frame.y_point(bar.y)))
         corners = Box(left, bottom, right, top).corners
         yield Outline("bar", Path(corners, closed=True), PAGE, *BAR)
+        if bar.accepted is not None:
+            height = frame.y_point(bar.accepted)
+            ends = [(frame.x_point(number + side * _HALF_ACCEPTED), height) for side in (-1, 1)]
+            yield lines("accepted", [ends], ROLES[Role.BAND_LIMIT].stroke)
+        if bar.uncertainty:
+            yield _whisker(frame, number, bar)
+
+
+def _whisker(frame: Frame, number: int, bar: Bar) -> Outline:
+    low, high = (frame.y_point(bar.y + side * bar.uncertainty) for side in (-1, 1))
+    middle = frame.x_point(number)
+    left, right = (frame.x_point(number + side * _HALF_WHISKER) for side in (-1, 1))
+    across = [[(left, height), (right, height)] for height in (low, high)]
+    return lines("whisker", [[(middle, low), (middle, high)], *across], DIMENSION)
 
 
 def _curve(curve: Curve, frame: Frame, to_page: Affine2D) -> Iterator[Artist]:

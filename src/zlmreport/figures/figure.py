@@ -129,11 +129,17 @@ class Bar:
         Where it ends.
     value
         Written at its end.
+    uncertainty
+        Half the width of the interval about its end that is drawn as a whisker; 0 for none.
+    accepted
+        Up to where the bar may reach, marked by a line across it; None for no mark.
     """
 
     label: Words
     y: float
     value: Words
+    uncertainty: float = 0.0
+    accepted: float | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -142,7 +142,7 @@ def _values(panel: Panel) -> FloatArray:
     found.append(np.array([(arrow.low, arrow.high) for arrow in panel.arrows]))
     found.append(np.array([(bracket.low, bracket.high) for bracket in panel.brackets]))
     found.append(np.array([level.y for level in panel.levels]))
-    found.append(np.array([(0.0, bar.y) for bar in panel.bars]))
+    found.append(np.array([(0.0, bar.y + bar.uncertainty, bar.accepted or 0.0) for bar in panel.bars]))
     return _joined(found)
 
 

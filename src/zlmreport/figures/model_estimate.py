@@ -7,7 +7,6 @@ well that is known.
 
 from __future__ import annotations
 
-from dataclasses import replace
 from math import sqrt
 
 import numpy as np
@@ -17,11 +16,10 @@ from zlmreport.figures.figure import Band, Curve, Figure, Panel
 from zlmreport.figures.model_diagram import MODEL, UNCERTAINTY, ModelDiagram
 from zlmreport.figures.prescribed import POSITION_TITLE
 from zlmreport.language import Words
-from zlmreport.measurement.approach import Approach
 from zlmreport.model import wording
-from zlmreport.model.design import Design
+from zlmreport.model.anywhere import at_positions
 from zlmreport.model.effect import Shape
-from zlmreport.quantities.arrays import FloatArray, read_only_floats, read_only_integers
+from zlmreport.quantities.arrays import FloatArray, read_only_floats
 
 #: Positions at which the estimate is drawn.
 _POSITIONS = 480
@@ -52,7 +50,7 @@ def estimate(diagram: ModelDiagram) -> Figure:
     curves, bands, sentences = [], [], []
     largest = 0.0
     for approach in diagram.approaches:
-        found = fit.predict(_at(diagram.design, positions, approach))
+        found = fit.predict(at_positions(diagram.design, positions, approach))
         value, half = found.deviation, found.expanded_uncertainty
         arrow = approach.arrow
         curves.append(Curve(f"x̂{arrow}", MODEL[approach], x, diagram.printed(value)))
@@ -91,24 +89,3 @@ def _scattered(first: float, last: float) -> FloatArray:
     steps = np.arange(_POSITIONS)
     places = (steps + (steps * _GOLDEN) % 1.0) / _POSITIONS
     return read_only_floats(np.concatenate([[first], first + places[1:] * (last - first), [last]]))
-
-
-def _at(design: Design, positions: FloatArray, approach: Approach) -> Design:
-    """Return the design of one approach to positions, all else being as it was in the mean of the test."""
-    count = len(positions)
-    of_approach = np.flatnonzero(design.direction == approach)
-    order = of_approach[np.argsort(design.position[of_approach], kind="stable")]
-    targets, first = np.unique(design.position[order], return_index=True)
-    travelled = np.add.reduceat(design.since_reversal[order], first) / np.diff([*first, len(order)])
-    return replace(
-        design,
-        position=positions,
-        direction=read_only_floats(np.full(count, float(approach))),
-        run=read_only_integers(np.full(count, int(np.median(design.run)))),
-        target=read_only_integers(np.arange(count)),
-        time=read_only_floats(np.full(count, design.time.mean())),
-        since_reversal=read_only_floats(np.interp(positions, targets, travelled)),
-        conditions={
-            name: read_only_floats(np.full(count, log.mean())) for name, log in design.conditions.items()
-        },
-    )

@@ -130,7 +130,11 @@ def _levels(panel: Panel, frame: Frame) -> tuple[tuple[Level, float, PlacedLabel
 def _bar_values(panel: Panel, frame: Frame, language: Language) -> tuple[PlacedLabel, ...]:
     labels = [plain_label(bar.value.in_language(language), TICK_TEXT_SIZE) for bar in panel.bars]
     return tuple(
-        PlacedLabel(label, frame.x_point(number) - label.width / 2, frame.y_point(bar.y) + _VALUE_GAP)
+        PlacedLabel(
+            label,
+            frame.x_point(number) - label.width / 2,
+            frame.y_point(bar.y + bar.uncertainty) + _VALUE_GAP,
+        )
         for number, (bar, label) in enumerate(zip(panel.bars, labels, strict=True))
     )
 

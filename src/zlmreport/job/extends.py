@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -10,6 +9,7 @@ from pathlib import Path
 
 from zlmreport.errors import AccessError, InputError, Place, Problem
 from zlmreport.job.parse import parse
+from zlmreport.job.references import path_named
 from zlmreport.job.text import LARGEST
 from zlmreport.job.tree import Items, Keys, Scalar, keys_of, merged
 from zlmreport.measurement.provenance import SourceFile
@@ -72,15 +72,14 @@ class _Reader:
             raise InputError.at(named_at, f"more than {LONGEST_CHAIN} files extend one another in a row")
         if identity not in self._known:
             content = self.given[identity] if identity in self.given else _content(path, named_at)
-            digest = hashlib.sha256(content).hexdigest()
-            self.files[identity] = SourceFile(path.name, digest, len(content))
+            self.files[identity] = SourceFile.of(path, content)
             self._known[identity] = self._with_bases(parse(content, str(path)), (*chain, path))
         return self._known[identity]
 
     def _with_bases(self, own: Keys, chain: tuple[Path, ...]) -> Keys:
         bases = keys_of(own.place)
         for name in _extended(own):
-            base = self.keys(chain[-1].parent / name.text, chain, name.place)
+            base = self.keys(path_named(name.text, chain[-1]), chain, name.place)
             bases = merged(bases, base.without("extends"))
         return merged(bases, own)
 

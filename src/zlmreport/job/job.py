@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from zlmreport.errors import Place
@@ -55,6 +55,8 @@ class Job:
         The axis in SI.
     source, standards
         The plugins chosen, with their validated keys.
+    source_as_found
+        The data source of the axis as it was found before an adjustment; None where there was none.
     effects
         The effects of the error model, with the parameters that it fixes.
     formats
@@ -75,7 +77,21 @@ class Job:
     formats: tuple[str, ...]
     directory: Path
     files: tuple[SourceFile, ...]
+    source_as_found: SourceChoice | None = None
     tree: Keys = field(default_factory=lambda: keys_of(Place("job")))
+
+    @property
+    def as_found(self) -> Job | None:
+        """The same job on the axis before it was adjusted; None where it was not.
+
+        What the job does not say of that measurement is as in the measurement after.
+        """
+        keys, source = self.keys.as_found, self.source_as_found
+        if keys is None or source is None:
+            return None
+        environment = keys.environment or self.keys.environment
+        own = self.keys.model_copy(update={"measurement": keys.measurement, "environment": environment})
+        return replace(self, keys=own, source=source, source_as_found=None)
 
     def place_of(self, key: str) -> Place:
         """Return where a key stands, for messages: of one that is missing, its nearest parent's place.

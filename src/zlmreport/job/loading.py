@@ -7,6 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from zlmreport.errors import InputError, Place, Problem, did_you_mean
+from zlmreport.job.contradictions import contradictions
 from zlmreport.job.effects import effect_choices
 from zlmreport.job.extends import compose
 from zlmreport.job.installed import Installed, InstalledStandard
@@ -14,10 +15,11 @@ from zlmreport.job.interpret import axis_in_si, tolerances_in_si
 from zlmreport.job.job import Job, SourceChoice, StandardChoice
 from zlmreport.job.model import JobKeys
 from zlmreport.job.text import quoted
-from zlmreport.job.tree import Entry, Items, Keys, Node, Scalar, key_place, keys_of, place_of, walk
+from zlmreport.job.tree import Entry, Items, Keys, Node, Scalar, keys_of, place_of, walk
 from zlmreport.job.validate import validate
 
 _SOURCE = ("measurement", "source")
+_SOURCE_AS_FOUND = ("as_found", "measurement", "source")
 _EFFECTS = ("model", "effects")
 
 
@@ -46,12 +48,13 @@ def load(path: Path, registry: Installed, formats: tuple[str, ...] = (), content
     tree = composition.keys
     problems: list[Problem] = []
     keys = validate(JobKeys, tree, problems)
-    source = _source(tree, registry, problems)
+    source = _source(tree, _SOURCE, registry, problems)
+    source_as_found = _source(tree, _SOURCE_AS_FOUND, registry, problems)
     standards = list(_standards(tree, registry, problems))
     effects = effect_choices(_at(tree, _EFFECTS), registry, problems, within=".".join(_EFFECTS))
     formats = formats or _formats(tree, keys, registry, problems)
     if keys:
-        problems.extend(_contradictions(keys, tree))
+        problems.extend(contradictions(keys, tree))
     if problems or keys is None or source is None:
         raise InputError(sorted(set(problems)))
     axis = axis_in_si(keys.axis)
@@ -59,6 +62,7 @@ def load(path: Path, registry: Installed, formats: tuple[str, ...] = (), content
         keys=keys,
         axis=axis,
         source=source,
+        source_as_found=source_as_found,
         standards=tuple(
             replace(choice, tolerances=tolerances_in_si(each.tolerances, axis))
             for choice, each in zip(standards, keys.evaluate, strict=True)
@@ -71,10 +75,12 @@ def load(path: Path, registry: Installed, formats: tuple[str, ...] = (), content
     )
 
 
-def _source(tree: Keys, registry: Installed, problems: list[Problem]) -> SourceChoice | None:
-    """Return the data source with its own keys."""
-    keys = _at(tree, _SOURCE)
-    plugin = _at(tree, (*_SOURCE, "plugin"))
+def _source(
+    tree: Keys, path: tuple[str, ...], registry: Installed, problems: list[Problem]
+) -> SourceChoice | None:
+    """Return the data source at a path, with its own keys; None where there is none, or a wrong one."""
+    keys = _at(tree, path)
+    plugin = _at(tree, (*path, "plugin"))
     if not isinstance(keys, Keys) or not isinstance(plugin, Scalar) or plugin.is_nothing:
         return None
     try:
@@ -83,7 +89,7 @@ def _source(tree: Keys, registry: Installed, problems: list[Problem]) -> SourceC
         problems.extend(error.problems)
         return None
     own = replace(keys.without("plugin"), place=plugin.place)
-    options = validate(source.options, own, problems, within=".".join(_SOURCE), also_known=["plugin"])
+    options = validate(source.options, own, problems, within=".".join(path), also_known=["plugin"])
     return SourceChoice(source.identifier, options, plugin.place) if options else None
 
 
@@ -188,22 +194,6 @@ def chosen_formats(named: Iterable[tuple[str, Place]], registry: Installed) -> t
     if problems:
         raise InputError(problems)
     return tuple(by_suffix.values())
-
-
-def _contradictions(keys: JobKeys, tree: Keys) -> Iterator[Problem]:
-    """Yield what no single key shows to be wrong."""
-    issued, measured = keys.certificate.issued, keys.measurement.date
-    if issued and measured and issued < measured:
-        yield Problem(
-            place_of(tree, ("certificate", "issued")),
-            f"certificate.issued: {issued} lies before the measurement of {measured}",
-        )
-    travel = keys.axis.travel
-    if travel and travel[0] >= travel[1]:
-        yield Problem(
-            key_place(tree, ("axis", "travel")),
-            "axis.travel: the first position of the travel must be less than the last",
-        )
 
 
 def _at(tree: Node, path: tuple[str, ...]) -> Node | None:

@@ -10,8 +10,22 @@ from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, model_validator
 
+from zlmreport.job.correction_keys import CorrectionKeys
+from zlmreport.job.document_keys import (
+    Agreement,
+    Amends,
+    Dates,
+    External,
+    Location,
+    NextDue,
+    OpinionKeys,
+    Person,
+)
 from zlmreport.job.options import JobPath
+from zlmreport.job.part import JobPart
+from zlmreport.job.plan_keys import PlanKeys
 from zlmreport.job.types import Date, Finite, InWords, Lines, Positive, Text, file_stem
+from zlmreport.job.uncertainty_keys import UncertaintyKeys
 from zlmreport.language import Language
 from zlmreport.measurement.axis import AxisKind
 
@@ -19,21 +33,6 @@ from zlmreport.measurement.axis import AxisKind
 Number = Annotated[
     Text, AfterValidator(file_stem), Field(json_schema_extra={"pattern": r"^[A-Za-z0-9][A-Za-z0-9._-]*$"})
 ]
-
-
-class JobPart(BaseModel):
-    """A part of a job: frozen, and closed to keys that it does not know."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True)
-
-
-class Person(JobPart):
-    """Somebody who answers for the certificate."""
-
-    name: Text = Field(description="The person's name.", examples=["Erika Mustermann"])
-    function: Text | None = Field(
-        None, description="The person's function in the laboratory.", examples=["Head of laboratory"]
-    )
 
 
 class CertificateKeys(JobPart):
@@ -51,6 +50,11 @@ class CertificateKeys(JobPart):
     issued: Date | None = Field(None, description="Date of issue.", examples=["2026-11-20"])
     language: Language = Field(Language.ENGLISH, description="Language of the document.")
     authorised_by: Person | None = Field(None, description="Who authorises the document.")
+    amends: Amends | None = Field(
+        None,
+        description="The earlier document that this one amends or replaces.",
+        examples=[{"number": "CAL-2026-0117", "reason": "The serial number of the machine was wrong."}],
+    )
     paper: Literal["A4", "Letter"] = Field("A4", description="Paper size.")
     readings_on_graphs: bool = Field(
         default=True, description="Whether the graphs show all single readings behind the means."
@@ -65,6 +69,11 @@ class Laboratory(JobPart):
         None,
         description="Postal address; commas or line breaks part its lines.",
         examples=["Gaugeway 1, 12345 Sampletown"],
+    )
+    country: Annotated[str, Field(pattern=r"^[A-Z]{2}$")] | None = Field(
+        None,
+        description="Country by its two letters (ISO 3166-1), for the digital calibration certificate.",
+        examples=["DE"],
     )
     accreditation: Text | None = Field(None, description="Accreditation body and number.")
     logo: JobPath | None = Field(
@@ -137,13 +146,25 @@ class SourceKeys(BaseModel):
     plugin: Text = Field(description="Identifier of an installed data source.", examples=["laser-csv"])
 
 
+class LineOfPlane(JobPart):
+    """Where the measuring line lies in a plane of two axes."""
+
+    axis: Text = Field(description="Name of the second axis.", examples=["Y"])
+    at: Finite = Field(description="Its position while the line was measured, mm.", examples=[200])
+
+
 class Measurement(JobPart):
     """How the readings were taken."""
 
     source: SourceKeys = Field(
         description="Where the readings come from.", examples=[{"plugin": "laser-csv", "file": "x-axis.csv"}]
     )
-    date: Date | None = Field(None, description="Date of the measurement.", examples=["2026-11-18"])
+    date: Date | None = Field(
+        None, description="Date of the measurement, or of its first day.", examples=["2026-11-18"]
+    )
+    end: Date | None = Field(
+        None, description="Its last day, if it took more than one.", examples=["2026-11-19"]
+    )
     method: Literal["linear", "unidirectional", "pendulum", "quasi-pilgrim"] | None = Field(
         None, description="Positioning method."
     )
@@ -152,6 +173,14 @@ class Measurement(JobPart):
     warm_up: Lines | None = Field(None, description="Warm-up before the test, in words.")
     compensation: Lines | None = Field(None, description="State of the machine's compensation, in words.")
     line: Lines | None = Field(None, description="Place of the measuring line, positions of other axes.")
+    plane: LineOfPlane | None = Field(
+        None, description="The measuring line as one of several over a plane, for `zlmreport surface`."
+    )
+    deviations_from_method: Lines | None = Field(
+        None,
+        description="Additions to, deviations and exclusions from the method.",
+        examples=["Three runs instead of five, for want of time."],
+    )
     operator: Text | None = Field(None, description="Who measured.")
     remarks: Lines | None = Field(None, description="Anything else that a reader should know.")
 
@@ -168,6 +197,14 @@ class Instrument(JobPart):
         None,
         description="Its expanded uncertainty (k = 2), micrometres (arc seconds), or in words.",
         examples=[0.3],
+    )
+    expanded_uncertainty_per_metre: Positive | None = Field(
+        None,
+        description="What the expanded uncertainty gains with each metre of measured length, micrometres/m.",
+        examples=[0.5],
+    )
+    expansion_coefficient: Finite | None = Field(
+        None, description="Of a device whose own expansion counts, micrometres/(m K).", examples=[8.0]
     )
 
 
@@ -187,6 +224,26 @@ class Environment(JobPart):
     remarks: Lines | None = Field(None, description="Anything else: oil shower, sunlight, vibration.")
 
 
+class AsFound(JobPart):
+    """The axis before it was adjusted or repaired; `measurement` is then the axis as left."""
+
+    measurement: Measurement = Field(
+        description="How the readings before were taken; what is not said here was as in measurement.",
+        examples=[{"date": "2026-11-17", "source": {"plugin": "laser-csv", "file": "x-as-found.csv"}}],
+    )
+    work: Literal["adjustment", "repair"] = Field(
+        "adjustment", description="What was done between the two measurements."
+    )
+    adjustment: Lines | None = Field(
+        None,
+        description="What was adjusted or repaired, in words.",
+        examples=["Backlash compensation of the control set from 0 to 4 µm."],
+    )
+    environment: Environment | None = Field(
+        None, description="Conditions during the measurement before; without it those of environment."
+    )
+
+
 class StandardKeys(BaseModel):
     """A standard to evaluate by; the plugin's own keys may follow."""
 
@@ -204,6 +261,25 @@ class StandardKeys(BaseModel):
     def _bare_identifier(cls, value: Any) -> Any:
         """Take a bare identifier for the standard without further keys."""
         return {"standard": value} if isinstance(value, str | int | float) else value
+
+
+class DecisionRuleKeys(JobPart):
+    """How a value is held against its limit."""
+
+    rule: Literal["simple", "guard-band", "iso14253-1", "non-binary"] = Field(
+        "simple", description="The rule.", examples=["guard-band"]
+    )
+    guard_band_factor: Positive = Field(
+        1.0,
+        description="Of guard-band: width of the guard band over the expanded uncertainty U.",
+        examples=[0.5],
+    )
+
+    @model_validator(mode="before")
+    @classmethod
+    def _bare_rule(cls, value: Any) -> Any:
+        """Take a bare identifier for the rule without further keys."""
+        return {"rule": value} if isinstance(value, str | int | float) else value
 
 
 class Model(JobPart):
@@ -248,19 +324,83 @@ class JobKeys(JobPart):
     customer: Customer | None = Field(None, description="For whom the work was done.")
     machine: Machine = Field(default_factory=Machine, description="The machine under test.")
     axis: AxisKeys = Field(description="The axis under test.", examples=[{"name": "X", "kind": "linear"}])
+    location: Location | Lines | None = Field(
+        None,
+        description="Where the work was done, in words or as a kind of place. Without it machine.location, "
+        "or else the customer's address.",
+        examples=["Hall 3, Millway 2, 12345 Sampletown"],
+    )
+    dates: Dates = Field(
+        default_factory=Dates,
+        description="Dates beside those of the measurement and the document.",
+        examples=[{"received": "2026-11-16"}],
+    )
+    procedure: Lines | None = Field(
+        None, description="The laboratory's own procedure, its issue included.", examples=["QP 17, issue 4"]
+    )
+    sampling: Lines | None = Field(
+        None,
+        description="Sampling plan and method, if what was measured is a sample.",
+        examples=["One axis of three, drawn by lot; QP 18, issue 2"],
+    )
     measurement: Measurement = Field(
         description="How the readings were taken.",
         examples=[{"source": {"plugin": "laser-csv", "file": "x-axis.csv"}}],
     )
+    as_found: AsFound | None = Field(
+        None, description="The axis before it was adjusted or repaired, compared with measurement."
+    )
     instrument: Instrument | None = Field(None, description="The measuring instrument.")
     environment: Environment | None = Field(None, description="Conditions during the measurement.")
+    corrections: CorrectionKeys | None = Field(
+        None,
+        description="What the readings are corrected for; without it they are taken as they are.",
+        examples=[{"air": {"assumed": "standard air"}, "material": {"expansion_coefficient": 11.5}}],
+    )
     evaluate: list[StandardKeys] = Field(
         min_length=1,
         description="Standards to evaluate by; a bare identifier stands for {standard: …}.",
         examples=[["iso230-2:2014"]],
     )
-    decision_rule: Literal["simple", "guard-band", "iso14253-1", "non-binary"] = Field(
-        "simple", description="How a value is held against its limit."
+    decision_rule: DecisionRuleKeys = Field(
+        default_factory=DecisionRuleKeys,
+        description="How a value is held against its limit; a bare name stands for {rule: …}.",
+        examples=["guard-band"],
+    )
+    provided_by_customer: list[Text] = Field(
+        default_factory=list,
+        description="Keys of this job whose values the customer supplied: marked wherever they are printed.",
+        examples=[["environment.expansion_coefficient"]],
+    )
+    external: list[External] = Field(
+        default_factory=list,
+        description="Results that external providers supplied.",
+        examples=[[{"results": "Temperatures of the machine's scale", "provider": "Thermometry Ltd"}]],
+    )
+    opinions: list[OpinionKeys] = Field(
+        default_factory=list,
+        description="Opinions and interpretations, in a section of their own.",
+        examples=[[{"statement": "Play in the nut.", "basis": "The reversal value is alike everywhere."}]],
+    )
+    next_due: NextDue | None = Field(
+        None,
+        description="When the next calibration is due; only if agreed with the customer.",
+        examples=[{"date": "2027-11-18", "agreed": True}],
+    )
+    agreement: Agreement = Field(
+        default_factory=Agreement,
+        description="What was agreed with the customer about the document.",
+        examples=[{"simplified": True, "reference": "Order 4711"}],
+    )
+    uncertainty: UncertaintyKeys = Field(
+        default_factory=UncertaintyKeys,
+        description="The uncertainty of the measuring set-up, beside that of the instrument.",
+        examples=[{"misalignment": 0.5, "environmental_variation": 0.6}],
     )
     model: Model | None = Field(None, description="The error model of the axis.")
+    plan: PlanKeys = Field(
+        default_factory=PlanKeys,
+        description="The test before it is done, for `zlmreport plan`.",
+        examples=[{"targets": {"count": 21}, "repeatability": 0.5}],
+    )
     output: Output = Field(default_factory=Output, description="What is written, and where.")

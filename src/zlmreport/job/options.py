@@ -8,6 +8,7 @@ from typing import Annotated, Any
 from pydantic import BaseModel, BeforeValidator, ConfigDict
 
 from zlmreport.job.located import LocatedText
+from zlmreport.job.references import path_named
 
 
 class Options(BaseModel):
@@ -26,7 +27,7 @@ def _beside_the_naming_file(value: Any) -> Any:
     if not value:
         raise ValueError("the name of a file is expected")
     if isinstance(value, LocatedText):
-        return Path(value.place.file).parent / str(value)
+        return path_named(str(value), Path(value.place.file))
     return value
 
 

@@ -9,7 +9,7 @@ from pydantic import BaseModel
 from pydantic.errors import PydanticInvalidForJsonSchema
 
 from zlmreport.job.installed import Installed, InstalledEffect, InstalledSource, InstalledStandard
-from zlmreport.job.model import JobKeys, SourceKeys, StandardKeys
+from zlmreport.job.model import DecisionRuleKeys, JobKeys, SourceKeys, StandardKeys
 
 Schema: TypeAlias = dict[str, Any]
 
@@ -31,6 +31,11 @@ def job_schema(registry: Installed) -> Schema:
             {"enum": [standard.identifier for standard in registry.standards]},
             *(_standard(standard, definitions) for standard in registry.standards),
         ],
+    }
+    rule = definitions[DecisionRuleKeys.__name__]
+    definitions[DecisionRuleKeys.__name__] = {
+        "description": rule["description"],
+        "anyOf": [{"enum": rule["properties"]["rule"]["enum"]}, rule],
     }
     definitions["Model"]["properties"]["effects"]["items"] = {
         "anyOf": [

@@ -178,7 +178,7 @@ def _as_written(example: Any) -> str:
         return f"{{{', '.join(f'{key}: {_as_written(value)}' for key, value in example.items())}}}"
     if isinstance(example, list):
         return f"[{', '.join(map(_as_written, example))}]"
-    return str(example)
+    return str(example).lower() if isinstance(example, bool) else str(example)
 
 
 def shown(node: Node | None) -> str:

@@ -6,11 +6,11 @@ from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, Field
 
-from zlmreport.job.model import AxisKeys, JobPart, Model, Number
+from zlmreport.job.model import AxisKeys, Model, Number
+from zlmreport.job.part import JobPart
 from zlmreport.job.text import quoted
-from zlmreport.job.types import Finite, Positive, Text
+from zlmreport.job.types import Finite, NotNegative, Positive, Text
 
-NotNegative = Annotated[float, Field(ge=0, allow_inf_nan=False)]
 Share = Annotated[float, Field(ge=0, lt=1)]
 
 

@@ -99,5 +99,6 @@ Lines = Annotated[
 #: Text in a key that takes a number too: what looks like a number must be one.
 InWords = Annotated[Text, AfterValidator(_in_words)]
 Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
+NotNegative = Annotated[float, Field(ge=0, allow_inf_nan=False)]
 Finite = Annotated[float, Field(allow_inf_nan=False)]
 Date = Annotated[dt.date, BeforeValidator(_date)]

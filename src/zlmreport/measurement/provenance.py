@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import hashlib
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Self
 
 from zlmreport.language import Words
 
 
 @dataclass(frozen=True, slots=True)
 class SourceFile:
-    """A file that readings were taken from.
+    """A file that a certificate was made from: its job, its readings, or what these name.
 
     Attributes
     ----------
@@ -19,11 +22,45 @@ class SourceFile:
         Digest of its bytes, hexadecimal.
     size
         Its length in bytes.
+    path
+        Where it was read; no document states it.
+    content
+        Its bytes, so that a certificate can carry what was read and not what lies there later; None from
+        a reader that did not keep them.
     """
 
     name: str
     sha256: str
     size: int
+    path: Path | None = field(default=None, repr=False, compare=False)
+    content: bytes | None = field(default=None, repr=False, compare=False)
+
+    @classmethod
+    def of(cls, path: Path, content: bytes) -> Self:
+        """Return the file that was read from a path."""
+        return cls(path.name, hashlib.sha256(content).hexdigest(), len(content), path, content)
+
+
+@dataclass(frozen=True, slots=True)
+class Correction:
+    """A correction that was applied to readings.
+
+    Attributes
+    ----------
+    name
+        Of what.
+    method
+        By which equation.
+    inputs
+        The values that went into it.
+    largest
+        What it changed most in a reading, with its sign, m or rad.
+    """
+
+    name: Words
+    method: Words
+    inputs: Words
+    largest: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,8 +75,11 @@ class Provenance:
         The files read.
     remarks
         What the reader has to say of them: units taken, columns mapped, what the file left open.
+    corrections
+        What this program has corrected in the readings, in its order; nothing if they are as they were read.
     """
 
     source: str
     files: tuple[SourceFile, ...] = ()
     remarks: tuple[Words, ...] = ()
+    corrections: tuple[Correction, ...] = ()

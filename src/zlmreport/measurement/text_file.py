@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import codecs
 import difflib
-import hashlib
 import re
 import stat
 import unicodedata
@@ -54,7 +53,7 @@ class TextFile:
     lines
         Its lines without their ends; the first line of the file is ``lines[0]``.
     source
-        Its name and digest, for the provenance.
+        Its name, digest and bytes, for the provenance.
     """
 
     name: str
@@ -99,8 +98,7 @@ def read_text(path: Path, encoding: str | None = None) -> TextFile:
     if not lines[-1]:
         lines.pop()
     _refuse_continuous_logs(lines, file)
-    source = SourceFile(path.name, hashlib.sha256(content).hexdigest(), len(content))
-    return TextFile(file.file, tuple(lines), source)
+    return TextFile(file.file, tuple(lines), SourceFile.of(path, content))
 
 
 def known_encoding(name: str) -> str:

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import groupby
+from typing import TypeAlias
 
 import numpy as np
 
@@ -16,6 +17,9 @@ from zlmreport.model.contrasts import Contrasts, Metric
 from zlmreport.model.design import Design
 from zlmreport.model.effect import Effect
 from zlmreport.quantities.arrays import FloatArray, IntArray
+
+#: A form of an effect, and the values of its searched parameters that are tried, shape (g, s).
+Entry: TypeAlias = tuple[Effect, FloatArray]
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,18 +106,20 @@ class Bases:
             ZᵀU, products of the noise's factors and the columns.
         """
         found = []
-        coordinates = metric.root @ shared
+        coordinates = metric.coordinates(shared)
         for group in self.groups:
-            block = coordinates[:, group.columns].reshape(len(shared), group.blocks, group.width)
-            gram = np.eye(group.width) - np.einsum("rgi,rgj->gij", block, block)
+            block = coordinates[:, group.columns]
             if group.width == 1:
-                found.append(1.0 / np.sqrt(gram))
+                squares = np.einsum("rg,rg->g", block, block)
+                found.append(1.0 / np.sqrt(1.0 - squares[:, np.newaxis, np.newaxis]))
             else:
+                block = block.reshape(-1, group.blocks, group.width)
+                gram = np.eye(group.width) - np.einsum("rgi,rgj->gij", block, block)
                 found.append(np.linalg.inv(np.linalg.cholesky(gram)))
         return tuple(found)
 
 
-def bases_of(design: Design, space: Contrasts, effects: Iterable[Effect], least_visible: float) -> Bases:
+def bases_of(design: Design, space: Contrasts, entries: Iterable[Entry], least_visible: float) -> Bases:
     """Return what effects could add to a model.
 
     Parameters
@@ -122,13 +128,13 @@ def bases_of(design: Design, space: Contrasts, effects: Iterable[Effect], least_
         The test.
     space
         The contrasts of the model.
-    effects
-        Forms of effects that can be tested on the design; those of one effect share its identifier.
+    entries
+        Forms of effects that can be tested on the design, those of one effect share its identifier; and the
+        values of their searched parameters that are tried.
     least_visible
         Share of a block's length below which nothing is left of it but rounding.
     """
-    listed = tuple(effects)
-    found = [(effect, _visible(design, space, effect, least_visible)) for effect in listed]
+    found = [(effect, _visible(design, space, effect, thetas, least_visible)) for effect, thetas in entries]
     seen = sorted((each for _, each in found if each), key=lambda each: each.blocks.shape[2])
     identifiers = dict.fromkeys(each.family.effect.identifier for each in seen)
     return Bases(
@@ -160,9 +166,10 @@ class _Visible:
     ranks: FloatArray
 
 
-def _visible(design: Design, space: Contrasts, effect: Effect, least: float) -> _Visible | None:
+def _visible(
+    design: Design, space: Contrasts, effect: Effect, thetas: FloatArray, least: float
+) -> _Visible | None:
     """Return what of an effect the plan can see beside the model; None if nothing."""
-    thetas = effect.grid(design)
     blocks = np.stack([effect.columns(design, theta) for theta in thetas])
     whole = np.linalg.norm(blocks, axis=(1, 2))
     contrasts = space.of(blocks.transpose(1, 0, 2)).transpose(1, 0, 2)

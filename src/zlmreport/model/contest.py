@@ -2,19 +2,18 @@
 
 Two numbers for each effect. Its likelihood ratio LR, of the best values of its parameters and of the noise,
 says whether something is missing once it is held against what chance would give (`calibration`). Its
-evidence, averaged over those values, says which effect it is: one that fits wherever its searched parameters
-point is better explained than one that had to be pointed. Both count the base model as zero, in units of
-2·ln(likelihood).
+evidence, averaged over those values, says which effect it is (`evidence`). Both count the base model as zero,
+in units of 2·ln(likelihood).
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from zlmreport.model.bases import Bases, BlockGroup, bases_of
+from zlmreport.model.bases import Bases, BlockGroup, Entry, bases_of
 from zlmreport.model.contrasts import Contrasts, Metric, contrasts_of
 from zlmreport.model.design import Design
 from zlmreport.model.effect import Effect
@@ -40,22 +39,25 @@ class Scores:
 
 
 @dataclass(frozen=True, slots=True)
-class Evidence:
-    """How the contestants explain one set of deviations.
+class Criteria:
+    """−2 ln(likelihood) of one set of deviations under each φ, σ profiled out.
 
     Attributes
     ----------
-    effects : (effects,) array
-        2·ln of each effect's Bayes factor against the model alone.
-    rivals : (rivals,) array
-        The same of the rivals.
-    best
-        For each effect, its best form's place among the families, and the row of its thetas that fits best.
+    null : (f,) array
+        Of the model alone.
+    fits : (f, blocks) array
+        With each block of columns at its best coefficients; the blocks of a family side by side.
+    averages : (f, blocks) array
+        With the coefficients averaged over instead.
+    rivals : (φ and sizes, rivals) array
+        Of the rivals, under some φ.
     """
 
-    effects: FloatArray
+    null: FloatArray
+    fits: FloatArray
+    averages: FloatArray
     rivals: FloatArray
-    best: tuple[tuple[int, int], ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -124,7 +126,7 @@ class Contest:
         parts = noise_parts(design)
         space = contrasts_of(base, parts, weights)
         grid = ratio_grid(parts)
-        bases = bases_of(design, space, effects, least_visible)
+        bases = bases_of(design, space, [(effect, effect.grid(design)) for effect in effects], least_visible)
         rivals = rivals_of(design, space)
         columns, places = side_by_side(rivals, len(base))
         metrics = tuple(space.metric(ratios) for ratios in grid)
@@ -161,43 +163,36 @@ class Contest:
         best = [families[list(forms)].min(axis=0) for forms in self.bases.contestants]
         return Scores(null - np.array(best).reshape(-1, sets), null - rivals)
 
-    def evidence(self, deviation: FloatArray) -> Evidence:
-        """Return the evidence of one set of deviations, shape (N,)."""
+    def criteria(self, deviation: FloatArray) -> Criteria:
+        """Return the criteria of one set of deviations, shape (N,)."""
         null: list[float] = []
         fits: list[FloatArray] = []
         averages: list[FloatArray] = []
         rivals: list[FloatArray] = []
+        # Variance of an effect before any reading, over that which all leave: one reading's worth.
+        prior = float(self.space.degrees)
         for trial in self._trials(deviation[:, np.newaxis]):
             null.append(self._criterion(trial, trial.squares)[0])
             explained = [each[:, 0] for _, each in self._explained(trial)]
             ranks = [group.ranks for group in self.bases.groups]
             together, rank = np.concatenate([*explained, []]), np.concatenate([*ranks, []])
             fits.append(self._criterion(trial, trial.squares - together))
-            shrunk = together * self._prior / (1.0 + self._prior)
-            averages.append(self._criterion(trial, trial.squares - shrunk) + rank * np.log1p(self._prior))
+            shrunk = together * prior / (1.0 + prior)
+            averages.append(self._criterion(trial, trial.squares - shrunk) + rank * np.log1p(prior))
             rivals.extend(averaged[:, 0] for averaged in self._rival_criteria(trial))
-        return self._by_effect(np.array(fits), np.array(averages), np.array(null), np.array(rivals))
+        return Criteria(
+            np.array(null),
+            np.array(fits),
+            np.array(averages),
+            np.array(rivals).reshape(len(rivals), len(self.rivals)),
+        )
 
-    @property
-    def _prior(self) -> float:
-        """Variance of an effect before any reading, over that which all leave: one reading's worth."""
-        return float(self.space.degrees)
-
-    def _by_effect(
-        self, fits: FloatArray, averages: FloatArray, null: FloatArray, rivals: FloatArray
-    ) -> Evidence:
-        """Average the criteria, shape (f, blocks), over noise, searched parameters and forms."""
-        base = _average(null)
-        ends = np.cumsum([len(family.thetas) for family in self.bases.families])
-        by_family = np.split(averages, ends[:-1], axis=1)
-        least = [each.min(axis=0) for each in np.split(fits, ends[:-1], axis=1)]
-        evidence, best = [], []
-        for forms in self.bases.contestants:
-            evidence.append(base - _average(np.array([_average(by_family[form]) for form in forms])))
-            form = min(forms, key=lambda place: float(least[place].min()))
-            best.append((form, int(np.argmin(least[form]))))
-        of_rivals = [base - _average(rival) for rival in rivals.T]
-        return Evidence(np.array(evidence), np.array(of_rivals), tuple(best))
+    def of_others(self, design: Design, entries: Iterable[Entry], least_visible: float) -> Contest:
+        """Return the contest of other entries beside the same model, without rivals."""
+        bases = bases_of(design, self.space, entries, least_visible)
+        shared = self.space.factors.T @ bases.columns
+        roots = tuple(bases.roots(metric, shared) for metric in self._metrics)
+        return replace(self, bases=bases, rivals=(), _shared=shared, _roots=roots)
 
     def _trials(self, deviations: FloatArray) -> Iterator[_Trial]:
         contrasts = self.space.of(deviations)
@@ -206,13 +201,14 @@ class Contest:
         by_column = self.bases.columns.T @ contrasts
         by_rival = self._rival_columns.T @ contrasts
         for index, metric in enumerate(self._metrics):
-            coordinates = metric.root @ by_factor
+            coordinates = metric.coordinates(by_factor)
             back = metric.root.T @ coordinates
+            active = metric.active
             yield _Trial(
                 index,
                 squares - np.sum(coordinates**2, axis=0),
-                by_column - self._shared.T @ back,
-                by_rival - self._rival_shared.T @ back if index in self._rival_modes else by_rival,
+                by_column - self._shared[active].T @ back,
+                by_rival - self._rival_shared[active].T @ back if index in self._rival_modes else by_rival,
             )
 
     def _criterion(self, trial: _Trial, squares: FloatArray) -> FloatArray:
@@ -240,12 +236,6 @@ class Contest:
             explained = ((size / spread)[:, np.newaxis, :] @ squared)[:, 0]
             averaged = np.log(spread).sum(axis=1)[:, np.newaxis]
             yield self._criterion(trial, trial.squares - explained) + averaged
-
-
-def _average(criteria: FloatArray) -> float:
-    """Return −2 ln of the mean likelihood."""
-    least = criteria.min()
-    return float(least - 2.0 * np.log(np.mean(np.exp(-0.5 * (criteria - least)))))
 
 
 def _coarse(grid: FloatArray, parts: tuple[NoisePart, ...]) -> list[int]:

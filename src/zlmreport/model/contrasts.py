@@ -14,7 +14,7 @@ from itertools import product
 import numpy as np
 
 from zlmreport.model.noise import NoisePart
-from zlmreport.quantities.arrays import FloatArray
+from zlmreport.quantities.arrays import FloatArray, IntArray
 
 #: Columns that add less than this share of their length to those before them add nothing.
 _DEPENDENT = 1e-11
@@ -24,6 +24,8 @@ _WORTHWHILE = 1e-3
 _SMALLEST_RATIO = 1e-3
 #: Sum of squares of a residual that is no residual at all, m² or rad².
 _NOTHING = 1e-60
+#: Share of the readings' squares below which what a covariance leaves of them is rounding.
+_ROUNDING = 1e-13
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,14 +34,21 @@ class Metric:
 
     Attributes
     ----------
-    root : (r, r) array
-        R.
+    active : (a,) integer array
+        Columns of the factors that have a share in the covariance.
+    root : (a, a) array
+        R, of these alone.
     log_determinant
         ln|V| within the space of contrasts.
     """
 
+    active: IntArray
     root: FloatArray
     log_determinant: float
+
+    def coordinates(self, products: FloatArray) -> FloatArray:
+        """Return R·Zᵀa from Zᵀa, shape (r, …)."""
+        return np.asarray(self.root @ products[self.active])
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,24 +88,40 @@ class Contrasts:
 
     def metric(self, ratios: FloatArray) -> Metric:
         """Return the inner product for one φ, shape (parts,)."""
-        roots = np.sqrt(np.repeat(ratios, [part.factor.shape[1] for part in self.parts]))
-        factor = np.linalg.cholesky(np.eye(len(roots)) + roots[:, np.newaxis] * self.gram * roots)
-        return Metric(np.linalg.inv(factor) * roots, 2.0 * float(np.log(np.diagonal(factor)).sum()))
+        active, roots, gram = self._active(ratios)
+        factor = np.linalg.cholesky(np.eye(len(active)) + gram)
+        logarithms = np.log(np.diagonal(factor))
+        return Metric(active, np.linalg.inv(factor) * roots, 2.0 * float(logarithms.sum()))
 
-    def restricted(self, contrasts: FloatArray, ratios: FloatArray) -> tuple[FloatArray, FloatArray]:
+    def restricted(self, contrast: FloatArray, ratios: FloatArray) -> tuple[float, float]:
         """Return −2 ln(restricted likelihood) and the residual sum of squares, σ profiled out.
 
         Parameters
         ----------
-        contrasts : (N, B) array
-            Of B sets of deviations.
+        contrast : (N,) array
+            Of the deviations.
         ratios : (parts,) array
             φ.
         """
-        metric = self.metric(ratios)
-        shared = metric.root @ (self.factors.T @ contrasts)
-        squares = np.sum(contrasts**2, axis=0) - np.sum(shared**2, axis=0)
-        return self.criterion(metric, squares), squares
+        total = float(contrast @ contrast)
+        active, roots, gram = self._active(ratios)
+        # A border of products with the readings: the last pivot of the root is what these leave.
+        bordered = np.eye(len(active) + 1)
+        bordered[:-1, :-1] += gram
+        length = np.sqrt(max(total, _NOTHING))
+        bordered[-1, :-1] = roots * (self.factors.T @ contrast)[active] / length
+        bordered[-1, -1] += _ROUNDING
+        pivots = np.diagonal(np.linalg.cholesky(bordered))
+        squares = total * float(pivots[-1]) ** 2
+        criterion = self.degrees * np.log(max(squares, _NOTHING)) + 2.0 * np.log(pivots[:-1]).sum()
+        return float(criterion), squares
+
+    def _active(self, ratios: FloatArray) -> tuple[IntArray, FloatArray, FloatArray]:
+        """Return the columns of the factors with a share in the covariance, √φ of each, and √φ·ZᵀZ·√φ."""
+        spread = np.repeat(ratios, [part.factor.shape[1] for part in self.parts])
+        active = np.flatnonzero(spread)
+        roots = np.sqrt(spread[active])
+        return active, roots, roots[:, np.newaxis] * self.gram[np.ix_(active, active)] * roots
 
     def criterion(self, metric: Metric, squares: FloatArray) -> FloatArray:
         """Return −2 ln(restricted likelihood) of residual sums of squares, σ profiled out."""
@@ -142,10 +167,9 @@ def restricted_estimate(
     largest : (parts,) array
         Ratios that it does not exceed.
     """
-    column = contrasts[:, np.newaxis]
 
     def criterion(ratios: FloatArray) -> float:
-        return float(space.restricted(column, ratios)[0][0])
+        return space.restricted(contrasts, ratios)[0]
 
     tried = [criterion(ratios) for ratios in grid]
     best, ratios = min(tried), grid[int(np.argmin(tried))].copy()
@@ -159,5 +183,4 @@ def restricted_estimate(
                 value = criterion(changed)
                 if value < best - _WORTHWHILE:
                     best, ratios, improved = value, changed, True
-    squares = float(space.restricted(column, ratios)[1][0])
-    return ratios, squares / space.degrees
+    return ratios, space.restricted(contrasts, ratios)[1] / space.degrees

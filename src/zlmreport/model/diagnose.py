@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from zlmreport.language import Words
-from zlmreport.model import wording
+from zlmreport.model import needs, wording
 from zlmreport.model.axis_model import AxisModel, ModelError
 from zlmreport.model.candidates import NotTestable, entrants
 from zlmreport.model.cross_validation import cross_validated_rms
@@ -176,7 +176,11 @@ def _not_excluded(candidates: Sequence[Candidate], not_testable: Sequence[NotTes
     if not candidates:
         return ()
     alike = {confusion.effect for confusion in candidates[0].effect.confusions}
-    return tuple(each.effect for each in not_testable if each.effect in alike)
+    return tuple(
+        each.effect
+        for each in not_testable
+        if each.effect in alike and not needs.is_of_another_axis(each.reason)
+    )
 
 
 def _unnamed(found: Sequence[Step]) -> Unnamed | None:
@@ -185,8 +189,7 @@ def _unnamed(found: Sequence[Step]) -> Unnamed | None:
         (
             each
             for each in found
-            if each.ranking.shape is not None
-            and (each.best is None or each.ranking.shape_evidence > each.best.evidence)
+            if each.ranking.shape is not None and each.ranking.shape_evidence > each.ranking.most
         ),
         found[0],
     )

@@ -5,23 +5,16 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from zlmreport.language import Words
-from zlmreport.model.ranking import TOLD_APART, Ranked, Ranking
+from zlmreport.model.ranking import Ranked, Ranking
 
 _AND = Words(en="{first}; {second}", de="{first}; {second}")
 _FROM = Words(en="{effect}: {measurement}", de="{effect}: {measurement}")
 
 
 def equals_of(ranked: Ranked, ranking: Ranking) -> tuple[Ranked, ...]:
-    """Return the effects that explain the readings as well as one of them, best first."""
-    return tuple(
-        each
-        for each in ranking.effects
-        if each is not ranked
-        and each.evidence > 0
-        and abs(each.evidence - ranked.evidence) < TOLD_APART
-        and ranked in ranking.leaders
-        and each in ranking.leaders
-    )
+    """Return the other leaders, if an effect is one of them: they explain the readings as well."""
+    others = tuple(each for each in ranking.leaders if each is not ranked)
+    return others if len(others) < len(ranking.leaders) else ()
 
 
 def discriminate_by(ranked: Ranked, equals: Sequence[Ranked]) -> Words | None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
 from math import inf, sqrt
 
@@ -46,13 +46,16 @@ class Estimate:
     value
         SI.
     standard_uncertainty
-        SI; 0 for a given value.
+        SI; 0 for a given value. Of a scanned value, that of a rectangular distribution.
     degrees
         Effective degrees of freedom of the uncertainty; infinite for a given value.
     is_given
         Whether it was given and not estimated.
     expected
         The value that follows from the job, SI; None where none does.
+    is_scanned
+        Whether it was found among the values of a grid, and nothing is known of what lies between them: its
+        expanded uncertainty is then the whole half-width of the interval that holds it.
     """
 
     effect: str
@@ -62,11 +65,12 @@ class Estimate:
     degrees: float
     is_given: bool = False
     expected: float | None = None
+    is_scanned: bool = False
 
     @property
     def coverage_factor(self) -> float:
-        """The factor k to the expanded uncertainty of 95 %."""
-        return coverage_factor(self.degrees)
+        """The factor k to the expanded uncertainty of 95 %; √3, the whole interval, for a scanned value."""
+        return sqrt(3) if self.is_scanned else coverage_factor(self.degrees)
 
     @property
     def expanded_uncertainty(self) -> float:
@@ -170,9 +174,10 @@ def estimates_of(
                 estimate = Estimate(term.effect.identifier, parameter, value, 0.0, inf, is_given=True)
             else:
                 u, nu = by_place.get((index, column), (0.0, inf))
-                if u == 0 or not np.isfinite(u):
+                is_scanned = u == 0 or not np.isfinite(u)
+                if is_scanned:
                     u, nu = _half_width(problem, solution, index, column, uncertainties.sigma) / sqrt(3), inf
-                estimate = Estimate(term.effect.identifier, parameter, value, u, nu)
+                estimate = Estimate(term.effect.identifier, parameter, value, u, nu, is_scanned=is_scanned)
             found.append(_expecting(estimate, term, problem.design.axis))
     return tuple(found)
 
@@ -191,15 +196,7 @@ def _expecting(estimate: Estimate, term: Term, axis: Axis) -> Estimate:
     expected = term.effect.expected(axis).get(estimate.parameter.name)
     if expected is None:
         return estimate
-    return Estimate(
-        estimate.effect,
-        estimate.parameter,
-        estimate.value,
-        estimate.standard_uncertainty,
-        estimate.degrees,
-        estimate.is_given,
-        expected,
-    )
+    return replace(estimate, expected=expected)
 
 
 def _half_width(problem: Problem, solution: Solution, index: int, column: int, sigma: float) -> float:
@@ -208,16 +205,16 @@ def _half_width(problem: Problem, solution: Solution, index: int, column: int, s
     Its likelihood is flat between two readings, and falls in steps: the interval is that of the values of
     the grid which four variances of a reading do not exclude, and half the distance to the next on each side.
     """
-    grid = problem.model.terms[index].grid(problem.design)
-    others = np.delete(grid, column, axis=1) == np.delete(solution.thetas[index], column)
-    line = grid[np.all(others, axis=1)]
+    theta = solution.thetas[index]
+    value = float(theta[column])
+    values = np.unique(problem.model.terms[index].grid(problem.design)[:, column])
     limit = solution.squares + 4.0 * sigma**2
-    value = float(solution.thetas[index][column])
-    farthest = 0.0
-    for theta in line:
-        thetas = (*solution.thetas[:index], theta, *solution.thetas[index + 1 :])
+    possible = [int(np.argmin(np.abs(values - value)))]
+    for number, other in enumerate(values.tolist()):
+        moved = theta.copy()
+        moved[column] = other
+        thetas = (*solution.thetas[:index], moved, *solution.thetas[index + 1 :])
         if problem.solution(thetas).squares <= limit:
-            farthest = max(farthest, abs(float(theta[column]) - value))
-    values = np.unique(line[:, column])
-    spacing = float(np.median(np.diff(values))) if len(values) > 1 else 0.0
-    return farthest + spacing / 2
+            possible.append(number)
+    ends = np.concatenate([values[:1], (values[1:] + values[:-1]) / 2, values[-1:]])
+    return float(max(value - ends[min(possible)], ends[max(possible) + 1] - value))

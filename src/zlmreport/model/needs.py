@@ -75,6 +75,11 @@ def rotary_axis(design: Design) -> Words | None:
     return None if design.axis.kind is AxisKind.ROTARY else _NOT_ROTARY
 
 
+def is_of_another_axis(reason: Words) -> bool:
+    """Whether a need that is not met is that for another kind of axis: no measurement would meet it."""
+    return reason in (_NOT_LINEAR, _NOT_ROTARY)
+
+
 def targets(design: Design, least: int) -> Words | None:
     """Demand a number of target positions."""
     found = len(design.target_positions)

@@ -24,7 +24,8 @@ from zlmreport.quantities.arrays import FloatArray, IntArray
 #: Time over which the slow drift forgets itself, as a share of the test's duration.
 _MEMORY = 0.25
 #: Eigenfunctions of the drift that are kept; what they leave out is faster than the readings follow.
-_DRIFT_TERMS = 40
+_DRIFT_TERMS = 20
+_DRIFT_MOMENTS = 160
 #: A source needs so many readings to be told from the scatter of single readings.
 _FEWEST_READINGS = 12
 
@@ -159,7 +160,7 @@ def _slow_drift(design: Design) -> FloatArray:
     """Return the leading eigenfunctions of the covariance exp(−|t − t'|/τ), as a factor of it."""
     moment = (design.time - design.time.min()) / design.duration
     # On a grid, and by its interpolation at the readings: a test of thousands costs no more than a small one.
-    grid = np.linspace(0.0, 1.0, 4 * _DRIFT_TERMS)
+    grid = np.linspace(0.0, 1.0, _DRIFT_MOMENTS)
     covariance = np.exp(-np.abs(grid[:, np.newaxis] - grid) / _MEMORY)
     values, functions = np.linalg.eigh(covariance)
     terms = functions[:, -_DRIFT_TERMS:] * np.sqrt(values[-_DRIFT_TERMS:])

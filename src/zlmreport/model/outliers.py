@@ -23,6 +23,8 @@ _NORMAL = 1.4826
 #: By 1.35/n the median of n readings draws their median absolute deviation from it towards zero: of an odd
 #: number one reading is the median itself.
 _SHARE_OF_MEDIAN = 1.35
+#: More readings in a row are no blunder but something that the model lacks.
+_MOST_IN_A_ROW = 2
 #: A cell of fewer readings has no median that an outlier would not move.
 _FEWEST_REPEATS = 3
 
@@ -67,6 +69,16 @@ def outliers(design: Design, deviation: FloatArray) -> Outliers:
     spread = _NORMAL * float(np.median(np.abs(left[judged]))) / (1.0 - _SHARE_OF_MEDIAN / typical)
     if spread == 0:
         return Outliers(read_only_integers([]), 1.0)
-    sizes = np.where(judged, np.abs(left) / spread, 0.0)
+    sizes = _single(np.where(judged, np.abs(left) / spread, 0.0))
     p_value = min(1.0, 2.0 * len(sizes) * normal_tail(float(sizes.max())))
     return Outliers(read_only_integers(np.flatnonzero(sizes > _LIMIT)), p_value)
+
+
+def _single(sizes: FloatArray) -> FloatArray:
+    """Return how far readings stand off, those of which too many follow one another brought to the limit."""
+    off = np.concatenate([[False], sizes > _LIMIT, [False]])
+    changes = np.flatnonzero(off[1:] != off[:-1])
+    for first, end in changes.reshape(-1, 2):
+        if end - first > _MOST_IN_A_ROW:
+            sizes[first:end] = np.minimum(sizes[first:end], _LIMIT)
+    return sizes

@@ -2,25 +2,25 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from zlmreport.language import Words
 from zlmreport.model.calibration import Calibration, PValue
-from zlmreport.model.contest import Contest, Evidence, Scores
+from zlmreport.model.contest import Contest, Scores
+from zlmreport.model.design import Design
 from zlmreport.model.effect import Effect
+from zlmreport.model.evidence import Evidence
 from zlmreport.quantities.arrays import FloatArray
 
 # Of evidence, 2·ln of a Bayes factor, less than 2 is "not worth more than a bare mention", 2 to 6 positive, 6
 # to 10 strong (R. E. Kass and A. E. Raftery, Journal of the American Statistical Association 90 (1995) 773).
 
-#: Evidence that anything must have to be worth a mention.
+#: Evidence that anything must have to be worth a mention, and by which effects must differ to be told apart.
 MENTION = 2.0
 #: Evidence by which a name must surpass a shape without one.
 NAMED = 2.0
-#: Evidence by which two effects differ that the readings tell apart: a ratio of 1 : 12.
-TOLD_APART = 5.0
 #: Evidence that each effect after the first must bring beyond that: a single cause is likelier than two.
 FURTHER = 8.0
 #: Share of all evidence that the effects found must explain.
@@ -38,7 +38,7 @@ class Ranked:
     effect
         In the form that fits best.
     theta : (s,) array
-        Its searched parameters, on the grid.
+        Its searched parameters, near their best values.
     ratio
         Its likelihood ratio LR.
     usual
@@ -72,7 +72,7 @@ class Ranking:
     Attributes
     ----------
     effects
-        Best first.
+        The plainest of those that explain the readings best; then the others, best first.
     shape
         The best shape without a name; None where there is none.
     shape_evidence
@@ -88,23 +88,28 @@ class Ranking:
         """The first, and those that the readings cannot tell from it."""
         if not self.effects:
             return ()
-        best = self.effects[0].evidence
-        return tuple(each for each in self.effects if each.evidence > best - TOLD_APART)
+        return tuple(each for each in self.effects if each.evidence > self.most - MENTION)
+
+    @property
+    def most(self) -> float:
+        """The largest evidence of any effect; −∞ where there is none."""
+        return max((each.evidence for each in self.effects), default=-np.inf)
 
 
-def rank(contest: Contest, scores: Scores, evidence: Evidence, calibration: Calibration) -> Ranking:
+def rank(
+    contest: Contest, design: Design, scores: Scores, evidence: Evidence, calibration: Calibration
+) -> Ranking:
     """Return the order of the effects."""
     together = np.concatenate([[0.0], evidence.effects, evidence.rivals])
     weights = np.exp(0.5 * (together - together.max()))
     shares = weights / weights.sum()
     found = []
-    for index, (form, row) in enumerate(evidence.best):
-        family = contest.bases.families[form]
+    for index, (effect, theta) in enumerate(evidence.best):
         ratio = float(scores.ratios[index, 0])
         found.append(
             Ranked(
-                family.effect,
-                family.thetas[row],
+                effect,
+                theta,
                 ratio,
                 float(calibration.usual[index]),
                 float(evidence.effects[index]),
@@ -114,8 +119,21 @@ def rank(contest: Contest, scores: Scores, evidence: Evidence, calibration: Cali
         )
     # Of effects with the same columns the more general one leads: one whose sign is free.
     found.sort(key=lambda each: (-round(each.evidence / _ALIKE), _is_one_sided(each.effect), each.identifier))
+    foremost = [each for each in found if each.evidence > found[0].evidence - MENTION]
+    plainest = min(foremost, key=lambda each: _assumptions(each.effect, design), default=None)
+    found.sort(key=lambda each: each is not plainest)
     shape, of_shape = _best_shape(contest, evidence)
     return Ranking(tuple(found), shape, of_shape)
+
+
+def _assumptions(effect: Effect, design: Design) -> int:
+    """Return how much an effect takes for granted: a log that it follows, parameters that are searched.
+
+    A constant is a constant before it is the dead path of a beam in air that hardly changes.
+    """
+    follows_a_log = effect.untestable(replace(design, conditions={})) is not None
+    searched = len(effect.searched) if len(effect.grid(design)) > 1 else 0
+    return searched + follows_a_log
 
 
 def _is_one_sided(effect: Effect) -> bool:

@@ -122,7 +122,7 @@ def modes(metric: Metric, shared: FloatArray, gram: FloatArray, places: IntArray
     places : (rivals, f) array
         Of the rivals' features among all columns.
     """
-    coordinates = (metric.root @ shared)[:, places].transpose(1, 0, 2)
+    coordinates = metric.coordinates(shared)[:, places].transpose(1, 0, 2)
     strengths, vectors = np.linalg.eigh(gram - coordinates.transpose(0, 2, 1) @ coordinates)
     return RivalModes(vectors.transpose(0, 2, 1), np.maximum(strengths, 0.0))
 

@@ -12,6 +12,7 @@ from zlmreport.model.candidates import entrants
 from zlmreport.model.contest import Contest
 from zlmreport.model.contrasts import restricted_estimate
 from zlmreport.model.effect import Effect
+from zlmreport.model.evidence import evidence_of
 from zlmreport.model.fit import Fit, fit
 from zlmreport.model.noise import Noise
 from zlmreport.model.ranking import EXPLAINED, FURTHER, MENTION, NAMED, Ranked, Ranking, rank
@@ -60,8 +61,7 @@ class Step:
 
     @property
     def _most(self) -> float:
-        leading = self.ranking.effects[0].evidence if self.ranking.effects else -np.inf
-        return max(leading, self.ranking.shape_evidence)
+        return max(self.ranking.most, self.ranking.shape_evidence)
 
     @property
     def left(self) -> float:
@@ -80,12 +80,9 @@ def hold_contest(fitted: Fit, effects: Iterable[Effect]) -> Step:
     design, deviation = fitted.design, fitted.deviation
     entered = entrants(fitted.model, design, effects)
     known = all(len(theta) == 0 for theta in fitted.solution.thetas)
+    least_visible = _LEAST_VISIBLE if known else _LEAST_VISIBLE_LATER
     contest = Contest.of(
-        design,
-        fitted.base(),
-        entered.forms,
-        fitted.noise.weights,
-        least_visible=_LEAST_VISIBLE if known else _LEAST_VISIBLE_LATER,
+        design, fitted.base(), entered.forms, fitted.noise.weights, least_visible=least_visible
     )
     space = contest.space
     ratios, variance = restricted_estimate(
@@ -100,7 +97,7 @@ def hold_contest(fitted: Fit, effects: Iterable[Effect]) -> Step:
         calibration,
         ratios,
         Noise(float(np.sqrt(variance)), by_source, fitted.noise.weights),
-        rank(contest, scores, contest.evidence(deviation), calibration),
+        rank(contest, design, scores, evidence_of(contest, design, deviation, least_visible), calibration),
         calibration.p_value(scores),
     )
 
@@ -144,6 +141,6 @@ def named_effects(found: Sequence[Step]) -> tuple[str, ...]:
         if not step.something_is_missing or step.best is None:
             break
         unnamed = max(unnamed, named + step.ranking.shape_evidence)
-        named += step.best.evidence
+        named += step.ranking.most
         names.append(step.best.identifier)
     return ()

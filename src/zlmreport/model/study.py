@@ -77,7 +77,7 @@ class Study:
             measurements,
             AxisModel(chosen_terms(job.effects, by_identifier.__getitem__, job.axis.kind)),
             observe(measurements),
-            Assumptions(instrument=_instrument_error(job)),
+            Assumptions(instrument=instrument_error(job)),
         )
 
     def fitted(self) -> Fitted:
@@ -125,7 +125,8 @@ class Study:
         return self.job.place_of(_KEY)
 
 
-def _instrument_error(job: Job) -> InstrumentError:
+def instrument_error(job: Job) -> InstrumentError:
+    """Return the error of the instrument as a job states it; none if it is not stated as a number."""
     stated = job.keys.instrument.expanded_uncertainty if job.keys.instrument else None
     if not isinstance(stated, int | float):
         return InstrumentError()

@@ -74,7 +74,7 @@ def variance_of_variance(space: Contrasts, noise: Noise, weighted: FloatArray) -
 
 def _information(space: Contrasts, ratios: FloatArray, active: Sequence[int]) -> FloatArray:
     """Return ½·tr(P·V_i·P·V_j) for single readings and the active sources, in units of σ̂⁻⁴."""
-    root = space.metric(ratios).root
+    root = space.metric(ratios).coordinates(np.eye(len(space.gram)))
     together = root.T @ root
     ends = np.cumsum([part.factor.shape[1] for part in space.parts])
     spans = [slice(int(ends[i]) - space.parts[i].factor.shape[1], int(ends[i])) for i in active]

@@ -120,7 +120,7 @@ def _lengths(contest: Contest, metric: Metric, design: Design, family: Family, t
     contrasts = contest.space.of(columns)
     seen = contrasts / contest.space.scale[:, np.newaxis]
     moving = float(np.linalg.norm(columns - columns.mean(axis=0)))
-    shared = metric.root @ (contest.space.factors.T @ contrasts)
+    shared = metric.coordinates(contest.space.factors.T @ contrasts)
     squares = np.maximum(np.sum(contrasts**2, axis=0) - np.sum(shared**2, axis=0), 0.0)
     return _Lengths(
         float(np.sqrt(np.mean(columns**2))),

@@ -30,8 +30,9 @@ def significant(value: float, digits: int = _SIGNIFICANT) -> Words:
     """Return a number with so many significant digits; large ones keep all before the decimal sign."""
     if value == 0 or not math.isfinite(value):
         return number(0.0, 0) if value == 0 else Words(en=str(value), de=str(value))
-    decimals = digits - 1 - math.floor(math.log10(abs(value)))
-    return number(value, max(0, decimals))
+    # The exponent of the rounded value: 9.9999 is 10.0 with three digits.
+    exponent = int(f"{value:.{digits - 1}e}".partition("e")[2])
+    return number(value, max(0, digits - 1 - exponent))
 
 
 def deviation(axis: Axis, value: float) -> Words:

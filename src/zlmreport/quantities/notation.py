@@ -12,7 +12,8 @@ from dataclasses import dataclass
 _SUBSCRIPT = re.compile(r"_\{([^}]*)\}")
 # Fractions count as word characters, but they are numbers.
 _LETTERS = re.compile(r"([^\W\d_¼½¾][\u0300-\u036f]*)+")
-_ONE_LETTER = re.compile(r"[^\W\d_][\u0300-\u036f]*")
+# A sum is an operator and π a constant: upright, as ISO 80000-2 sets them.
+_ONE_LETTER = re.compile(r"[^\W\d_πΣ][\u0300-\u036f]*")
 # A running index, alone, after the letter of a word, or before its number: i, ij, sj, i1.
 _INDEX = re.compile(r"(?P<word>[^\W\d_ij]?)(?P<index>[ij]+)(?P<number>\d*)")
 

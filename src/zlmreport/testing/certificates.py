@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from datetime import date
+from pathlib import Path
 
 import numpy as np
 
@@ -27,11 +28,29 @@ from zlmreport.certificate.document import (
     Table,
     Verdict,
 )
+from zlmreport.errors import Place
+from zlmreport.evaluation.conformity import Conformity, Decision
 from zlmreport.evaluation.evaluation import Evaluation, Parameter, PositionColumn
 from zlmreport.evaluation.quantity import Group, PositionQuantity, Quantity
 from zlmreport.evaluation.requirements import Finding
 from zlmreport.evaluation.statistics import position_statistics
 from zlmreport.figures.figure import Arrow, Band, Bracket, Curve, Figure, Level, Panel, Readings, Role
+from zlmreport.job.document_keys import Person
+from zlmreport.job.job import Job, SourceChoice
+from zlmreport.job.model import (
+    AxisKeys,
+    CertificateKeys,
+    Customer,
+    Environment,
+    Instrument,
+    JobKeys,
+    Laboratory,
+    Machine,
+    Measurement,
+    SourceKeys,
+    StandardKeys,
+)
+from zlmreport.job.options import Options
 from zlmreport.language import Language, Words, same
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.testing.measurements import simulated_test
@@ -77,6 +96,37 @@ def sample_certificate(language: Language = Language.ENGLISH, text: str = "Examp
         generator="zlmreport",
         keywords=(text,),
         plugins={"kit": "1"},
+        job=_job(measurements, text),
+    )
+
+
+def _job(measurements: MeasurementSet, text: str) -> Job:
+    """Return a job that states whatever a renderer of data may need."""
+    day = date(2026, 11, 18)
+    keys = JobKeys(
+        schema="zlmreport/job/1",
+        certificate=CertificateKeys(
+            number=NUMBER, issued=date(2026, 11, 20), authorised_by=Person(name=text, function=text)
+        ),
+        laboratory=Laboratory(name=text, address=text, country="DE"),
+        customer=Customer(name=text, address=text),
+        machine=Machine(manufacturer=text, model=text, serial=text),
+        axis=AxisKeys(name=text),
+        measurement=Measurement(source=SourceKeys(plugin="kit"), date=day),
+        instrument=Instrument(name=text, serial=text, certificate=text, expanded_uncertainty=0.5),
+        environment=Environment(air_temperature=20.1, remarks=text),
+        evaluate=[StandardKeys(standard="kit:1")],
+    )
+    place = Place("kit")
+    return Job(
+        keys=keys,
+        axis=measurements.axis,
+        source=SourceChoice("kit", Options(), place),
+        standards=(),
+        effects=(),
+        formats=(),
+        directory=Path(),
+        files=(),
     )
 
 
@@ -98,6 +148,9 @@ def _blocks(evaluation: Evaluation, text: str) -> tuple[Block, ...]:
     )
 
 
+_DECISION = Decision(Conformity.FAILED, 1e-5, 1e-5, None)
+
+
 def _evaluation(measurements: MeasurementSet, text: str) -> Evaluation:
     statistics = position_statistics(measurements.deviations())
     mean = statistics.mean_bidirectional
@@ -110,7 +163,7 @@ def _evaluation(measurements: MeasurementSet, text: str) -> Evaluation:
         position_index="i",
         measurements=measurements,
         statistics=statistics,
-        parameters=(Parameter(quantity, float(np.ptp(mean)), limit=1e-5, conforms=False),),
+        parameters=(Parameter(quantity, float(np.ptp(mean)), limit=1e-5, decision=_DECISION),),
         columns=(PositionColumn(PositionQuantity("half", "x̄_{i}/2", words), mean / 2),),
         findings=(Finding(words, words, met=None),),
         notes=(words,),

@@ -10,6 +10,7 @@ import re
 import time
 from collections.abc import Callable, Iterator, Mapping
 from html.parser import HTMLParser
+from xml.etree import ElementTree as ET
 
 from zlmreport.language import Language
 from zlmreport.protocols import Renderer
@@ -139,11 +140,16 @@ def _pdf_text(content: bytes) -> str:
     return "\n".join(page.extract_text() for page in PdfReader(io.BytesIO(content)).pages)
 
 
+def _xml_text(content: bytes) -> str:
+    return "".join(ET.fromstring(content).itertext())  # noqa: S314 - written by the renderer just now
+
+
 #: How to read the text of a file again, where the kit knows.
 _READERS: Mapping[str, Callable[[bytes], str]] = {
     ".html": _html_text,
     ".json": _json_text,
     ".pdf": _pdf_text,
+    ".xml": _xml_text,
 }
 
 #: Every check of a renderer, each called with the renderer.

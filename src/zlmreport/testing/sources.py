@@ -97,7 +97,7 @@ def reads_the_same_again(source: DataSource, keys: Mapping[str, Any], axis: Axis
 
 
 def names_its_files(source: DataSource, keys: Mapping[str, Any], axis: Axis) -> None:
-    """Check that the provenance names the source, and each file read with its digest, without its folder."""
+    """Check that the provenance names the source, and each file read, without its folder, with its bytes."""
     provenance = _read(source, keys, axis).provenance
     expect(
         provenance.source == source.identifier,
@@ -112,6 +112,10 @@ def names_its_files(source: DataSource, keys: Mapping[str, Any], axis: Axis) -> 
         expect(
             named[path.name].sha256 == hashlib.sha256(content).hexdigest(),
             f"{where}: sha256 is not the digest of the file",
+        )
+        expect(
+            named[path.name].content == content,
+            f"{where}: content is not the bytes of the file, which a certificate carries; use SourceFile.of",
         )
 
 

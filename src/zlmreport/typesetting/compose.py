@@ -123,7 +123,7 @@ class _Compositor:
     def _context(self, block: GatheredBlock) -> Context:
         match block:
             case Table():
-                return table_context(block, self._table_label())
+                return table_context(block, self._table_label(), self._certificate.page_words.page)
             case Formulas():
                 return formulas_context(block, self._table_label())
             case Graph():

@@ -43,10 +43,11 @@ class SymbolContext:
 
 @dataclass(frozen=True, slots=True)
 class RowGroupContext:
-    """Rows under a heading of their own; no heading for plain rows."""
+    """Rows under a heading of their own, which may lead to a section; no heading for plain rows."""
 
     heading: str
     note: str
+    section: str
     rows: tuple[tuple[CellContext, ...], ...]
 
 
@@ -70,6 +71,8 @@ class TableContext:
         One for each column.
     groups
         The rows.
+    page
+        Word before the number of a page that the table refers to.
     """
 
     template: ClassVar[str] = "table.html"
@@ -80,6 +83,7 @@ class TableContext:
     widths: tuple[str, ...]
     headings: tuple[CellContext, ...]
     groups: tuple[RowGroupContext, ...]
+    page: str
 
 
 @dataclass(frozen=True, slots=True)

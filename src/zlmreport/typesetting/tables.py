@@ -25,8 +25,18 @@ _SHAPE = {Mark.MET: "met", Mark.NOT_MET: "not-met", Mark.OPEN: "open"}
 _ALIGNMENT = {Align.LEFT: "", Align.RIGHT: "right", Align.CENTRE: "centre"}
 
 
-def table_context(table: Table, label: str) -> TableContext:
-    """Return the context of a table; `label` is its number: ``Table 2``."""
+def table_context(table: Table, label: str, page: str) -> TableContext:
+    """Return the context of a table.
+
+    Parameters
+    ----------
+    table
+        The table.
+    label
+        Its number: ``Table 2``.
+    page
+        Word before the number of a page.
+    """
     size, widths, whole = _columns(table)
     styles = tuple(
         "apart" if apart else _ALIGNMENT[column.align]
@@ -47,10 +57,12 @@ def table_context(table: Table, label: str) -> TableContext:
             RowGroupContext(
                 heading=group.heading,
                 note=group.note,
+                section=group.section,
                 rows=tuple(tuple(map(_cell, row, styles, next(padding))) for row in group.rows),
             )
             for group in table.groups
         ),
+        page=page,
     )
 
 

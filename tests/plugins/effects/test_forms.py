@@ -82,7 +82,7 @@ def test_joint_is_searched_in_every_gap_but_the_outer_ones() -> None:
 def test_jump_is_searched_between_readings() -> None:
     design = design_for("datum-step")
     moments = EFFECTS["datum-step"].grid(design)[:, 0]
-    assert len(moments) == 40
+    assert len(moments) == 200
     assert not np.any(np.isin(moments, design.time))
     assert design.time[1] < moments[0] < moments[-1] < design.time[-2]
 

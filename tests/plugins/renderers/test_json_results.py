@@ -4,21 +4,27 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterator
 from dataclasses import replace
-from functools import cache
+from functools import cache, partial
 from importlib.resources import files
 from typing import Any
 
 import numpy as np
 import pytest
+from jsonschema import Draft202012Validator
 
 from typesetting import samples
+from uncertainty.budgets import contribution
 from zlmreport.certificate.document import Certificate
-from zlmreport.language import Language
+from zlmreport.evaluation.decision import decided, decision_rule
+from zlmreport.job.options import Options
+from zlmreport.language import Language, Words
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.axis import AxisKind
 from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.uncertainty.budget import Budget, NoBudget
+from zlmreport.uncertainty.contribution import Acts, Distribution
+from zlmreport.uncertainty.expanded import with_uncertainty
 from zlmreport_plugins.renderers.json_results import JsonResultsRenderer
 
 SCHEMA = json.loads((files("zlmreport_plugins.renderers") / "results.schema.json").read_text("utf-8"))
@@ -75,9 +81,9 @@ def test_a_parameter_without_a_limit_has_no_place_for_one() -> None:
 
 def test_an_undecided_limit_says_so() -> None:
     certificate = samples.certificate(standards=1)
-    evaluation = certificate.evaluations[0]
-    undecided = tuple(replace(parameter, conforms=None) for parameter in evaluation.parameters)
-    results = render(replace(certificate, evaluations=(replace(evaluation, parameters=undecided),)))
+    # The rule needs an uncertainty, and none was evaluated.
+    undecided = decided(certificate.evaluations[0], decision_rule("guard-band"))
+    results = render(replace(certificate, evaluations=(undecided,)))
     assert results["evaluations"][0]["parameters"][0]["conforms"] is None
 
 
@@ -88,6 +94,50 @@ def test_uncertainty_and_coverage_factor_stand_where_they_were_evaluated() -> No
     results = render(replace(certificate, evaluations=(replace(evaluation, parameters=(first,)),)))
     (parameter,) = results["evaluations"][0]["parameters"]
     assert (parameter["expanded_uncertainty"], parameter["coverage_factor"]) == (1.4, 2.0)
+
+
+@cache
+def with_budget() -> Any:
+    """The results of the sample standard with the uncertainties of a budget."""
+    budget = Budget(
+        (
+            contribution(0.5, Acts.ALONG_THE_LENGTH),
+            contribution(0.2, Acts.AT_EACH_READING, Distribution.RECTANGULAR),
+        ),
+        (Words("Misalignment", "Fluchtung"),),
+    )
+    bare = samples.certificate(standards=1)
+    arithmetic = partial(samples.SampleStandard().arithmetic, options=Options())
+    (uncertain,) = with_uncertainty([(bare.evaluations[0], arithmetic)], budget)
+    return render(replace(bare, evaluations=(uncertain,), budget=budget))
+
+
+def test_the_budget_stands_with_every_contribution() -> None:
+    budget = with_budget()["uncertainty"]
+    along, own = budget["contributions"]
+    assert (along["standard_uncertainty"], along["acts"], along["distribution"]) == (
+        pytest.approx(0.5),
+        "along-the-length",
+        "normal",
+    )
+    assert (own["standard_uncertainty"], own["acts"]) == (pytest.approx(0.2), "at-each-reading")
+    assert along["share"] == pytest.approx(0.25 / 0.29)
+    assert budget["combined_standard_uncertainty"] == pytest.approx(math.sqrt(0.29))
+    assert (budget["unit"], budget["not_considered"]) == ("um", ["Misalignment"])
+
+
+def test_every_parameter_and_every_mean_of_a_budget_has_its_uncertainty() -> None:
+    (evaluation,) = with_budget()["evaluations"]
+    assert all(parameter["expanded_uncertainty"] > 0 for parameter in evaluation["parameters"])
+    last = evaluation["positions"][-1]
+    assert last["U_mean_fwd"] == pytest.approx(2 * math.sqrt(0.25 + 0.04 / 5))
+    assert last["U_mean"] == pytest.approx(2 * math.sqrt(0.25 + 0.04 / 10))
+
+
+def test_without_a_budget_the_reason_stands_in_its_place() -> None:
+    reason = NoBudget(Words("nothing is known", "nichts ist bekannt"))
+    results = render(replace(samples.certificate(), budget=reason))
+    assert results["uncertainty"] == {"not_evaluated": "nothing is known"}
 
 
 def test_values_are_unrounded_micrometres() -> None:
@@ -225,7 +275,11 @@ def test_it_is_the_same_twice() -> None:
     ids=["both directions", "one run", "one direction", "rotary, a reading missing"],
 )
 def test_it_keeps_its_published_schema(readings: MeasurementSet) -> None:
-    assert list(violations(results_of(readings), SCHEMA)) == []
+    assert violations(results_of(readings)) == set()
+
+
+def test_a_budget_keeps_the_published_schema() -> None:
+    assert violations(with_budget()) == set()
 
 
 @pytest.mark.parametrize(
@@ -235,56 +289,14 @@ def test_it_keeps_its_published_schema(readings: MeasurementSet) -> None:
         ({"evaluations": {}}, "$.evaluations"),
         ({"certificate": {"number": "1"}}, "$.certificate"),
         ({"extra": 1}, "$"),
+        ({"uncertainty": {"unit": "um"}}, "$.uncertainty"),
         ({"model": {"effects": [1], "parameters": [], "error": {}}}, "$.model.effects[0]"),
     ],
 )
 def test_what_breaks_the_schema_is_noticed(change: dict[str, Any], complaint: str) -> None:
-    assert complaint in list(violations({**sample(), **change}, SCHEMA))
+    assert complaint in violations({**sample(), **change})
 
 
-_TYPES: dict[str, tuple[type, ...]] = {
-    "object": (dict,),
-    "array": (list,),
-    "string": (str,),
-    "boolean": (bool,),
-    "null": (type(None),),
-    "integer": (int,),
-    "number": (int, float),
-}
-
-
-def violations(value: Any, schema: dict[str, Any], path: str = "$") -> Iterator[str]:
-    """Yield the paths at which a value breaks a schema that uses no more than this understands."""
-    known = {"$schema", "$defs", "title", "description", "type", "const", "enum", "required"}
-    assert set(schema) <= known | {"properties", "additionalProperties", "items", "$ref"}
-    if "$ref" in schema:
-        schema = SCHEMA["$defs"][schema["$ref"].removeprefix("#/$defs/")]
-    if (
-        not _is_of_type(value, schema)
-        or value != schema.get("const", value)
-        or ("enum" in schema and value not in schema["enum"])
-    ):
-        yield path
-    elif isinstance(value, dict):
-        yield from _object_violations(value, schema, path)
-    elif isinstance(value, list):
-        for index, item in enumerate(value):
-            yield from violations(item, schema["items"], f"{path}[{index}]")
-
-
-def _is_of_type(value: Any, schema: dict[str, Any]) -> bool:
-    names = schema.get("type", list(_TYPES))
-    types = [python for name in ([names] if isinstance(names, str) else names) for python in _TYPES[name]]
-    if isinstance(value, bool):
-        return bool in types
-    return isinstance(value, tuple(types)) and not (isinstance(value, float) and not math.isfinite(value))
-
-
-def _object_violations(value: dict[str, Any], schema: dict[str, Any], path: str) -> Iterator[str]:
-    properties = schema.get("properties", {})
-    further = schema.get("additionalProperties", True)
-    if set(schema.get("required", ())) - set(value) or (further is False and set(value) - set(properties)):
-        yield path
-    for name, item in value.items():
-        of_item = properties.get(name, further if isinstance(further, dict) else {})
-        yield from violations(item, of_item, f"{path}.{name}")
+def violations(value: Any) -> set[str]:
+    """Return the paths at which a results file breaks its schema."""
+    return {error.json_path for error in Draft202012Validator(SCHEMA).iter_errors(value)}

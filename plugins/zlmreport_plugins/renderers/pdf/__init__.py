@@ -14,6 +14,7 @@ class PdfRenderer:
     identifier = "pdf"
     title = Words(en="PDF, tagged for accessibility", de="PDF, barrierefrei ausgezeichnet")
     suffix = ".pdf"
+    carries_attachments = True
 
     def render(self, certificate: Certificate) -> bytes:
         """Return the PDF.

@@ -7,7 +7,7 @@ new font configuration costs memory that WeasyPrint 70 never gives back.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, partial
 from importlib.resources import files
 from threading import Lock
 from typing import Any
@@ -21,6 +21,8 @@ from zlmreport.certificate.document import Certificate
 from zlmreport.figures.draw import to_svg
 from zlmreport.typesetting.compose import GRAPH_ADDRESS, LOGO_ADDRESS, compose
 from zlmreport.typesetting.resources import FACES, font, font_faces, style_sheet
+from zlmreport_plugins.renderers.pdf import identity, structure
+from zlmreport_plugins.renderers.pdf.enclosures import associate_once, enclosures
 from zlmreport_plugins.renderers.pdf.graphs import PageGraph
 from zlmreport_plugins.renderers.pdf.supply import Contents, Supply
 
@@ -72,7 +74,9 @@ class Press:
                 color_profiles=self._profiles,
                 output_intent=_PROFILE,
                 cache=_page_graphs(certificate),
+                attachments=list(enclosures(certificate)),
                 pdf_variant=VARIANT,
+                finisher=partial(_finish, certificate),
             )
         return pdf
 
@@ -84,6 +88,13 @@ class Press:
 def press() -> Press:
     """Return the press of this process."""
     return Press()
+
+
+def _finish(certificate: Certificate, _: Any, pdf: Any) -> None:
+    """Complete a file that is ready but for its trailer."""
+    associate_once(pdf)
+    identity.identify(pdf, certificate)
+    structure.mend(pdf, {section.key: section.title for section in certificate.sections})
 
 
 def _page_graphs(certificate: Certificate) -> dict[str, PageGraph]:

@@ -8,9 +8,9 @@ from zlmreport.language import Words, same
 from zlmreport.model.failures.failure import Failure, ResidualTest
 from zlmreport.model.failures.residuals import Residuals
 
-_FOLLOWS = Words(
-    en="the zero or the slope of the residuals follows {condition}",
-    de="Nullpunkt oder Steigung der Residuen folgen {condition}",
+_FOLLOW = Words(
+    en="the residuals follow a logged condition, in their zero or in their slope",
+    de="die Residuen folgen einer aufgezeichneten Bedingung, mit Nullpunkt oder Steigung",
 )
 
 
@@ -28,5 +28,4 @@ def conditions(residuals: Residuals) -> Failure | None:
         return None
     closest = min(p_values, key=p_values.__getitem__)
     p_value = min(1.0, len(p_values) * p_values[closest])
-    statement = _FOLLOWS.given(condition=same(closest))
-    return Failure(ResidualTest.CONDITION, p_value, same(closest), statement)
+    return Failure(ResidualTest.CONDITION, p_value, same(closest), _FOLLOW)

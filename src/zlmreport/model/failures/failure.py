@@ -44,9 +44,9 @@ class Failure:
     p_value
         Chance of such residuals if the model held.
     where
-        The place, the time, the run.
+        The place, the time, the run or the condition: what stands in brackets after the statement.
     statement
-        What the residuals do, in a sentence.
+        What the residuals do, in a sentence without a full stop.
     """
 
     test: ResidualTest

@@ -17,23 +17,28 @@ _LACK_OF_FIT = Words(
     de="die Mittelwerte der Positionen weichen um bis zu {size} vom Modell ab, mehr als ihre Wiederholungen "
     "erlauben",
 )
+_LARGEST_AT = Words(en="largest at {place}", de="am größten bei {place}")
 _SIGNS = Words(
-    en="along the axis the residuals keep their sign longer than chance would have it ({changes} changes, "
-    "{expected} expected)",
-    de="längs der Achse behalten die Residuen ihr Vorzeichen länger als der Zufall ({changes} Wechsel, "
-    "{expected} erwartet)",
+    en="the residuals keep their sign longer than by chance; changes of sign: {changes} instead of "
+    "{expected}",
+    de="die Residuen behalten ihr Vorzeichen länger als durch Zufall; Vorzeichenwechsel: {changes} statt "
+    "{expected}",
 )
-_DIRECTION = Words(
+_HIGHER_UPWARDS = Words(
     en="upwards the residuals lie {size} higher than downwards",
     de="aufwärts liegen die Residuen um {size} höher als abwärts",
 )
+_HIGHER_DOWNWARDS = Words(
+    en="downwards the residuals lie {size} higher than upwards",
+    de="abwärts liegen die Residuen um {size} höher als aufwärts",
+)
 _DIRECTION_ALONG = Words(
-    en="the difference between up and down changes along the axis",
-    de="der Unterschied zwischen aufwärts und abwärts ändert sich längs der Achse",
+    en="the difference between up and down changes with the position",
+    de="der Unterschied zwischen aufwärts und abwärts ändert sich mit der Position",
 )
 _RUNS = Words(
-    en="the runs are displaced from one another, run {run} most ({size})",
-    de="die Durchläufe sind gegeneinander verschoben, am meisten Durchlauf {run} ({size})",
+    en="runs are displaced as a whole, by up to {size}",
+    de="Durchläufe sind als Ganzes verschoben, um bis zu {size}",
 )
 _WHOLE_AXIS = Words(en="along the whole axis", de="längs der ganzen Achse")
 _RUN = Words(en="run {run}", de="Durchlauf {run}")
@@ -55,9 +60,8 @@ def lack_of_fit(residuals: Residuals) -> Failure | None:
     of_cells = fit.residual - within.centred
     worst = int(np.argmax(np.abs(of_cells)))
     size = wording.deviation(design.axis, abs(float(of_cells[worst])))
-    return Failure(
-        ResidualTest.LACK_OF_FIT, p_value, wording.cell(design, worst), _LACK_OF_FIT.given(size=size)
-    )
+    where = _LARGEST_AT.given(place=wording.cell(design, worst))
+    return Failure(ResidualTest.LACK_OF_FIT, p_value, where, _LACK_OF_FIT.given(size=size))
 
 
 def signs(residuals: Residuals) -> Failure | None:
@@ -90,12 +94,7 @@ def direction(residuals: Residuals) -> Failure | None:
     along = 2 * (design.position - design.middle) / (design.length or 1.0)
     gap = residuals.p_value(sign[:, np.newaxis])
     shape = residuals.p_value(sign[:, np.newaxis] * np.vander(along, _ORDERS))
-    residual = residuals.fit.residual
-    size = float(np.mean(residual[sign > 0]) - np.mean(residual[sign < 0]))
-    if gap <= shape:
-        statement = _DIRECTION.given(size=wording.deviation(design.axis, size))
-    else:
-        statement = _DIRECTION_ALONG
+    statement = _DIRECTION_ALONG if shape < gap else _constant_gap(residuals)
     return Failure(ResidualTest.DIRECTION, min(1.0, 2 * min(gap, shape)), _WHOLE_AXIS, statement)
 
 
@@ -109,8 +108,15 @@ def runs(residuals: Residuals) -> Failure | None:
     means = _means(residuals.fit.residual, design.run)
     worst = int(np.argmax(np.abs(means)))
     run = int(numbers[worst])
-    statement = _RUNS.given(run=run, size=wording.deviation(design.axis, float(means[worst])))
+    statement = _RUNS.given(size=wording.deviation(design.axis, abs(float(means[worst]))))
     return Failure(ResidualTest.RUNS, residuals.p_value(membership), _RUN.given(run=run), statement)
+
+
+def _constant_gap(residuals: Residuals) -> Words:
+    design, residual = residuals.design, residuals.fit.residual
+    gap = float(np.mean(residual[design.direction > 0]) - np.mean(residual[design.direction < 0]))
+    statement = _HIGHER_UPWARDS if gap > 0 else _HIGHER_DOWNWARDS
+    return statement.given(size=wording.deviation(design.axis, abs(gap)))
 
 
 def _means(values: FloatArray, labels: IntArray) -> FloatArray:

@@ -19,10 +19,13 @@ _TIME_ORDER = Words(
     de="aufeinander folgende Wiederholungen weichen gleich ab: Etwas bewegt sich mit der Zeit, um {size} vom "
     "ersten Drittel der Prüfung zum letzten",
 )
-_REPEATS_ALONG = Words(
-    en="the residual repeats every {period}", de="die Abweichung wiederholt sich alle {period}"
+_REPEATS = Words(en="the residual repeats every {period}", de="das Residuum wiederholt sich alle {period}")
+_ALONG_THE_AXIS = Words(
+    en="along the whole axis, amplitude {size}", de="längs der ganzen Achse, Amplitude {size}"
 )
-_AMPLITUDE = Words(en="amplitude {size}", de="Amplitude {size}")
+_DURING_THE_TEST = Words(
+    en="during the whole test, amplitude {size}", de="während der ganzen Prüfung, Amplitude {size}"
+)
 _WHOLE_TEST = Words(en="during the whole test", de="während der ganzen Prüfung")
 
 _PERMUTATIONS = 400
@@ -60,8 +63,8 @@ def period_in_position(residuals: Residuals) -> Failure | None:
     stated = [each for each in (design.axis.screw_pitch, design.axis.signal_period) if each is not None]
     known = [each / harmonic for each in stated for harmonic in _HARMONICS if each <= design.length]
     period, p_value, size = _strongest_wave(residuals, design.position, targets / 2, known)
-    statement = _REPEATS_ALONG.given(period=wording.length(design.axis, period))
-    return Failure(ResidualTest.PERIOD_IN_POSITION, p_value, size, statement)
+    statement = _REPEATS.given(period=wording.length(design.axis, period))
+    return Failure(ResidualTest.PERIOD_IN_POSITION, p_value, _ALONG_THE_AXIS.given(size=size), statement)
 
 
 def period_in_time(residuals: Residuals) -> Failure | None:
@@ -71,8 +74,8 @@ def period_in_time(residuals: Residuals) -> Failure | None:
     if design.duration == 0 or most <= _FEWEST_PERIODS:
         return None
     period, p_value, size = _strongest_wave(residuals, design.time, most, [])
-    statement = _REPEATS_ALONG.given(period=wording.span_of_time(design, period))
-    return Failure(ResidualTest.PERIOD_IN_TIME, p_value, size, statement)
+    statement = _REPEATS.given(period=wording.span_of_time(design, period))
+    return Failure(ResidualTest.PERIOD_IN_TIME, p_value, _DURING_THE_TEST.given(size=size), statement)
 
 
 def _strongest_wave(
@@ -98,10 +101,10 @@ def _strongest_wave(
     period = float(periods[best])
     if best >= len(known):
         finer = extent / (extent / period + np.linspace(-1.0, 1.0, _FINER) / _STEPS_PER_PERIOD)
-        left = [residuals.fit.residual - _fitted(residuals, wave) for wave in _waves(where, finer)]
-        period = float(finer[int(np.argmin([each @ each for each in left]))])
+        best, _ = residuals.best_block(_waves(where, finer))
+        period = float(finer[best])
     amplitude = np.hypot(*_coefficients(residuals, _waves(where, np.array([period]))[0]))
-    return period, p_value, _AMPLITUDE.given(size=wording.deviation(residuals.design.axis, float(amplitude)))
+    return period, p_value, wording.deviation(residuals.design.axis, float(amplitude))
 
 
 def _waves(where: FloatArray, periods: FloatArray) -> FloatArray:
@@ -112,10 +115,6 @@ def _waves(where: FloatArray, periods: FloatArray) -> FloatArray:
 
 def _coefficients(residuals: Residuals, wave: FloatArray) -> FloatArray:
     return np.asarray(np.linalg.lstsq(wave, residuals.fit.residual, rcond=None)[0], dtype=np.float64)
-
-
-def _fitted(residuals: Residuals, wave: FloatArray) -> FloatArray:
-    return wave @ _coefficients(residuals, wave)
 
 
 def _ratio(centred: FloatArray) -> FloatArray:

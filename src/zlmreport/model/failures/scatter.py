@@ -27,7 +27,8 @@ _FLAGGED = Words(
     de="Messwerte, die von ihren Wiederholungen und ihren zeitlichen Nachbarn abstehen: {count}; sie sind "
     "beiseite gelegt, nicht verändert",
 )
-_AND_MORE = Words(en="{first}; and others: {more}", de="{first}; und weitere: {more}")
+_AT = Words(en="at {place}", de="bei {place}")
+_AND_MORE = Words(en="{first}; others: {more}", de="{first}; weitere: {more}")
 
 
 def spread(residuals: Residuals) -> Iterator[Failure]:
@@ -43,7 +44,7 @@ def flagged(design: Design, aside: Outliers) -> Failure | None:
     readings = aside.readings
     if not len(readings):
         return None
-    where = wording.reading_at(design, int(readings[0]))
+    where = _AT.given(place=wording.reading_at(design, int(readings[0])))
     if len(readings) > 1:
         where = _AND_MORE.given(first=where, more=len(readings) - 1)
     return Failure(ResidualTest.OUTLIERS, aside.p_value, where, _FLAGGED.given(count=len(readings)))

@@ -1,0 +1,12 @@
+"""PTB's Digital Calibration Certificate 3.3.0."""
+
+from __future__ import annotations
+
+from zlmreport.hookspecs import hookimpl
+from zlmreport_plugins.renderers.dcc.renderer import DccRenderer
+
+
+@hookimpl
+def zlmreport_renderers() -> list[DccRenderer]:
+    """Offer the renderer."""
+    return [DccRenderer()]

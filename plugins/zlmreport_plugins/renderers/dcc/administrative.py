@@ -1,0 +1,195 @@
+"""Who, for whom, what, when: the administrative data of a DCC."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from xml.etree import ElementTree as ET
+
+from zlmreport.certificate.document import Certificate
+from zlmreport.certificate.identity import lines as address_lines
+from zlmreport.errors import InputError, Problem
+from zlmreport.job.document_keys import Location
+from zlmreport.job.job import Job
+from zlmreport.job.model import Customer, Laboratory
+from zlmreport.language import Language, Words
+from zlmreport_plugins.renderers.dcc.xml import dcc, group
+
+#: The DCC's words for whose place it is.
+_PLACES = {
+    "laboratory": "laboratory",
+    "customer": "customer",
+    "laboratory branch": "laboratoryBranch",
+    "customer branch": "customerBranch",
+}
+_AXIS = Words(en="Axis {axis}", de="Achse {axis}")
+_AXIS_OF = Words(en="Axis {axis} of {machine}", de="Achse {axis} von {machine}")
+_AXIS_NAME = Words(en="Axis", de="Achse")
+_SERIAL = Words(en="Serial number", de="Seriennummer")
+_ONLY_THE_ITEM = Words(
+    en="The results relate only to the item calibrated, in its condition at the time of the measurement.",
+    de="Die Ergebnisse gelten nur für den kalibrierten Gegenstand in seinem Zustand zur Zeit der Messung.",
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Writer:
+    """Writes texts in the language of one certificate.
+
+    Attributes
+    ----------
+    language
+        Of the certificate, the only one of its DCC.
+    """
+
+    language: Language
+
+    def content(self, words: Words | str) -> ET.Element:
+        """Return a text as content: a phrase with its language, a user's own words as they stand."""
+        if isinstance(words, str):
+            return dcc("content", words)
+        return dcc("content", words.in_language(self.language), lang=self.language.value)
+
+    def named(self, element: str, words: Words | str) -> ET.Element:
+        """Return an element that holds a text."""
+        return dcc(element, self.content(words))
+
+
+def software(certificate: Certificate, writer: Writer) -> ET.Element:
+    """Return the program; its release with the letter that PTB's rules ask for."""
+    name, _, release = certificate.generator.partition(" ")
+    return dcc("software", writer.named("name", name), dcc("release", f"v{release or '0'}"))
+
+
+def administrative_data(certificate: Certificate, job: Job) -> ET.Element:
+    """Return the administrative data.
+
+    Raises
+    ------
+    InputError
+        With everything that a DCC must state and the job does not.
+    """
+    missing = list(_missing(job))
+    if missing:
+        raise InputError(missing)
+    writer = Writer(certificate.language)
+    keys = job.keys
+    assert keys.laboratory is not None  # noqa: S101 - what is missing was refused above
+    assert keys.customer is not None  # noqa: S101 - likewise
+    return dcc(
+        "administrativeData",
+        dcc("dccSoftware", software(certificate, writer)),
+        _core_data(certificate, job),
+        dcc("items", _item(job, writer)),
+        dcc("calibrationLaboratory", _contact("contact", keys.laboratory, writer, keys.laboratory.country)),
+        _persons(job, writer),
+        _contact("customer", keys.customer, writer),
+        dcc("statements", dcc("statement", dcc("declaration", writer.content(_ONLY_THE_ITEM)))),
+    )
+
+
+def _missing(job: Job) -> Iterator[Problem]:
+    """Yield what a DCC must state and the job leaves out."""
+    keys = job.keys
+    stated = {
+        "laboratory.name": keys.laboratory is not None,
+        "laboratory.country": keys.laboratory is not None and keys.laboratory.country,
+        "customer.name": keys.customer is not None,
+        "machine.serial": keys.machine.serial,
+        "measurement.date": keys.measurement.date,
+        "certificate.authorised_by": keys.certificate.authorised_by,
+    }
+    for key, value in stated.items():
+        if not value:
+            yield Problem(
+                job.place_of(key), f"a digital calibration certificate (format dcc) must state {key}: add it"
+            )
+
+
+def _core_data(certificate: Certificate, job: Job) -> ET.Element:
+    keys = job.keys
+    begin = keys.measurement.date
+    assert begin is not None  # noqa: S101 - what is missing was refused before
+    assert keys.laboratory is not None  # noqa: S101 - likewise
+    end = keys.measurement.end or begin
+    received, issued = keys.dates.received, certificate.issued
+    language = certificate.language.value
+    amended = keys.certificate.amends
+    return dcc(
+        "coreData",
+        dcc("countryCodeISO3166_1", keys.laboratory.country),
+        dcc("usedLangCodeISO639_1", language),
+        dcc("mandatoryLangCodeISO639_1", language),
+        dcc("uniqueIdentifier", certificate.number),
+        dcc("receiptDate", received.isoformat()) if received else None,
+        dcc("beginPerformanceDate", begin.isoformat()),
+        dcc("endPerformanceDate", end.isoformat()),
+        dcc("performanceLocation", _place(keys.location)),
+        dcc("issueDate", issued.isoformat()) if issued else None,
+        dcc(
+            "reportAmendedSubstituted",
+            dcc("typeOfChange", "amended" if amended.kind == "amendment" else "substituted"),
+            dcc("replacedUniqueIdentifier", amended.number),
+        )
+        if amended
+        else None,
+    )
+
+
+def _place(location: Location | str | None) -> str:
+    """Return whose place it was: the customer's, where the job says nothing else, as on the cover."""
+    if location is None:
+        return "customer"
+    return "other" if isinstance(location, str) else _PLACES.get(location.kind, "other")
+
+
+def _item(job: Job, writer: Writer) -> ET.Element:
+    machine = job.keys.machine
+    named = " ".join(filter(None, (machine.manufacturer, machine.model)))
+    name = _AXIS_OF.given(axis=job.axis.name, machine=named) if named else _AXIS.given(axis=job.axis.name)
+    return dcc(
+        "item",
+        writer.named("name", name),
+        dcc("manufacturer", writer.named("name", machine.manufacturer)) if machine.manufacturer else None,
+        dcc("model", machine.model) if machine.model else None,
+        dcc(
+            "identifications",
+            dcc(
+                "identification",
+                dcc("issuer", "manufacturer"),
+                dcc("value", machine.serial),
+                writer.named("name", _SERIAL),
+                refType="basic_serialNumber",
+            ),
+            dcc(
+                "identification",
+                dcc("issuer", "other"),
+                dcc("value", job.axis.name),
+                writer.named("name", _AXIS_NAME),
+            ),
+        ),
+    )
+
+
+def _contact(
+    element: str, party: Laboratory | Customer, writer: Writer, country: str | None = None
+) -> ET.Element:
+    """Return a party with its address line by line: the job does not tell a street from a town."""
+    lines = [dcc("further", writer.content(line)) for line in address_lines(party.address) or ("–",)]
+    location = dcc("location", dcc("countryCode", country) if country else None, *lines)
+    return dcc(element, writer.named("name", party.name), location)
+
+
+def _persons(job: Job, writer: Writer) -> ET.Element | None:
+    person = job.keys.certificate.authorised_by
+    if person is None:
+        return None
+    return group(
+        "respPersons",
+        dcc(
+            "respPerson",
+            dcc("person", writer.named("name", person.name)),
+            dcc("role", person.function) if person.function else None,
+            dcc("mainSigner", "true"),
+        ),
+    )

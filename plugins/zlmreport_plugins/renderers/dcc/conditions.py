@@ -1,0 +1,107 @@
+"""With what and under which conditions: measuring equipment and influence conditions of a DCC."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from xml.etree import ElementTree as ET
+
+from zlmreport.job.job import Job
+from zlmreport.language import Words
+from zlmreport_plugins.renderers.dcc.administrative import Writer
+from zlmreport_plugins.renderers.dcc.quantities import (
+    DEGREE_CELSIUS,
+    HECTOPASCAL,
+    MICROMETRE_PER_METRE_KELVIN,
+    PERCENT,
+    quantity,
+    real,
+)
+from zlmreport_plugins.renderers.dcc.xml import dcc
+
+#: Conditions that a job may state: their names, units, and the DCC's word for their kind.
+_CONDITIONS = {
+    "air_temperature": (
+        Words(en="Air temperature", de="Lufttemperatur"),
+        DEGREE_CELSIUS,
+        "basic_temperature",
+    ),
+    "material_temperature": (
+        Words(en="Material temperature", de="Werkstofftemperatur"),
+        DEGREE_CELSIUS,
+        "basic_temperature",
+    ),
+    "axis_temperature": (
+        Words(en="Temperature of the machine's scale", de="Temperatur des Maßstabs der Maschine"),
+        DEGREE_CELSIUS,
+        "basic_temperature",
+    ),
+    "air_pressure": (Words(en="Air pressure", de="Luftdruck"), HECTOPASCAL, ""),
+    "relative_humidity": (
+        Words(en="Relative humidity", de="Relative Luftfeuchte"),
+        PERCENT,
+        "basic_humidityRelative",
+    ),
+    "expansion_coefficient": (
+        Words(
+            en="Expansion coefficient used for correction",
+            de="Zur Korrektur benutzter Ausdehnungskoeffizient",
+        ),
+        MICROMETRE_PER_METRE_KELVIN,
+        "",
+    ),
+}
+_REMARKS = Words(en="Remarks on the environment", de="Bemerkungen zur Umgebung")
+_CALIBRATION = Words(en="Calibration certificate: {number}", de="Kalibrierschein: {number}")
+_SERIAL = Words(en="Serial number", de="Seriennummer")
+
+
+def equipment(job: Job, writer: Writer) -> ET.Element | None:
+    """Return the measuring instrument with its calibration certificate; None where none is stated."""
+    instrument = job.keys.instrument
+    if instrument is None:
+        return None
+    number = instrument.certificate
+    return dcc(
+        "measuringEquipment",
+        writer.named("name", instrument.name),
+        dcc("description", writer.content(_CALIBRATION.given(number=number))) if number else None,
+        dcc("manufacturer", writer.named("name", instrument.manufacturer))
+        if instrument.manufacturer
+        else None,
+        dcc(
+            "identifications",
+            dcc(
+                "identification",
+                dcc("issuer", "manufacturer"),
+                dcc("value", instrument.serial),
+                writer.named("name", _SERIAL),
+                refType="basic_serialNumber",
+            ),
+        )
+        if instrument.serial
+        else None,
+    )
+
+
+def influences(job: Job, writer: Writer) -> Iterator[ET.Element]:
+    """Yield the conditions that the job states."""
+    environment = job.keys.environment
+    if environment is None:
+        return
+    for key, (name, unit, kind) in _CONDITIONS.items():
+        value = getattr(environment, key)
+        if value is None:
+            continue
+        stated = (
+            dcc("text", writer.content(value))
+            if isinstance(value, str)
+            else quantity(writer.named("name", name), real(value, unit))
+        )
+        yield _condition(name, stated, writer, kind)
+    if environment.remarks:
+        yield _condition(_REMARKS, dcc("text", writer.content(environment.remarks)), writer)
+
+
+def _condition(name: Words, stated: ET.Element, writer: Writer, kind: str = "") -> ET.Element:
+    attributes = {"refType": kind} if kind else {}
+    return dcc("influenceCondition", writer.named("name", name), dcc("data", stated), **attributes)

@@ -1,0 +1,131 @@
+"""The structure of a tagged PDF as WeasyPrint 70 leaves it, and what a reader of tables needs besides.
+
+Works on the objects of a pydyf PDF before it is written.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterator, Mapping
+from itertools import pairwise
+from typing import Any, TypeAlias
+
+import pydyf
+
+#: An element of the structure, or any other dictionary of a PDF.
+Element: TypeAlias = Any
+
+_POINTS_PER_PIXEL = 72 / 96
+
+
+def mend(pdf: Any, link_texts: Mapping[str, str]) -> None:
+    """Mend the structure of a PDF in place.
+
+    Parameters
+    ----------
+    pdf
+        A pydyf PDF, complete but for its trailer.
+    link_texts
+        What is said of a link, by its target.
+    """
+    root = _dereferenced(pdf, pdf.catalog["StructTreeRoot"])
+    elements = list(_elements(pdf, root))
+    _take_page_margins_out(pdf, root, {root.reference, *(element.reference for element in elements)})
+    for element in elements:
+        if element["S"] == "/Table":
+            _name_headings(pdf, element)
+        elif element["S"] == "/Figure":
+            _place(pdf, element)
+    for annotation in _annotations(pdf):
+        target = annotation["Contents"].string
+        annotation["Contents"] = pydyf.String(link_texts.get(target, target))
+
+
+def _take_page_margins_out(pdf: Any, root: Element, reachable: set[bytes]) -> None:
+    """Mark what stands in page margins as an artifact.
+
+    It is tagged as if it were text of the document, but by elements that no reader ever reaches.
+    """
+    places = _dereferenced(pdf, root["ParentTree"])["Nums"]
+    of_pages = dict(zip(places[::2], places[1::2], strict=True))
+    for number, reference in enumerate(pdf.page_references):
+        elements = of_pages[number]
+        marginal = {place for place, element in enumerate(elements) if element not in reachable}
+        for place in marginal:
+            elements[place] = "null"
+        page = _dereferenced(pdf, reference)
+        operators = _dereferenced(pdf, page["Contents"]).stream
+        for index, (_, operand) in enumerate(pairwise(operators)):
+            if isinstance(operand, pydyf.Dictionary) and operand.get("MCID") in marginal:
+                operators[index : index + 2] = "/Artifact", pydyf.Dictionary({"Type": "/Pagination"})
+    for element in pdf.objects:
+        is_element = isinstance(element, pydyf.Dictionary) and element.get("Type") == "/StructElem"
+        if is_element and element.reference not in reachable:
+            element.clear()
+
+
+def _name_headings(pdf: Any, table: Element) -> None:
+    """Tell which cells each heading of a table heads: a column, a row, or the rows of its group.
+
+    A group of rows is a body of its own, whose first row is its heading; no cell spans two rows.
+    """
+    columns: dict[int, list[Any]] = defaultdict(list)
+    for part in _children(pdf, table):
+        heads_of_group: list[Any] = []
+        for row in _children(pdf, part) if part["S"] in {"/THead", "/TBody"} else ():
+            cells = list(_placed(pdf, row))
+            headings = [cell for cell, _ in cells if cell["S"] == "/TH"]
+            heads_columns = len(headings) == len(cells)
+            for cell, places in cells:
+                if cell["S"] == "/TH":
+                    cell["A"]["Scope"] = "/Column" if heads_columns else "/Row"
+                    if part["S"] == "/THead":
+                        for place in places:
+                            columns[place].append(cell["ID"])
+                    elif heads_columns:
+                        heads_of_group.append(cell["ID"])
+                else:
+                    of_columns = [name for place in places for name in columns[place]]
+                    of_row = [heading["ID"] for heading in headings]
+                    cell["A"]["Headers"] = pydyf.Array([*of_columns, *heads_of_group, *of_row])
+
+
+def _placed(pdf: Any, row: Element) -> Iterator[tuple[Element, range]]:
+    """Yield the cells of a row with the columns that each takes."""
+    start = 0
+    for cell in _children(pdf, row):
+        places = range(start, start + cell["A"].get("ColSpan", 1))
+        yield cell, places
+        start = places.stop
+
+
+def _place(pdf: Any, figure: Element) -> None:
+    """State where a figure lies on its page in points from below, not in CSS pixels from above."""
+    height = _dereferenced(pdf, figure["Pg"])["MediaBox"][3]
+    left, top, right, bottom = (_POINTS_PER_PIXEL * length for length in figure["A"]["BBox"])
+    figure["A"]["BBox"] = pydyf.Array([left, height - bottom, right, height - top])
+
+
+def _annotations(pdf: Any) -> Iterator[Element]:
+    for reference in pdf.page_references:
+        for annotation in _dereferenced(pdf, reference).get("Annots", ()):
+            yield _dereferenced(pdf, annotation)
+
+
+def _elements(pdf: Any, root: Element) -> Iterator[Element]:
+    """Yield all elements below one, in reading order."""
+    for child in _children(pdf, root):
+        yield child
+        yield from _elements(pdf, child)
+
+
+def _children(pdf: Any, element: Element) -> Iterator[Element]:
+    for child in element["K"]:
+        if isinstance(child, bytes):  # and no number of a stretch of the page
+            found = _dereferenced(pdf, child)
+            if "S" in found:
+                yield found
+
+
+def _dereferenced(pdf: Any, reference: bytes) -> Element:
+    return pdf.objects[int(reference.split()[0])]

@@ -1,0 +1,185 @@
+"""The axis before and after it was adjusted or repaired (ISO/IEC 17025:2017, 7.8.4.1 d)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from zlmreport.certificate import corrections, readings, results
+from zlmreport.certificate.changes import changes, limits
+from zlmreport.certificate.circumstances import environment_facts, measurement_facts
+from zlmreport.certificate.document import (
+    Block,
+    Facts,
+    Formulas,
+    Graph,
+    Notice,
+    Paragraph,
+    Section,
+)
+from zlmreport.certificate.facts import Fact, stated
+from zlmreport.certificate.results import Evaluated
+from zlmreport.certificate.scribe import Scribe
+from zlmreport.figures.comparison import comparison_graph
+from zlmreport.figures.figure import Figure
+from zlmreport.job.model import AsFound
+from zlmreport.language import Words
+from zlmreport.measurement.measurement_set import MeasurementSet
+
+#: What the two measurements are called, by the work between them.
+NAMES = {
+    "adjustment": (
+        Words(en="as found, before the adjustment", de="vor der Justierung"),
+        Words(en="as left, after the adjustment", de="nach der Justierung"),
+    ),
+    "repair": (
+        Words(en="as found, before the repair", de="vor der Reparatur"),
+        Words(en="as left, after the repair", de="nach der Reparatur"),
+    ),
+}
+_TITLE = Words(en="As found and as left", de="Vorgefundener und hinterlassener Zustand")
+_ON_COVER = {
+    "adjustment": Words(
+        en="The axis was adjusted between two measurements. The results above are those after the "
+        "adjustment; the section “As found and as left” compares them with those before.",
+        de="Die Achse wurde zwischen zwei Messungen justiert. Die Ergebnisse oben gelten nach der "
+        "Justierung; der Abschnitt „Vorgefundener und hinterlassener Zustand“ vergleicht sie mit denen "
+        "davor.",
+    ),
+    "repair": Words(
+        en="The axis was repaired between two measurements. The results above are those after the "
+        "repair; the section “As found and as left” compares them with those before.",
+        de="Die Achse wurde zwischen zwei Messungen repariert. Die Ergebnisse oben gelten nach der "
+        "Reparatur; der Abschnitt „Vorgefundener und hinterlassener Zustand“ vergleicht sie mit denen "
+        "davor.",
+    ),
+}
+_WORK = {
+    "adjustment": Words(en="Adjusted", de="Justiert"),
+    "repair": Words(en="Repaired", de="Repariert"),
+}
+_NOT_ALIKE = Words(
+    en="The two measurements are not alike; differences between them may come from that",
+    de="Die beiden Messungen sind nicht gleichartig; Unterschiede können daher rühren",
+)
+_OTHER_TARGETS = Words(en="Other target positions", de="Andere Sollpositionen")
+_OTHER_APPROACHES = Words(en="Other directions of approach", de="Andere Anfahrrichtungen")
+_OTHER_RUNS = Words(
+    en="Other number of runs: {before} before, {after} after",
+    de="Andere Zahl der Durchläufe: {before} vorher, {after} nachher",
+)
+_LABELLED = Words(en="{title} ({state})", de="{title} ({state})")
+
+
+def on_cover(keys: AsFound | None, scribe: Scribe) -> Iterator[Paragraph]:
+    """Yield which of the two measurements the first page shows."""
+    if keys:
+        yield Paragraph(scribe.say(_ON_COVER[keys.work]))
+
+
+def beside_as_found(
+    keys: AsFound,
+    as_left: Iterable[Section],
+    before: Sequence[Evaluated],
+    after: Sequence[Evaluated],
+    scribe: Scribe,
+) -> Iterator[Section]:
+    """Yield the comparison, the results as left, and those as found; each says which it is.
+
+    Parameters
+    ----------
+    keys
+        What the job says of the axis as found.
+    as_left
+        The sections of results as left.
+    before, after
+        Evaluations of the two measurements, by the same standards in the same order.
+    scribe
+        Of the document.
+    """
+    state_before, state_after = NAMES[keys.work]
+    yield _comparison(keys, before, after, scribe)
+    yield from (_labelled(section, state_after, scribe) for section in as_left)
+    own = _scribe_of(before, scribe)
+    yield from (_results(each, state_before, own) for each in before)
+
+
+def readings_as_found(keys: AsFound, before: Sequence[Evaluated], scribe: Scribe) -> Section:
+    """Return the section of the readings as found."""
+    measurements = before[0].evaluation.measurements
+    section = readings.section(measurements, _scribe_of(before, scribe), "as_found.measurement.source")
+    return _labelled(replace(section, key="as-found-readings"), NAMES[keys.work][0], scribe)
+
+
+def _scribe_of(before: Sequence[Evaluated], scribe: Scribe) -> Scribe:
+    """Return a scribe for readings that may have other decimals than those as left."""
+    return Scribe.of(before[0].evaluation.measurements, scribe.language, scribe.marks)
+
+
+def _comparison(
+    keys: AsFound, before: Sequence[Evaluated], after: Sequence[Evaluated], scribe: Scribe
+) -> Section:
+    first, last = before[0].evaluation, after[0].evaluation
+    pairs = [(one.evaluation, other.evaluation) for one, other in zip(before, after, strict=True)]
+    blocks: list[Block] = [
+        *_circumstances(keys, first.measurements, scribe),
+        *corrections.blocks(first.measurements, scribe),
+        *_differences(first.measurements, last.measurements, scribe),
+        Graph(comparison_graph(first, last, NAMES[keys.work])),
+        changes(pairs, scribe),
+        *limits(pairs, scribe),
+    ]
+    return Section("as-found-as-left", scribe.say(_TITLE), tuple(blocks), new_page=True)
+
+
+def _results(evaluated: Evaluated, state: Words, scribe: Scribe) -> Section:
+    """Return the results as found by a standard, whose definitions stand with the results as left."""
+    figures = tuple(_named(figure, state) for figure in evaluated.figures)
+    section = results.section(replace(evaluated, figures=figures), scribe)
+    blocks = tuple(block for block in section.blocks if not isinstance(block, Formulas))
+    return _labelled(replace(section, key=f"as-found-{section.key}", blocks=blocks), state, scribe)
+
+
+def _labelled(section: Section, state: Words, scribe: Scribe) -> Section:
+    """Return a section whose title says to which of the two measurements it belongs."""
+    return replace(section, title=scribe.say(_LABELLED.given(title=section.title, state=state)))
+
+
+def _named(figure: Figure, state: Words) -> Figure:
+    title = _LABELLED.given(title=figure.title, state=state)
+    return replace(figure, key=f"as-found-{figure.key}", title=title)
+
+
+def _circumstances(keys: AsFound, measurements: MeasurementSet, scribe: Scribe) -> Iterator[Facts]:
+    within = "as_found.measurement"
+    environment = environment_facts(keys.environment, measurements, scribe, "as_found.environment")
+    groups = (
+        (
+            Words(en="Measurement as found", de="Messung im vorgefundenen Zustand"),
+            measurement_facts(keys.measurement, measurements, scribe, within),
+        ),
+        (Words(en="Environment as found", de="Umgebung dabei"), environment),
+        (
+            Words(en="Between the measurements", de="Zwischen den Messungen"),
+            (Fact(_WORK[keys.work], keys.adjustment, ("as_found.work", "as_found.adjustment")),),
+        ),
+    )
+    for heading, facts in groups:
+        pairs = stated(facts, scribe)
+        if pairs:
+            yield Facts(pairs, scribe.say(heading))
+
+
+def _differences(before: MeasurementSet, after: MeasurementSet, scribe: Scribe) -> Iterator[Notice]:
+    """Yield what hinders a comparison of like with like."""
+    found = []
+    if not np.array_equal(before.target_positions, after.target_positions):
+        found.append(_OTHER_TARGETS)
+    if before.approaches != after.approaches:
+        found.append(_OTHER_APPROACHES)
+    if len(before.runs) != len(after.runs):
+        found.append(_OTHER_RUNS.given(before=len(before.runs), after=len(after.runs)))
+    if found:
+        yield Notice(scribe.say(_NOT_ALIKE), tuple(map(scribe.say, found)))

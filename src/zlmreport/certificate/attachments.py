@@ -1,0 +1,201 @@
+"""The files that travel inside a certificate: what it was made from, and its results for programs.
+
+With them anyone can evaluate it again; `zlmreport verify` does.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from enum import Enum, StrEnum
+from pathlib import Path, PurePosixPath
+
+from zlmreport.errors import InputError, Place
+from zlmreport.job.job import Job
+from zlmreport.job.references import path_from_job
+from zlmreport.language import Language, Words
+from zlmreport.measurement.provenance import SourceFile
+
+#: Of the files in one certificate, and in bytes of all of them together.
+MOST_ATTACHMENTS = 64
+LARGEST_TOTAL = 64 * 1024 * 1024
+
+#: By suffix, and the same on every machine: a system's own list of media types is not.
+_MEDIA_TYPES = {
+    ".csv": "text/csv",
+    ".dat": "text/plain",
+    ".jpeg": "image/jpeg",
+    ".jpg": "image/jpeg",
+    ".json": "application/json",
+    ".png": "image/png",
+    ".rta": "text/plain",
+    ".rtl": "text/plain",
+    ".txt": "text/plain",
+    ".xml": "application/xml",
+    ".yaml": "application/yaml",
+    ".yml": "application/yaml",
+}
+_UNKNOWN = "application/octet-stream"
+#: What some systems do not take in the name of a file.
+_NOT_IN_NAMES = frozenset('\\/:*?"<>|')
+_LONGEST_NAME = 100
+
+
+class Relationship(StrEnum):
+    """What an attached file is to the document, in the words of the PDF standard (AFRelationship)."""
+
+    SOURCE = "Source"
+    DATA = "Data"
+    ALTERNATIVE = "Alternative"
+    SUPPLEMENT = "Supplement"
+
+
+@dataclass(frozen=True, slots=True)
+class Attachment:
+    """A file inside a document.
+
+    Attributes
+    ----------
+    name
+        Unique among the attachments of a document, and no path.
+    content
+        Its bytes.
+    media_type
+        ``text/csv``.
+    relationship
+        To the document.
+    description
+        What it is, in the document's language.
+    """
+
+    name: str
+    content: bytes
+    media_type: str
+    relationship: Relationship
+    description: str
+
+
+class Role(Enum):
+    """What a source is to the job: its key in the results file, and its name."""
+
+    JOB = ("job", Words(en="Job", de="Auftrag"))
+    EXTENDED = ("extended", Words(en="Extended by the job", de="Vom Auftrag erweitert"))
+    TABLE = ("table", Words(en="Table of the axis", de="Tabelle der Achse"))
+    READINGS = ("readings", Words(en="Readings", de="Messwerte"))
+    LOGO = ("logo", Words(en="Logo of the laboratory", de="Logo des Labors"))
+
+    def __init__(self, key: str, title: Words) -> None:
+        self.key = key
+        self.title = title
+
+
+@dataclass(frozen=True, slots=True)
+class Source:
+    """A file that a certificate was made from.
+
+    Attributes
+    ----------
+    role
+        What it is to the job.
+    name
+        Its name as an attachment.
+    path
+        From the job's folder, as the job comes to it: ``../laboratory.yaml``. It tells nothing of the
+        folders of a laboratory that the job itself does not say.
+    file
+        Its digest and bytes.
+    """
+
+    role: Role
+    name: str
+    path: str
+    file: SourceFile
+
+
+def sources(job: Job, readings: Iterable[SourceFile], logo: SourceFile | None) -> tuple[Source, ...]:
+    """Return every file that a certificate is made from, the job file first.
+
+    Parameters
+    ----------
+    job
+        The checked job.
+    readings
+        The files of its measurements.
+    logo
+        The file of its laboratory's logo, if it has one.
+    """
+    found: dict[str, tuple[Role, SourceFile]] = {}
+    tables = set(job.axis.files)
+    for number, file in enumerate(job.files):
+        role = Role.TABLE if file in tables else Role.EXTENDED if number else Role.JOB
+        found.setdefault(_path(file, job), (role, file))
+    for file in readings:
+        found.setdefault(_path(file, job), (Role.READINGS, file))
+    if logo:
+        found.setdefault(_path(logo, job), (Role.LOGO, logo))
+    taken: set[str] = set()
+    return tuple(
+        Source(role, _unique(_clean(file.name), taken, job.keys.certificate.number), path, file)
+        for path, (role, file) in found.items()
+    )
+
+
+def source_attachments(sources: Iterable[Source], language: Language) -> Iterator[Attachment]:
+    """Yield the sources as attachments; one whose reader did not keep its bytes cannot be attached."""
+    for source in sources:
+        if source.file.content is not None:
+            description = f"{source.role.title.in_language(language)}: {_clean(source.path, kept='/')}"
+            yield Attachment(
+                source.name,
+                source.file.content,
+                media_type(source.name),
+                Relationship.SOURCE,
+                description,
+            )
+
+
+def arranged(attachments: Iterable[Attachment], number: str) -> tuple[Attachment, ...]:
+    """Return the attachments of the certificate of this number in the order in which a PDF lists them.
+
+    Raises
+    ------
+    InputError
+        If they are more, or larger, than a certificate carries.
+    """
+    found = sorted(attachments, key=lambda each: each.name.encode())
+    size = sum(len(each.content) for each in found)
+    if len(found) > MOST_ATTACHMENTS or size > LARGEST_TOTAL:
+        raise InputError.at(
+            Place(number),
+            f"its {len(found)} files have {size} bytes in all; a PDF certificate carries its files, and "
+            f"these are {MOST_ATTACHMENTS} with {LARGEST_TOTAL} bytes (64 MiB) at most",
+        )
+    return tuple(found)
+
+
+def media_type(name: str) -> str:
+    """Return the media type of a file by the suffix of its name."""
+    return _MEDIA_TYPES.get(PurePosixPath(name).suffix.lower(), _UNKNOWN)
+
+
+def _path(file: SourceFile, job: Job) -> str:
+    """Return the path of a file from the job's folder, or only its name where the job does not lead to it."""
+    job_path = job.files[0].path
+    return (file.path and job_path and path_from_job(file.path, job_path)) or file.name
+
+
+def _unique(name: str, taken: set[str], number: str) -> str:
+    """Return a name that no file before has; names that begin like the certificate's own files are kept."""
+    path, count, candidate = Path(name), 1, name
+    while candidate.casefold() in taken or candidate.startswith(f"{number}."):
+        count += 1
+        candidate = f"{path.stem}-{count}{path.suffix}"
+    taken.add(candidate.casefold())
+    return candidate
+
+
+def _clean(text: str, kept: str = "") -> str:
+    """Return a text without what is not seen, or not taken by every system."""
+    allowed = _NOT_IN_NAMES - set(kept)
+    shown = "".join("_" if each in allowed or not each.isprintable() else each for each in text)
+    return shown[-_LONGEST_NAME:]

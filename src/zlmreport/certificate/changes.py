@@ -1,0 +1,118 @@
+"""Parameters of an axis before and after it was adjusted, side by side."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from typing import TypeAlias, cast
+
+from zlmreport.certificate import conformity
+from zlmreport.certificate.document import Align, Cell, Column, RowGroup, Symbol, Table
+from zlmreport.certificate.scribe import NOTHING, Scribe
+from zlmreport.certificate.values import limit, written
+from zlmreport.evaluation.evaluation import Evaluation, Parameter
+from zlmreport.language import Words
+
+#: Evaluations of both measurements by one standard: as found, as left.
+Pair: TypeAlias = tuple[Evaluation, Evaluation]
+
+_BEFORE = Words(en="As found", de="Vorher")
+_AFTER = Words(en="As left", de="Nachher")
+_CHANGES = Words(
+    en="Parameters as found and as left; change = as left − as found, of unrounded values",
+    de="Kenngrößen vorher und nachher; Änderung = nachher − vorher, aus ungerundeten Werten",
+)
+_LIMITS = Words(en="Limits as found and as left", de="Grenzwerte vorher und nachher")
+
+
+def changes(pairs: Sequence[Pair], scribe: Scribe) -> Table:
+    """Return the table of parameters before and after, with their uncertainties where these are known."""
+    unit = scribe.deviation_unit.symbol
+    known = any(
+        each.expanded_uncertainty is not None for pair in pairs for one in pair for each in one.parameters
+    )
+    uncertainty = [Column(Symbol("U"), unit, Align.RIGHT)] if known else []
+    columns = (
+        Column(scribe.say(Words(en="Symbol", de="Zeichen"))),
+        Column(scribe.say(Words(en="Parameter", de="Kenngröße"))),
+        Column(scribe.say(_BEFORE), unit, Align.RIGHT),
+        *uncertainty,
+        Column(scribe.say(_AFTER), unit, Align.RIGHT),
+        *uncertainty,
+        Column(scribe.say(Words(en="Change", de="Änderung")), unit, Align.RIGHT),
+    )
+    groups = tuple(
+        RowGroup(
+            tuple(_change(*each, scribe, with_uncertainty=known) for each in _parameters(*pair)),
+            pair[1].designation,
+        )
+        for pair in pairs
+    )
+    return Table(scribe.say(_CHANGES), columns, groups)
+
+
+def _change(
+    before: Parameter | None, after: Parameter | None, scribe: Scribe, *, with_uncertainty: bool
+) -> tuple[Cell, ...]:
+    quantity = _either(before, after).quantity
+    change = after.printed_value - before.printed_value if before and after else math.nan
+    parts = 2 if with_uncertainty else 1
+    return (
+        Symbol(quantity.notation),
+        scribe.say(quantity.name),
+        *(written(before, scribe) if before else (NOTHING, NOTHING))[:parts],
+        *(written(after, scribe) if after else (NOTHING, NOTHING))[:parts],
+        scribe.deviation(change),
+    )
+
+
+def limits(pairs: Sequence[Pair], scribe: Scribe) -> Iterator[Table]:
+    """Yield the table of what is stated of the limits before and after, where the job states any."""
+    columns = (
+        Column(scribe.say(Words(en="Symbol", de="Zeichen"))),
+        Column(
+            scribe.say(Words(en="Limit", de="Grenzwert")) + scribe.marks.after("evaluate.tolerances"),
+            scribe.deviation_unit.symbol,
+            Align.RIGHT,
+        ),
+        Column(scribe.say(_BEFORE)),
+        Column(scribe.say(_AFTER)),
+    )
+    groups = tuple(
+        RowGroup(
+            tuple(
+                _verdicts(before, after, scribe)
+                for before, after in _parameters(*pair)
+                if _either(before, after).limit is not None
+            ),
+            pair[1].designation,
+        )
+        for pair in pairs
+    )
+    limited = tuple(group for group in groups if group.rows)
+    if limited:
+        yield Table(scribe.say(_LIMITS), columns, limited)
+
+
+def _verdicts(before: Parameter | None, after: Parameter | None, scribe: Scribe) -> tuple[Cell, ...]:
+    either = _either(before, after)
+    return (
+        Symbol(either.quantity.notation),
+        limit(either, scribe),
+        conformity.verdict(before, scribe) if before else NOTHING,
+        conformity.verdict(after, scribe) if after else NOTHING,
+    )
+
+
+def _parameters(before: Evaluation, after: Evaluation) -> Iterator[tuple[Parameter | None, Parameter | None]]:
+    """Yield each parameter that either measurement defines, in the standard's order."""
+    for parameter in after.parameters:
+        yield before.parameter(parameter.quantity.symbol), parameter
+    for parameter in before.parameters:
+        if after.parameter(parameter.quantity.symbol) is None:
+            yield parameter, None
+
+
+def _either(before: Parameter | None, after: Parameter | None) -> Parameter:
+    """Return one of two parameters that are alike but for their values; one of the two is there."""
+    return cast("Parameter", after or before)

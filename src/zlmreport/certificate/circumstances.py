@@ -1,0 +1,166 @@
+"""How, when and under which conditions a set of readings was taken: the axis as left, or as found."""
+
+from __future__ import annotations
+
+import datetime as dt
+from collections.abc import Iterator
+
+import numpy as np
+
+from zlmreport.certificate.facts import Fact
+from zlmreport.certificate.scribe import Scribe
+from zlmreport.job.model import Environment, Measurement
+from zlmreport.language import Words
+from zlmreport.measurement.conditions import CONDITION_NAMES, CONDITIONS
+from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.quantities.arrays import FloatArray
+
+_METHODS = {
+    "linear": Words(en="linear method", de="Linearverfahren"),
+    "unidirectional": Words(en="unidirectional linear method", de="einseitiges Linearverfahren"),
+    "pendulum": Words(en="oscillation (pendulum-step) method", de="Pendelschrittverfahren"),
+    "quasi-pilgrim": Words(en="quasi-pilgrim step method", de="Quasi-Pilgerschrittverfahren"),
+}
+_DAYS = Words(en="{first} to {last}", de="{first} bis {last}")
+_PASCAL_PER_HECTOPASCAL = 100.0
+_PERCENT = 100.0
+
+
+def days(measurement: Measurement, scribe: Scribe) -> str | None:
+    """Write the day of a measurement, or its first and last day."""
+    first, last = measurement.date, measurement.end
+    if first is None:
+        return None
+    if last is None or last == first:
+        return scribe.date(first)
+    return scribe.say(_DAYS.given(first=scribe.date(first), last=scribe.date(last)))
+
+
+def date(day: dt.date | None, scribe: Scribe) -> str | None:
+    """Write a day that may not be stated."""
+    return None if day is None else scribe.date(day)
+
+
+def measurement_facts(
+    measurement: Measurement, measurements: MeasurementSet, scribe: Scribe, within: str
+) -> Iterator[Fact]:
+    """Yield how readings were taken; `within` is the dotted key of the job's group."""
+
+    def fact(en: str, de: str, value: str | None, *names: str) -> Fact:
+        return Fact(Words(en, de), value, tuple(f"{within}.{name}" for name in names))
+
+    unit = scribe.position_unit.symbol
+    method, plane = measurement.method, measurement.plane
+    yield fact("Date", "Datum", days(measurement, scribe), "date", "end")
+    yield fact(
+        "Positioning method",
+        "Positionierverfahren",
+        scribe.say(_METHODS[method]) if method else None,
+        "method",
+    )
+    yield fact("Target positions", "Sollpositionen", scribe.say(_targets(measurements, scribe)), "source")
+    yield fact(
+        "Approaches and runs",
+        "Anfahrrichtungen und Durchläufe",
+        scribe.say(_runs(measurements)),
+        "source",
+    )
+    yield fact("Feed", "Vorschub", with_unit(measurement.feed, f"{unit}/min", scribe), "feed")
+    yield fact(
+        "Rest at each target", "Verweilzeit je Position", with_unit(measurement.dwell, "s", scribe), "dwell"
+    )
+    yield fact("Warm-up", "Warmlauf", measurement.warm_up, "warm_up")
+    yield fact("Compensation", "Kompensation", measurement.compensation, "compensation")
+    yield fact("Measuring line", "Messlinie", measurement.line, "line")
+    yield fact(
+        "Position of the second axis",
+        "Stellung der zweiten Achse",
+        f"{plane.axis} = {scribe.number(plane.at)} {unit}" if plane else None,
+        "plane",
+    )
+    yield fact(
+        "Deviations from the method",
+        "Abweichungen vom Verfahren",
+        measurement.deviations_from_method,
+        "deviations_from_method",
+    )
+    yield fact("Measured by", "Gemessen von", measurement.operator, "operator")
+    yield fact("Remarks", "Bemerkungen", measurement.remarks, "remarks")
+
+
+def environment_facts(
+    environment: Environment | None, measurements: MeasurementSet, scribe: Scribe, within: str
+) -> Iterator[Fact]:
+    """Yield the conditions that the job states, and those that were logged beside the readings."""
+    for name, key, unit, logged in _CONDITIONS:
+        from_job = getattr(environment, key, None)
+        if from_job is not None:
+            yield Fact(name, with_unit(from_job, unit, scribe), (f"{within}.{key}",))
+        elif logged:
+            yield Fact(name, _logged(measurements.conditions.get(key), unit, scribe))
+    if environment is not None:
+        yield Fact(Words(en="Remarks", de="Bemerkungen"), environment.remarks, (f"{within}.remarks",))
+
+
+#: Name, key (in the job and among the logged conditions), unit, and whether a log may state it.
+_CONDITIONS = (
+    *(
+        (CONDITION_NAMES[key], key, CONDITIONS[key].unit.symbol, True)
+        for key in (
+            "air_temperature",
+            "axis_temperature",
+            "screw_temperature",
+            "material_temperature",
+            "air_pressure",
+            "relative_humidity",
+        )
+    ),
+    (
+        Words(en="Expansion coefficient used", de="Verwendeter Koeffizient der Längenausdehnung"),
+        "expansion_coefficient",
+        "µm/(m·K)",
+        False,
+    ),
+)
+
+
+def with_unit(value: str | float | None, unit: str, scribe: Scribe) -> str | None:
+    """Write a number with its unit; what the job states in words stays as it is."""
+    if value is None or isinstance(value, str):
+        return value
+    return f"{scribe.number(value)} {unit}"
+
+
+def _targets(measurements: MeasurementSet, scribe: Scribe) -> Words:
+    first, last = measurements.target_positions[0], measurements.target_positions[-1]
+    return Words(
+        en="{count}, from {first} to {last} {unit}", de="{count}, von {first} bis {last} {unit}"
+    ).given(
+        count=len(measurements.target_positions),
+        first=scribe.position(float(first)),
+        last=scribe.position(float(last)),
+        unit=scribe.position_unit.symbol,
+    )
+
+
+def _runs(measurements: MeasurementSet) -> Words:
+    count = len(measurements.runs)
+    if measurements.is_bidirectional:
+        return Words(
+            en="both directions (↑ and ↓), {count} runs each",
+            de="beide Richtungen (↑ und ↓), je {count} Durchläufe",
+        ).given(count=count)
+    return Words(
+        en="one direction ({arrow}), {count} runs", de="eine Richtung ({arrow}), {count} Durchläufe"
+    ).given(arrow=measurements.approaches[0].arrow, count=count)
+
+
+def _logged(values: FloatArray | None, unit: str, scribe: Scribe) -> str | None:
+    """Write the range of a logged condition in the unit that is printed."""
+    if values is None or not np.any(np.isfinite(values)):
+        return None
+    if unit == "°C":
+        return scribe.celsius_span(values)
+    if unit == "hPa":
+        return f"{scribe.span(values / _PASCAL_PER_HECTOPASCAL, 1)} hPa"
+    return f"{scribe.span(values * _PERCENT, 1)} %"

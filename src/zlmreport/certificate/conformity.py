@@ -1,0 +1,187 @@
+"""Statements of conformity: the decision rule with its risk, and what it says of each limit."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator
+
+from zlmreport.certificate.document import (
+    Align,
+    Block,
+    Cell,
+    Column,
+    Graph,
+    Mark,
+    Paragraph,
+    RowGroup,
+    Symbol,
+    Table,
+    Verdict,
+)
+from zlmreport.certificate.scribe import NOTHING, Scribe
+from zlmreport.evaluation.conformity import Conformity
+from zlmreport.evaluation.evaluation import Evaluation, Parameter
+from zlmreport.figures.conformity import conformity_graph
+from zlmreport.job.model import DecisionRuleKeys
+from zlmreport.language import Words
+from zlmreport.quantities.formatting import fixed_number
+
+#: What each statement looks like, and its words.
+STATEMENTS = {
+    Conformity.MET: (Mark.MET, Words(en="conforms", de="eingehalten")),
+    Conformity.CONDITIONALLY_MET: (
+        Mark.MET,
+        Words(en="conforms, conditionally", de="bedingt eingehalten"),
+    ),
+    Conformity.CONDITIONALLY_FAILED: (
+        Mark.NOT_MET,
+        Words(en="does not conform, conditionally", de="bedingt nicht eingehalten"),
+    ),
+    Conformity.FAILED: (Mark.NOT_MET, Words(en="does not conform", de="nicht eingehalten")),
+    Conformity.UNDECIDED: (Mark.OPEN, Words(en="not decided", de="nicht entschieden")),
+}
+
+_SIMPLE = Words(
+    en="Decision rule: simple acceptance. A parameter conforms when its unrounded amount does not exceed "
+    "the limit TL. The measurement uncertainty is not taken into account: for a value at the limit, the "
+    "risk of a wrong acceptance or rejection reaches 50 %.",
+    de="Entscheidungsregel: einfache Annahme. Eine Kenngröße hält den Grenzwert TL ein, wenn ihr "
+    "ungerundeter Betrag ihn nicht überschreitet. Die Messunsicherheit bleibt unberücksichtigt: für "
+    "einen Wert am Grenzwert erreicht das Risiko einer falschen Annahme oder Ablehnung 50 %.",
+)
+_GUARD_BAND = Words(
+    en="Decision rule: guarded acceptance with the guard band w = {width}. A parameter conforms when its "
+    "unrounded amount does not exceed TL − w; above, it does not conform. The risk of a wrong acceptance is "
+    "at most {risk} %.",
+    de="Entscheidungsregel: Annahme mit dem Schutzabstand w = {width}. Eine Kenngröße hält den Grenzwert "
+    "ein, wenn ihr ungerundeter Betrag TL − w nicht überschreitet; darüber gilt er als nicht "
+    "eingehalten. Das Risiko einer falschen Annahme beträgt höchstens {risk} %.",
+)
+_ISO_14253 = Words(
+    en="Decision rule: ISO 14253-1:2017 with a conformance probability of 95 %, applied as guard bands of "
+    "1.65·u on both sides of the limit. Conformity is stated up to TL − 1.65·u, nonconformity beyond "
+    "TL + 1.65·u; in between nothing is decided. The risk of a wrong statement is at most 5 %.",
+    de="Entscheidungsregel: ISO 14253-1:2017 mit einer Konformitätswahrscheinlichkeit von 95 %, angewandt "
+    "als Schutzabstände von 1,65·u beiderseits des Grenzwerts. Konformität wird bis TL − 1,65·u "
+    "festgestellt, Nichtkonformität jenseits von TL + 1,65·u; dazwischen wird nichts entschieden. Das "
+    "Risiko einer falschen Aussage beträgt höchstens 5 %.",
+)
+_NON_BINARY = Words(
+    en="Decision rule: non-binary statement with the guard band w = U (ILAC-G8:09/2019). Up to TL − U a "
+    "parameter conforms, up to TL conditionally; up to TL + U it conditionally does not conform, beyond "
+    "it does not. The risk of a wrong statement is at most {risk} %, of a conditional one at most 50 %.",
+    de="Entscheidungsregel: nicht binäre Aussage mit dem Schutzabstand w = U (ILAC-G8:09/2019). Bis TL − U "
+    "ist der Grenzwert eingehalten, bis TL bedingt eingehalten; bis TL + U ist er bedingt nicht "
+    "eingehalten, darüber nicht eingehalten. Das Risiko einer falschen Aussage beträgt höchstens {risk} "
+    "%, einer bedingten höchstens 50 %.",
+)
+_WITHOUT_UNCERTAINTY = Words(
+    en="{rule} It needs the expanded uncertainty of each parameter, which this document does not state; "
+    "conformity is therefore not decided.",
+    de="{rule} Sie braucht die erweiterte Messunsicherheit jeder Kenngröße, die dieses Dokument nicht "
+    "angibt; über die Konformität ist daher nicht entschieden.",
+)
+_CAPTION = Words(
+    en="Limits and what is stated of them. The risk is the probability that the statement is wrong, for a "
+    "normally distributed value with this uncertainty (JCGM 106:2012).",
+    de="Grenzwerte und was zu ihnen festgestellt wird. Das Risiko ist die Wahrscheinlichkeit, dass die "
+    "Aussage falsch ist, für einen normalverteilten Wert mit dieser Unsicherheit (JCGM 106:2012).",
+)
+
+
+def verdict(parameter: Parameter, scribe: Scribe) -> Cell:
+    """Return what is stated of a parameter's limit; nothing where it has none."""
+    if parameter.limit is None or parameter.decision is None:
+        return NOTHING
+    mark, words = STATEMENTS[parameter.decision.conformity]
+    return Verdict(mark, scribe.say(words))
+
+
+def rule_paragraph(
+    keys: DecisionRuleKeys, evaluations: Iterable[Evaluation], scribe: Scribe
+) -> Iterator[Paragraph]:
+    """Yield the decision rule with its risk, where any limit is stated."""
+    limited = [each for evaluation in evaluations for each in evaluation.parameters if each.limit is not None]
+    if not limited:
+        return
+    words = _rule(keys, min((each.coverage_factor or 2.0) for each in limited), scribe)
+    if keys.rule != "simple" and any(each.expanded_uncertainty is None for each in limited):
+        words = _WITHOUT_UNCERTAINTY.given(rule=words)
+    yield Paragraph(scribe.say(words))
+
+
+def blocks(evaluation: Evaluation, scribe: Scribe) -> Iterator[Block]:
+    """Yield the graph of a standard's limits, and the table of what is stated of them.
+
+    Nothing where the job states no limit; no table where no uncertainty is known: it would say no more than
+    that of the results.
+    """
+    limited = [each for each in evaluation.parameters if each.limit is not None]
+    graph = conformity_graph(evaluation)
+    if graph is None:
+        return
+    yield Graph(graph)
+    if all(each.expanded_uncertainty is None for each in limited):
+        return
+    unit = scribe.deviation_unit.symbol
+    columns = (
+        Column(scribe.say(Words(en="Symbol", de="Zeichen"))),
+        Column(scribe.say(Words(en="Amount", de="Betrag")), unit, Align.RIGHT),
+        Column(
+            scribe.say(Words(en="Limit TL", de="Grenzwert TL")) + scribe.marks.after("evaluate.tolerances"),
+            unit,
+            Align.RIGHT,
+        ),
+        Column(scribe.say(Words(en="Accepted up to", de="Angenommen bis")), unit, Align.RIGHT),
+        Column(scribe.say(Words(en="Statement", de="Aussage"))),
+        Column(scribe.say(Words(en="Risk", de="Risiko")), "%", Align.RIGHT),
+    )
+    rows = tuple(_row(each, scribe) for each in limited)
+    yield Table(scribe.say(_CAPTION), columns, (RowGroup(rows),))
+
+
+def _row(parameter: Parameter, scribe: Scribe) -> tuple[Cell, ...]:
+    decision = parameter.decision
+    accepted = None if decision is None else decision.acceptance_limit
+    risk = None if decision is None else decision.risk
+    return (
+        Symbol(parameter.quantity.notation),
+        scribe.deviation(abs(parameter.value)),
+        scribe.number(scribe.deviation_unit.from_si(parameter.limit or 0.0)),
+        NOTHING if accepted is None else _accepted(accepted, parameter, scribe),
+        verdict(parameter, scribe),
+        NOTHING if risk is None else _percent(risk, scribe),
+    )
+
+
+def _accepted(limit: float, parameter: Parameter, scribe: Scribe) -> str:
+    if limit == parameter.limit:
+        return scribe.number(scribe.deviation_unit.from_si(limit))
+    return scribe.deviation(limit) if limit >= 0 else scribe.say(Words(en="none", de="keine"))
+
+
+def _percent(risk: float, scribe: Scribe) -> str:
+    """Write a risk; one that rounds to nothing is said to be small, not to be none."""
+    percent = 100.0 * risk
+    sign = scribe.language.decimal_sign
+    return f"< {fixed_number(0.1, 1, sign)}" if percent < 0.1 else fixed_number(percent, 1, sign)
+
+
+def _rule(keys: DecisionRuleKeys, coverage_factor: float, scribe: Scribe) -> Words:
+    match keys.rule:
+        case "guard-band":
+            factor = keys.guard_band_factor
+            width = "U" if factor == 1 else f"{scribe.number(factor)}·U"
+            return _GUARD_BAND.given(width=width, risk=_tail(factor * coverage_factor, scribe))
+        case "iso14253-1":
+            return _ISO_14253
+        case "non-binary":
+            return _NON_BINARY.given(risk=_tail(coverage_factor, scribe))
+        case _:
+            return _SIMPLE
+
+
+def _tail(distance: float, scribe: Scribe) -> str:
+    """Return the percentage of a normal distribution beyond so many standard deviations, rounded up."""
+    percent = 50.0 * math.erfc(distance / math.sqrt(2.0))
+    return fixed_number(math.ceil(10.0 * percent) / 10.0, 1, scribe.language.decimal_sign)

@@ -1,0 +1,159 @@
+"""The uncertainty of measurement: what U means, the budget as a table and as bars, and what it leaves out."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from zlmreport.certificate.document import (
+    Align,
+    Block,
+    Cell,
+    Column,
+    Explained,
+    Graph,
+    Notice,
+    Paragraph,
+    RowGroup,
+    Section,
+    Symbol,
+    Table,
+)
+from zlmreport.certificate.scribe import Scribe
+from zlmreport.figures.budget_bars import budget_bars
+from zlmreport.language import Words
+from zlmreport.measurement.axis import Axis
+from zlmreport.quantities.formatting import fixed_number
+from zlmreport.quantities.uncertain import rounded_pair
+from zlmreport.uncertainty import wording
+from zlmreport.uncertainty.budget import Budget, NoBudget
+from zlmreport.uncertainty.contribution import Acts, Contribution
+from zlmreport.uncertainty.monte_carlo import TRIALS
+
+_TITLE = Words(en="Uncertainty of measurement", de="Messunsicherheit")
+_COVERAGE = Words(
+    en="U is the expanded uncertainty of measurement, the standard uncertainty multiplied by the coverage "
+    "factor k. The interval y ± U about a stated value y holds the value of the measurand with a probability "
+    "of about 95 %.",
+    de="U ist die erweiterte Messunsicherheit: die Standardunsicherheit, multipliziert mit dem "
+    "Erweiterungsfaktor k. Das Intervall y ± U um einen angegebenen Wert y enthält den Wert der Messgröße "
+    "mit einer Wahrscheinlichkeit von etwa 95 %.",
+)
+_METHOD = Words(
+    en="The budget below was propagated to every parameter by the Monte Carlo method (JCGM 101:2008): "
+    "{trials} simulated tests, the readings with errors drawn from the budget, were evaluated by the "
+    "formulas of each standard. Errors that readings share stay shared. y ± U holds 95.45 % of the simulated "
+    "values. U of the mean deviations by position follows from the law of propagation (JCGM 100:2008), with "
+    "k = 2.",
+    de="Die folgende Bilanz wurde mit der Monte-Carlo-Methode (JCGM 101:2008) auf jede Kenngröße übertragen: "
+    "{trials} simulierte Messungen, die Messwerte mit Fehlern nach der Bilanz, wurden nach den Formeln jeder "
+    "Norm ausgewertet. Fehler, die Messwerten gemeinsam sind, bleiben gemeinsam. y ± U enthält 95,45 % der "
+    "simulierten Werte. U der mittleren Abweichungen an den Sollpositionen folgt aus dem "
+    "Fortpflanzungsgesetz (JCGM 100:2008), mit k = 2.",
+)
+_SCATTER = Words(
+    en="The scatter of the axis itself is a property of the axis, which the parameters state, and no "
+    "uncertainty of the measurement.",
+    de="Die Streuung der Achse selbst ist eine Eigenschaft der Achse, die die Kenngrößen angeben, und keine "
+    "Unsicherheit der Messung.",
+)
+_CAPTION = Words(
+    en="Uncertainty budget, grouped by the readings that share an error. u is the root mean square of the "
+    "error of a reading at the end of the measured length, where every contribution has its full effect; the "
+    "share is that of u² in the combined u².",
+    de="Messunsicherheitsbilanz, nach den Messwerten geordnet, denen ein Fehler gemeinsam ist. u ist der "
+    "quadratische Mittelwert des Fehlers eines Messwerts am Ende der Messlänge, wo jeder Beitrag voll wirkt; "
+    "der Anteil ist der von u² an der kombinierten u².",
+)
+_COMBINED = Words(en="all contributions together", de="alle Beiträge zusammen")
+_COMBINED_OF = Words(
+    en="A single reading at the end of the measured length",
+    de="Ein einzelner Messwert am Ende der Messlänge",
+)
+_NOT_CONSIDERED = Words(
+    en="Contributions that are not considered, because nothing is stated of them",
+    de="Nicht berücksichtigte Beiträge, zu denen nichts angegeben ist",
+)
+_NO_BUDGET = Words(
+    en="The uncertainty of the parameters is not evaluated: {reason}.",
+    de="Die Messunsicherheit der Kenngrößen ist nicht ermittelt: {reason}.",
+)
+_PERCENT = 100.0
+
+
+def statement(budget: Budget | NoBudget, scribe: Scribe) -> Paragraph:
+    """Return what U means, or why there is none: for the first page."""
+    if isinstance(budget, NoBudget):
+        return Paragraph(scribe.say(_NO_BUDGET.given(reason=budget.reason)))
+    return Paragraph(scribe.say(_COVERAGE))
+
+
+def section(budget: Budget | NoBudget, axis: Axis, scribe: Scribe) -> Section:
+    """Return the section on the uncertainty of everything that the document states."""
+    return Section("uncertainty", scribe.say(_TITLE), tuple(_blocks(budget, axis, scribe)))
+
+
+def _blocks(budget: Budget | NoBudget, axis: Axis, scribe: Scribe) -> Iterator[Block]:
+    yield statement(budget, scribe)
+    if isinstance(budget, NoBudget):
+        return
+    yield Paragraph(scribe.say(_METHOD.given(trials=TRIALS)))
+    yield Paragraph(scribe.say(_SCATTER))
+    yield _table(budget, scribe)
+    yield Graph(budget_bars(budget, axis))
+    if budget.not_considered:
+        yield Notice(scribe.say(_NOT_CONSIDERED), tuple(map(scribe.say, budget.not_considered)))
+
+
+def _table(budget: Budget, scribe: Scribe) -> Table:
+    columns = (
+        Column(scribe.say(Words(en="Symbol", de="Zeichen"))),
+        Column(scribe.say(Words(en="Contribution and its source", de="Beitrag und seine Quelle"))),
+        Column(
+            scribe.say(Words(en="Stated", de="Angabe"))
+            + scribe.marks.after("instrument", "environment", "uncertainty")
+        ),
+        Column(scribe.say(Words(en="Distribution", de="Verteilung"))),
+        Column(Symbol("u"), scribe.deviation_unit.symbol, Align.RIGHT),
+        Column(scribe.say(Words(en="Share", de="Anteil")), "%", Align.RIGHT),
+    )
+    groups = [
+        RowGroup(rows, scribe.say(wording.ACTS[acts]))
+        for acts in Acts
+        if (rows := tuple(_rows(budget, acts, scribe)))
+    ]
+    total = (
+        Symbol("u"),
+        scribe.say(_COMBINED_OF),
+        "",
+        "",
+        _size(budget.standard_uncertainty, scribe),
+        _percent(1.0, scribe),
+    )
+    return Table(scribe.say(_CAPTION), columns, (*groups, RowGroup((total,), scribe.say(_COMBINED))))
+
+
+def _rows(budget: Budget, acts: Acts, scribe: Scribe) -> Iterator[tuple[Cell, ...]]:
+    for number, each in enumerate(budget.contributions, 1):
+        if each.acts is acts:
+            yield _row(number, each, budget.share(each), scribe)
+
+
+def _row(number: int, contribution: Contribution, share: float, scribe: Scribe) -> tuple[Cell, ...]:
+    return (
+        Symbol(f"u_{{{number}}}"),
+        Explained(scribe.say(contribution.name), scribe.say(contribution.source)),
+        scribe.say(contribution.stated),
+        scribe.say(wording.DISTRIBUTIONS[contribution.distribution]),
+        _size(contribution.standard_uncertainty, scribe),
+        _percent(share, scribe),
+    )
+
+
+def _size(value: float, scribe: Scribe) -> str:
+    """Write a standard uncertainty to two significant digits."""
+    printed = scribe.deviation_unit.from_si(value)
+    return rounded_pair(printed, printed, scribe.language.decimal_sign)[1] if value else "0"
+
+
+def _percent(share: float, scribe: Scribe) -> str:
+    return fixed_number(_PERCENT * share, 1, scribe.language.decimal_sign)

@@ -1,0 +1,123 @@
+"""Values of parameters in a table: with their uncertainties, their limits, and what is stated of these."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+
+from zlmreport.certificate import conformity
+from zlmreport.certificate.document import Align, Cell, Column, Symbol
+from zlmreport.certificate.scribe import NOTHING, Scribe
+from zlmreport.evaluation.evaluation import Evaluation, Parameter
+from zlmreport.language import Words
+from zlmreport.quantities.formatting import fixed_number
+from zlmreport.quantities.uncertain import rounded_pair
+
+_VALUE = Words(en="Value", de="Wert")
+_LIMIT = Words(en="Limit", de="Grenzwert")
+_CONFORMITY = Words(en="Conformity", de="Konformität")
+#: Beyond the decimals of the readings: a mean of several says more than each of them.
+_MORE_DECIMALS = 1
+_DECIMALS_OF_K = 2
+#: An uncertainty that is none.
+_NONE = "0"
+
+
+@dataclass(frozen=True, slots=True)
+class Values:
+    """The columns of a table that say how large parameters are.
+
+    Attributes
+    ----------
+    scribe
+        Writes them.
+    has_uncertainty, has_limits
+        Whether any parameter in the table has an uncertainty, or a limit: without one there is no column.
+    """
+
+    scribe: Scribe
+    has_uncertainty: bool
+    has_limits: bool
+
+    @classmethod
+    def of(cls, evaluations: Iterable[Evaluation], scribe: Scribe) -> Values:
+        """Return the columns for the parameters of evaluations."""
+        parameters = [parameter for each in evaluations for parameter in each.parameters]
+        return cls(
+            scribe,
+            any(parameter.expanded_uncertainty is not None for parameter in parameters),
+            any(parameter.limit is not None for parameter in parameters),
+        )
+
+    @property
+    def columns(self) -> tuple[Column, ...]:
+        """Their headings and units."""
+        return tuple(self._columns())
+
+    def cells(self, parameter: Parameter) -> tuple[Cell, ...]:
+        """Return what stands under `columns` for a parameter."""
+        return tuple(self._cells(parameter))
+
+    def _columns(self) -> Iterator[Column]:
+        say, unit = self.scribe.say, self.scribe.deviation_unit.symbol
+        yield Column(say(_VALUE), unit, Align.RIGHT)
+        if self.has_uncertainty:
+            yield Column(Symbol("U"), unit, Align.RIGHT)
+            yield Column(Symbol("k"), align=Align.RIGHT)
+        if self.has_limits:
+            yield Column(say(_LIMIT) + self.scribe.marks.after("evaluate.tolerances"), unit, Align.RIGHT)
+            yield Column(say(_CONFORMITY))
+
+    def _cells(self, parameter: Parameter) -> Iterator[Cell]:
+        value, uncertainty = written(parameter, self.scribe)
+        yield value
+        if self.has_uncertainty:
+            yield uncertainty
+            yield coverage_factor(parameter, self.scribe)
+        if self.has_limits:
+            yield limit(parameter, self.scribe)
+            yield conformity.verdict(parameter, self.scribe)
+
+
+def written(parameter: Parameter, scribe: Scribe) -> tuple[str, str]:
+    """Write a parameter and its U, without unit: rounded together to two significant digits of U at most.
+
+    A value of which no uncertainty is known has the decimals of the readings, one with an uncertainty no more
+    than one beyond these (ILAC-P14:09/2020; EA-4/02 M:2022).
+    """
+    expanded = parameter.expanded_uncertainty
+    if not expanded:
+        return scribe.deviation(parameter.printed_value), NOTHING if expanded is None else _NONE
+    return _pair(parameter.printed_value, expanded, scribe)
+
+
+def written_uncertainty(expanded: float, scribe: Scribe) -> str:
+    """Write an U (m or rad) by itself, without unit; NaN is nothing."""
+    if math.isnan(expanded):
+        return NOTHING
+    return _pair(0.0, expanded, scribe)[1] if expanded else _NONE
+
+
+def _pair(value: float, expanded: float, scribe: Scribe) -> tuple[str, str]:
+    unit = scribe.deviation_unit
+    return rounded_pair(
+        unit.from_si(value),
+        unit.from_si(expanded),
+        scribe.language.decimal_sign,
+        scribe.deviation_decimals + _MORE_DECIMALS,
+    )
+
+
+def coverage_factor(parameter: Parameter, scribe: Scribe) -> str:
+    """Write k; nothing where there is no uncertainty to cover."""
+    if not parameter.expanded_uncertainty or parameter.coverage_factor is None:
+        return NOTHING
+    return fixed_number(parameter.coverage_factor, _DECIMALS_OF_K, scribe.language.decimal_sign)
+
+
+def limit(parameter: Parameter, scribe: Scribe) -> str:
+    """Write a parameter's limit as the job states it, with no digits added."""
+    if parameter.limit is None:
+        return NOTHING
+    return scribe.number(scribe.deviation_unit.from_si(parameter.limit))

@@ -1,0 +1,34 @@
+"""``zlmreport plan``: a test before it is done, and what it will not be able to see."""
+
+from __future__ import annotations
+
+from argparse import Namespace
+
+from zlmreport import pipeline
+from zlmreport.cli.plan_files import plan_files, refuse_files_that_are_there
+from zlmreport.cli.plan_json import plan_values
+from zlmreport.cli.plan_lines import plan_lines
+from zlmreport.cli.summary import print_json
+from zlmreport.cli.terminal import shown_path
+from zlmreport.foresight.foresee import foresee
+from zlmreport.job.loading import load
+from zlmreport.plugins import find_plugins
+
+
+def run(options: Namespace) -> int:
+    """Plan the test of a job; its readings need not exist."""
+    registry = find_plugins(files=options.plugin)
+    job = load(options.job, registry)
+    foresight = foresee(job, pipeline.standards(job, registry), registry.effects)
+    documents = plan_files(options.output, job, foresight) if options.output else ()
+    refuse_files_that_are_there(documents)
+    written = pipeline.write(documents)
+    if options.json:
+        print_json(plan_values(job, foresight, written))
+        return 0
+    print(*plan_lines(job, foresight), sep="\n")
+    print()
+    for path in written:
+        print(shown_path(path))
+    print(f"next: measure, then zlmreport {shown_path(options.job)}")
+    return 0

@@ -1,0 +1,99 @@
+"""What ``zlmreport plan --json`` prints: mm, µm and s (°, ″ on a rotary axis), full precision."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from zlmreport.cli.model_lines import said
+from zlmreport.cli.plan_files import SIGNS, in_users_unit
+from zlmreport.foresight.foresee import Foresight
+from zlmreport.foresight.outlook import Prospect
+from zlmreport.foresight.remedies import Remedy
+from zlmreport.job.job import Job
+from zlmreport.measurement.axis import Axis
+from zlmreport.model.parameter import unit_of
+
+SCHEMA = "zlmreport/plan/1"
+
+
+def plan_values(job: Job, foresight: Foresight, written: Sequence[Path]) -> dict[str, Any]:
+    """Return a plan as plain values for JSON."""
+    axis, proposal = job.axis, foresight.proposal
+    plan, position = proposal.plan, axis.position_unit
+    targets = in_users_unit(axis, plan.targets)
+    return {
+        "schema": SCHEMA,
+        "certificate": {"number": job.keys.certificate.number},
+        "axis": {"name": axis.name, "kind": axis.kind.value},
+        "units": {"position": position.ascii, "deviation": axis.deviation_unit.ascii, "time": "s"},
+        "method": plan.method.value,
+        "runs": plan.runs,
+        "overrun": round(position.from_si(plan.overrun), 9),
+        "feed_per_minute": round(position.from_si(plan.feed) * 60, 9),
+        "dwell": plan.dwell,
+        "seed": proposal.seed if proposal.has_fractions else None,
+        "assumed": sorted(proposal.assumed),
+        "expected": {
+            "repeatability": axis.deviation_unit.from_si(proposal.expected.sigma),
+            "temperature_change": proposal.expected.temperature_change,
+        },
+        "travelled": position.from_si(foresight.travelled),
+        "duration": foresight.duration,
+        "targets": targets,
+        "visits": [
+            {
+                "target": targets[visit.target],
+                "direction": SIGNS[visit.approach],
+                "run": visit.run,
+                "time": time,
+            }
+            for visit, time in zip(foresight.visits, foresight.design.time.tolist(), strict=True)
+        ],
+        "model": list(foresight.model.identifiers),
+        "visibility": [
+            _prospect(each, foresight.remedies.get(each.effect.identifier), axis)
+            for each in foresight.prospects
+        ],
+        "log": [{"column": column, "effects": names} for column, names in foresight.logs.items()],
+        "requirements": [
+            {
+                "standard": designation,
+                "requirement": said(finding.requirement),
+                "found": said(finding.found),
+                "met": finding.met,
+            }
+            for designation, findings in foresight.findings.items()
+            for finding in findings
+        ],
+        "files": [str(path) for path in written],
+    }
+
+
+def _prospect(prospect: Prospect, remedy: Remedy | None, axis: Axis) -> dict[str, Any]:
+    seen = prospect.visibility
+    smallest = None
+    if seen.smallest is not None and math.isfinite(seen.smallest[1]):
+        parameter, value = seen.smallest
+        unit = unit_of(parameter.dimension, axis.kind)
+        smallest = {"name": parameter.name, "value": value * unit.per_si, "unit": unit.ascii}
+    return {
+        "effect": seen.effect,
+        "sight": prospect.sight.value,
+        "share": seen.share,
+        "smallest_rms": axis.deviation_unit.from_si(seen.smallest_rms)
+        if math.isfinite(seen.smallest_rms)
+        else None,
+        "smallest": smallest,
+        "log": list(prospect.logs),
+        "reason": None if seen.reason is None else said(seen.reason),
+        "remedy": None
+        if remedy is None
+        else {
+            "reason": None if remedy.reason is None else said(remedy.reason),
+            "advice": said(remedy.advice),
+            "share": remedy.share,
+        },
+    }

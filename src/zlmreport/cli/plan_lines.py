@@ -1,0 +1,221 @@
+"""What people read of a plan: targets, sequence, what it will see, what it hides and what to do about it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from zlmreport.cli.model_lines import said, width, wrapped
+from zlmreport.cli.plan_files import in_users_unit
+from zlmreport.cli.terminal import Colour, table
+from zlmreport.evaluation import printed
+from zlmreport.foresight.conditions import ASSUMPTION
+from zlmreport.foresight.foresee import Foresight
+from zlmreport.foresight.outlook import Prospect, Sight
+from zlmreport.foresight.remedies import Remedy
+from zlmreport.job.job import Job
+from zlmreport.measurement.approach import Approach
+from zlmreport.measurement.axis import Axis
+from zlmreport.model import wording
+from zlmreport.model.design import Design
+from zlmreport.model.effect import Shape
+from zlmreport.model.parameter import unit_of
+from zlmreport.planning.methods import Method
+from zlmreport.planning.visits import Visit
+from zlmreport.quantities.formatting import fixed_number, general_number
+
+_MINUTE = 60.0
+_MOST_STRETCHES = 6
+_SEQUENCES = {
+    Method.LINEAR: "over all targets upwards, then over all of them downwards: {runs}",
+    Method.UNIDIRECTIONAL: "over all targets upwards, and back without a reading: {runs}",
+    Method.PENDULUM: "each target from below and from above in turn, {runs}, before the next",
+    Method.QUASI_PILGRIM: "to and fro between neighbours, the next upwards and this one downwards: {runs}",
+}
+_ARROWS = {Approach.POSITIVE: "↑", Approach.NEGATIVE: "↓"}
+
+
+def plan_lines(job: Job, foresight: Foresight) -> Iterator[str]:
+    """Yield the lines on a plan."""
+    plan = foresight.proposal.plan
+    count = f"{len(plan.targets)} targets, {len(foresight.visits)} readings"
+    yield f"{Colour.BOLD.of(job.keys.certificate.number)}  axis {job.axis.name}: {count}"
+    yield from ("", *_targets(job, foresight))
+    yield from ("", *_sequence(job, foresight))
+    yield from ("", *_requirements(foresight))
+    yield from ("", *_seen(job, foresight))
+    yield from _hidden(job, foresight)
+    yield from _logs(foresight)
+
+
+def _targets(job: Job, foresight: Foresight) -> Iterator[str]:
+    proposal = foresight.proposal
+    how = f"random fractions, seed {proposal.seed}" if proposal.has_fractions else "no random fractions"
+    yield f"{Colour.BOLD.of('targets')}  {job.axis.position_unit.symbol}, {how}"
+    targets = in_users_unit(job.axis, proposal.plan.targets)
+    decimals = max(len(f"{target:.9f}".rstrip("0").partition(".")[2]) for target in targets)
+    cells = [(f"{number}", fixed_number(each, decimals)) for number, each in enumerate(targets, start=1)]
+    wide = max(len(text) for _, text in cells) + len(cells[-1][0]) + 5
+    columns = max(1, min(len(cells), width() // wide))
+    filled = [*cells, *[("", "")] * (-len(cells) % columns)]
+    starts = range(0, len(filled), columns)
+    rows = [[text for cell in filled[start : start + columns] for text in cell] for start in starts]
+    yield from table(rows, right=range(2 * columns), indent="  ")
+
+
+def _sequence(job: Job, foresight: Foresight) -> Iterator[str]:
+    proposal, unit = foresight.proposal, job.axis.position_unit.symbol
+    plan = proposal.plan
+    times = "once" if plan.runs == 1 else f"{plan.runs} times"
+    yield f"{Colour.BOLD.of('visits')}  {plan.method.value} method{_assumed('measurement.method', foresight)}"
+    yield from wrapped(_SEQUENCES[plan.method].format(runs=times))
+    stretches = list(_stretches(foresight.visits))
+    shown = "  ".join(stretches[:_MOST_STRETCHES])
+    yield from wrapped(f"{shown}  …" if len(stretches) > _MOST_STRETCHES else shown)
+    overrun = said(printed.position(job.axis, plan.overrun))
+    feed = general_number(job.axis.position_unit.from_si(plan.feed) * _MINUTE)
+    motion = (
+        f"the axis turns round {overrun} beyond; {feed} {unit}/min{_assumed('measurement.feed', foresight)}"
+    )
+    yield from wrapped(
+        f"{motion}, {general_number(plan.dwell)} s at rest{_assumed('measurement.dwell', foresight)}"
+    )
+    way = said(printed.position(job.axis, round(foresight.travelled, 3)))
+    yield from wrapped(f"{way} of travel, about {max(1, round(foresight.duration / _MINUTE))} min")
+    yield from _beyond_the_travel(job.axis, foresight)
+
+
+def _beyond_the_travel(axis: Axis, foresight: Foresight) -> Iterator[str]:
+    if axis.travel is None or foresight.beyond_travel is None:
+        return
+    ends = [said(printed.position(axis, end)) for end in (*foresight.beyond_travel, *axis.travel)]
+    text = "it turns round at {} and {}; the travel is {} to {}".format(*ends)
+    yield from wrapped(f"{Colour.YELLOW.of('check')}: {text}")
+
+
+def _stretches(visits: Sequence[Visit]) -> Iterator[str]:
+    """Yield visits in their order; those that go on in one direction from target to target as one."""
+    start = 0
+    for index in range(1, len(visits) + 1):
+        if index < len(visits) and _goes_on(visits[index - 1], visits[index]):
+            continue
+        first, last = visits[start], visits[index - 1]
+        arrow = _ARROWS[first.approach]
+        whole = f"{first.target + 1}{arrow}"
+        yield whole if first is last else f"{whole} … {last.target + 1}{arrow}"
+        start = index
+
+
+def _goes_on(one: Visit, other: Visit) -> bool:
+    step = other.target - one.target
+    return one.run == other.run and one.approach is other.approach and step == int(one.approach)
+
+
+def _requirements(foresight: Foresight) -> Iterator[str]:
+    yield Colour.BOLD.of("what the standards ask")
+    for designation, findings in foresight.findings.items():
+        unmet = [finding for finding in findings if finding.met is False]
+        if not unmet:
+            yield f"  {Colour.GREEN.of('met')}  {designation}"
+        for finding in unmet:
+            text = f"{designation}: {said(finding.requirement)}: {said(finding.found)}"
+            yield from wrapped(f"{Colour.RED.of('not met')}  {text}")
+
+
+def _seen(job: Job, foresight: Foresight) -> Iterator[str]:
+    model = " + ".join(foresight.model.identifiers) or "nothing"
+    yield f"{Colour.BOLD.of('what this plan can see')} beside {model}{_assumed('model.effects', foresight)}"
+    rows = [("", "visible", "found half of the time from", "")]
+    for each in foresight.prospects:
+        if each.sight is Sight.VISIBLE:
+            logs = "needs a log" if each.logs else ""
+            rows.append(
+                (each.effect.identifier, _percent(each.visibility.share), _smallest(each, job.axis), logs)
+            )
+    yield from table(rows, right=(1,), indent="  ")
+    expected = foresight.proposal.expected
+    scatter = said(wording.deviation(job.axis, expected.sigma))
+    rise = said(ASSUMPTION.given(rise=expected.temperature_change))
+    yield from wrapped(
+        f"if single readings scatter by {scatter} (standard deviation"
+        f"{', assumed' if 'plan.repeatability' in foresight.proposal.assumed else ''}), and {rise}"
+    )
+
+
+def _hidden(job: Job, foresight: Foresight) -> Iterator[str]:
+    """Yield what the plan hides, by what to do about it, and what cannot be tried, by what it needs."""
+    blurred: dict[str, list[tuple[str, str]]] = {}
+    untestable: dict[str, list[str]] = {}
+    for each in foresight.prospects:
+        if each.sight is Sight.NOT_TESTABLE:
+            untestable.setdefault(_untestable(each, foresight.design), []).append(each.effect.identifier)
+        elif each.sight in {Sight.HIDDEN, Sight.TOO_SMALL}:
+            remedy = foresight.remedies.get(each.effect.identifier)
+            row = (each.effect.identifier, _blurred(each, remedy, job.axis))
+            blurred.setdefault(_what_to_do(remedy), []).append(row)
+    if blurred or untestable:
+        yield from ("", Colour.BOLD.of("what it cannot see"))
+    for text, rows in blurred.items():
+        yield from wrapped(f"{text}:")
+        yield from table(rows, indent="      ")
+    for text, names in untestable.items():
+        yield from wrapped(f"{', '.join(names)}: {text}")
+
+
+def _blurred(prospect: Prospect, remedy: Remedy | None, axis: Axis) -> str:
+    """Return what is visible of an effect, and what would be."""
+    shares = f"{_percent(prospect.visibility.share)} visible"
+    if remedy and remedy.share is not None:
+        shares += f", then {_percent(remedy.share)}"
+    if prospect.sight is Sight.TOO_SMALL:
+        shares += f"; found only from {_smallest(prospect, axis)}, hardly plausible"
+    return shares
+
+
+def _what_to_do(remedy: Remedy | None) -> str:
+    if remedy is None:
+        return "no other targets or sequence that were tried would show"
+    return f"{said(remedy.reason)}; {said(remedy.advice)}" if remedy.reason else said(remedy.advice)
+
+
+def _untestable(prospect: Prospect, design: Design) -> str:
+    unexpected = [column for column in prospect.logs if column not in design.conditions]
+    if unexpected:
+        return f"cannot be tried without the logged column {', '.join(unexpected)}"
+    reason = prospect.visibility.reason
+    return said(reason) if reason else "cannot be tried"
+
+
+def _logs(foresight: Foresight) -> Iterator[str]:
+    timed = [
+        each.effect.identifier
+        for each in foresight.prospects
+        if each.effect.shape is Shape.TIME and each.sight is not Sight.OTHER_AXIS and not each.logs
+    ]
+    by_effects: dict[str, list[str]] = {}
+    for column, identifiers in foresight.logs.items():
+        by_effects.setdefault(", ".join(identifiers), []).append(column)
+    if not timed and not by_effects:
+        return
+    yield from ("", Colour.BOLD.of("what to log beside the readings"))
+    if timed:
+        yield from wrapped(f"time: else the number of the reading stands for it ({', '.join(timed)})")
+    for effects, columns in by_effects.items():
+        yield from wrapped(f"{', '.join(columns)}: to be able to tell {effects}")
+
+
+def _smallest(prospect: Prospect, axis: Axis) -> str:
+    """Return the smallest effect that is found half of the time: by its parameter, or by what it does."""
+    seen = prospect.visibility
+    if seen.smallest is None:
+        return f"{said(wording.deviation(axis, seen.smallest_rms))} rms"
+    parameter, value = seen.smallest
+    unit = unit_of(parameter.dimension, axis.kind)
+    return f"{parameter.name} {said(wording.significant(value * unit.per_si, 2))} {unit.symbol}".rstrip()
+
+
+def _assumed(key: str, foresight: Foresight) -> str:
+    return " (assumed)" if key in foresight.proposal.assumed else ""
+
+
+def _percent(share: float) -> str:
+    return "< 1 %" if 0 < share < 0.005 else f"{fixed_number(100 * share, 0)} %"

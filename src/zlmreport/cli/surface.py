@@ -1,0 +1,157 @@
+"""``zlmreport surface``: the deviation over a plane of two axes, from lines that were measured in it."""
+
+from __future__ import annotations
+
+from argparse import Namespace
+from collections.abc import Iterator, Sequence
+from itertools import product
+from pathlib import Path
+
+import numpy as np
+
+from zlmreport import pipeline
+from zlmreport.cli.model_lines import error_line, said, wrapped
+from zlmreport.cli.results import load_all
+from zlmreport.cli.summary import print_json
+from zlmreport.cli.terminal import Colour, table
+from zlmreport.errors import InputError, Place, Problem
+from zlmreport.job.job import Job
+from zlmreport.model import wording
+from zlmreport.model.axis_model import ModelError
+from zlmreport.plane.plane import Plane, plane_of
+from zlmreport.plane.report import report
+from zlmreport.plane.surface import Surface
+from zlmreport.plugins import Registry, find_plugins
+from zlmreport.quantities.formatting import MINUS, general_number
+from zlmreport.quantities.uncertain import rounded_pair
+
+#: Points of a table where none are asked for: along the axis, and across it.
+_ALONG, _ACROSS = 5, 3
+_POWERS = {1: "", 2: "²", 3: "³"}
+
+Points = Sequence[tuple[float, float]]
+
+
+def run(options: Namespace) -> int:
+    """Fit the plane that the jobs measure, and say the deviation at points of it."""
+    registry = find_plugins(files=options.plugin)
+    jobs = _loaded(options.jobs, registry)
+    plane = plane_of([(job, pipeline.read(job, registry)) for job in jobs])
+    unit = plane.axis.position_unit
+    points = [(unit.to_si(along), unit.to_si(across)) for along, across in options.at] or _grid(plane)
+    try:
+        if options.json:
+            print_json(report(plane, points))
+        else:
+            print(*_lines(plane, points), sep="\n")
+    except ModelError as error:
+        raise InputError(Problem(Place("--at"), sentence) for sentence in error.sentences) from error
+    return 0
+
+
+def _loaded(paths: Sequence[Path], registry: Registry) -> list[Job]:
+    """Return all jobs, or every mistake in them."""
+    results = load_all(paths, registry)
+    errors = [result.error for result in results if result.error]
+    if errors:
+        worst = max(errors, key=lambda error: error.exit_code)
+        raise type(worst)(problem for error in errors for problem in error.problems)
+    return [result.job for result in results if result.job]
+
+
+def _grid(plane: Plane) -> Points:
+    spans = [(each.along, each.across) for each in plane.surfaces]
+    along, across = zip(*spans, strict=True)
+    return [(float(p), float(r)) for p, r in product(_even(along, _ALONG), _even(across, _ACROSS))]
+
+
+def _even(spans: Sequence[tuple[float, float]], count: int) -> Sequence[float]:
+    """Return places over what all of the spans have in common."""
+    first, last = max(first for first, _ in spans), min(last for _, last in spans)
+    places: list[float] = np.linspace(first, last, count).tolist()
+    return places
+
+
+def _lines(plane: Plane, points: Points) -> Iterator[str]:
+    unit = plane.axis.position_unit
+    where = ", ".join(general_number(unit.from_si(line.across)) for line in plane.lines)
+    yield Colour.BOLD.of(f"{plane.axis.name} over the plane of {plane.axis.name} and {plane.second}")
+    yield f"  {len(plane.lines)} lines, at {plane.second} = {where} {unit.symbol}"
+    yield f"  Δ in {plane.axis.deviation_unit.symbol}, positions in {unit.symbol}"
+    for line in plane.lines:
+        design = line.observed.design
+        aside = "; ".join(said(wording.reading_at(design, reading)) for reading in line.aside().tolist())
+        if aside:
+            at = f"{plane.second} = {general_number(unit.from_si(line.across))} {unit.symbol}"
+            yield from wrapped(f"set aside, for it stands off from its repeats, at {at}: {aside}")
+    for surface in plane.surfaces:
+        yield ""
+        yield f"{surface.approach.arrow} {error_line(surface.error, surface.fit.design)}"
+        yield from wrapped(_equation(surface))
+        yield from wrapped(_interaction(surface))
+    yield ""
+    yield from _table(plane, points)
+    yield ""
+    yield from wrapped(
+        f"± is the expanded uncertainty for 95 %. What depends on {plane.second} alone holds only if the "
+        "instrument kept its zero from line to line."
+    )
+
+
+def _equation(surface: Surface) -> str:
+    """Return the polynomial in printed units, as it may be given to a control."""
+    axis = surface.fit.design.axis
+    found = surface.coefficients().in_units(axis.position_unit, axis.deviation_unit)
+    terms = []
+    for value, (along, across) in zip(found.values.tolist(), found.powers, strict=True):
+        name = axis.name if along else surface.readings.second
+        power = along or across
+        factor = f"·{name}{_POWERS[power]}" if power else ""
+        sign = "+" if value >= 0 else MINUS
+        terms.append(f"{sign} {_digits(abs(value))}{factor}")
+    text = " ".join(terms).removeprefix("+ ").replace(f"{MINUS} ", MINUS, 1 if terms[0][0] == MINUS else 0)
+    return f"Δ = {text}"
+
+
+def _digits(value: float) -> str:
+    """Write a coefficient: a polynomial needs more digits than each of its terms is known to."""
+    return f"{value:.5g}".replace("e-0", "e-").replace("-", MINUS)
+
+
+def _interaction(surface: Surface) -> str:
+    axis, found = surface.fit.design.axis, surface.interaction
+    unit = axis.deviation_unit
+    value, half = rounded_pair(unit.from_si(found.value), unit.from_si(found.expanded_uncertainty))
+    where = f"{axis.name}·{surface.readings.second}, not in equation (13)"
+    text = f"{where}: {value} ± {half} {unit.symbol} at the corners"
+    if abs(found.value) <= found.expanded_uncertainty:
+        return f"{text}; not needed"
+    return f"{text}; {Colour.YELLOW.of('the lines differ in slope')}, and the polynomial misses it"
+
+
+def _table(plane: Plane, points: Points) -> Iterator[str]:
+    unit, position = plane.axis.deviation_unit, plane.axis.position_unit
+    heads = [f"{surface.approach.arrow} {unit.symbol}" for surface in plane.surfaces]
+    columns = []
+    for surface in plane.surfaces:
+        found = surface.predict(points)
+        columns.append(
+            [
+                " ± ".join(rounded_pair(value, half))
+                for value, half in zip(
+                    unit.from_si(found.deviation).tolist(),
+                    unit.from_si(found.expanded_uncertainty).tolist(),
+                    strict=True,
+                )
+            ]
+        )
+    rows = [(f"{plane.axis.name} {position.symbol}", f"{plane.second} {position.symbol}", *heads)]
+    for (along, across), *cells in zip(points, *columns, strict=True):
+        rows.append(
+            (
+                general_number(position.from_si(along)),
+                general_number(position.from_si(across)),
+                *cells,
+            )
+        )
+    yield from table(rows, right=range(len(rows[0])), indent="  ")

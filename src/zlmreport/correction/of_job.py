@@ -1,0 +1,138 @@
+"""The corrections that a job asks for, with the conditions that they need."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+
+from zlmreport.correction.corrections import Air, Corrections, Expansion
+from zlmreport.errors import InputError, Problem
+from zlmreport.job.correction_keys import AirKeys, DeadPathKeys, MaterialKeys
+from zlmreport.job.job import Job
+from zlmreport.measurement.axis import AxisKind
+from zlmreport.measurement.conditions import CONDITIONS
+from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.physics.refractive_index import STANDARD_HUMIDITY, STANDARD_PRESSURE, refractive_index
+from zlmreport.physics.temperature import REFERENCE_TEMPERATURE
+from zlmreport.quantities.arrays import FloatArray
+
+_AIR = ("air_temperature", "air_pressure", "relative_humidity")
+_NANOMETRE = 1e-9
+_PER_KELVIN = 1e-6  # of µm/(m·K)
+
+
+def corrections_of(job: Job, measurements: MeasurementSet) -> Corrections | None:
+    """Return what a job corrects its readings for; None where it asks for nothing.
+
+    Raises
+    ------
+    InputError
+        With everything that a correction needs and neither the readings nor the job tell.
+    """
+    keys = job.keys.corrections
+    if keys is None or not (keys.air or keys.dead_path or keys.material):
+        return None
+    problems: list[Problem] = []
+    if job.axis.kind is not AxisKind.LINEAR:
+        message = "corrections of lengths do not apply to a rotary axis: take corrections out"
+        problems.append(Problem(job.place_of("corrections"), message))
+    if keys.dead_path and not keys.air:
+        message = "corrections.dead_path needs the index of the air: add corrections.air"
+        problems.append(Problem(job.place_of("corrections.dead_path"), message))
+    air = _air(keys.air, job, measurements, problems) if keys.air else None
+    expansion = _expansion(keys.material, job, measurements, problems) if keys.material else None
+    if problems:
+        raise InputError(problems)
+    to_si = job.axis.position_unit.to_si
+    first = float(measurements.target_positions[0])
+    return Corrections(
+        datum=first if keys.datum is None else to_si(keys.datum),
+        air=air,
+        dead_path=_signed(keys.dead_path, to_si(keys.dead_path.length)) if keys.dead_path else None,
+        expansion=expansion,
+    )
+
+
+def air_conditions(job: Job, measurements: MeasurementSet) -> list[FloatArray]:
+    """Return temperature, pressure and humidity of the air at each reading, SI.
+
+    Raises
+    ------
+    InputError
+        If one of them is known neither from the readings nor from the job.
+    """
+    problems: list[Problem] = []
+    found = _conditions(_AIR, "corrections.air", job, measurements, problems)
+    if found is None:
+        raise InputError(problems)
+    return found
+
+
+def _air(keys: AirKeys, job: Job, measurements: MeasurementSet, problems: list[Problem]) -> Air | None:
+    wavelength = keys.wavelength * _NANOMETRE
+    conditions = _conditions(_AIR, "corrections.air", job, measurements, problems)
+    if conditions is None:
+        return None
+    temperature, pressure, humidity = conditions
+    index = refractive_index(temperature, pressure, humidity, wavelength)
+    if isinstance(keys.assumed, float):
+        return Air(index, keys.assumed)
+    if keys.assumed == "vacuum":
+        return Air(index, 1.0)
+    return Air(index, _standard_index(wavelength))
+
+
+def _standard_index(wavelength: float) -> float:
+    """Return the index of air at 20 °C, 1013.25 hPa and 50 %."""
+    state = (REFERENCE_TEMPERATURE, STANDARD_PRESSURE, STANDARD_HUMIDITY)
+    temperature, pressure, humidity = map(np.array, state)
+    return float(refractive_index(temperature, pressure, humidity, wavelength))
+
+
+def _expansion(
+    keys: MaterialKeys, job: Job, measurements: MeasurementSet, problems: list[Problem]
+) -> Expansion | None:
+    environment = job.keys.environment
+    coefficient = keys.expansion_coefficient or (environment and environment.expansion_coefficient)
+    if not isinstance(coefficient, float):
+        message = (
+            "corrections.material needs the expansion coefficient: add corrections.material."
+            "expansion_coefficient, µm/(m·K)"
+        )
+        problems.append(Problem(job.place_of("corrections.material"), message))
+    conditions = _conditions((keys.temperature,), "corrections.material", job, measurements, problems)
+    if conditions is None or not isinstance(coefficient, float):
+        return None
+    return Expansion(coefficient * _PER_KELVIN, conditions[0])
+
+
+def _conditions(
+    names: Iterable[str], key: str, job: Job, measurements: MeasurementSet, problems: list[Problem]
+) -> list[FloatArray] | None:
+    """Return each condition at each reading, SI: as it was logged, or as the job states it for all."""
+    found = []
+    for name in names:
+        logged = measurements.conditions.get(name)
+        stated = getattr(job.keys.environment, name, None)
+        if logged is not None:
+            missing = int(np.count_nonzero(np.isnan(logged)))
+            if missing:
+                message = f"{key}: {name} was not logged at {missing} of {len(logged)} readings"
+                problems.append(Problem(job.place_of(key), message))
+            found.append(logged)
+        elif isinstance(stated, float):
+            in_si = CONDITIONS[name].unit.to_si(stated)
+            found.append(np.full(len(measurements.deviation), in_si))
+        else:
+            message = (
+                f"{key} needs {name}: log it beside the readings (column {name}), or state "
+                f"environment.{name} as a number"
+            )
+            problems.append(Problem(job.place_of(key), message))
+    return None if problems else found
+
+
+def _signed(keys: DeadPathKeys, length: float) -> float:
+    """Return the dead path, negative where positions rise towards the interferometer."""
+    return length if keys.measured_path == "grows" else -length

@@ -1,0 +1,145 @@
+"""Whether a value keeps its limit, when the value is only known to within its uncertainty.
+
+A limit binds the amount of a value: |y| ≤ TL. A decision rule keeps a guard band w from the limit, accepts
+up to TL − w, and says what is stated beyond (ILAC-G8:09/2019; JCGM 106:2012, clauses 7 and 8).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from enum import Enum
+from typing import TypeAlias
+
+from zlmreport.evaluation.conformity import Conformity, Decision
+from zlmreport.evaluation.evaluation import Evaluation, Parameter
+from zlmreport.evaluation.requirements import Finding
+from zlmreport.language import Words
+from zlmreport.quantities.notation import plain
+
+#: Binary doubles cannot hold 1 µm and 3 µm exactly: a range of exactly 2 µm must not fail a limit of 2 µm.
+_ROUNDING_OF_DOUBLES = 1e-9
+
+_ROOM = Words(
+    en="A measurement uncertainty that leaves room for conformity with the limit of {symbol}",
+    de="Eine Messunsicherheit, die Raum für die Einhaltung des Grenzwerts von {symbol} lässt",
+)
+_NO_ROOM = Words(
+    en="the guard band is as wide as the limit: no value of {symbol} could conform",
+    de="der Schutzabstand ist so breit wie der Grenzwert: kein Wert von {symbol} könnte ihn einhalten",
+)
+
+#: What is stated between TL − w and TL, and between TL and TL + w.
+_Between: TypeAlias = tuple[Conformity, Conformity]
+
+
+class Guard(Enum):
+    """In what a guard band is counted: u, or U = k·u."""
+
+    STANDARD_UNCERTAINTY = "u"
+    EXPANDED_UNCERTAINTY = "U"
+
+
+@dataclass(frozen=True, slots=True)
+class DecisionRule:
+    """How values are held against their limits.
+
+    Attributes
+    ----------
+    identifier
+        As jobs name it.
+    factor
+        Width of the guard band, in units of `guard`; 0 for simple acceptance.
+    guard
+        In what it is counted.
+    between
+        What is stated on either side of the limit inside the guard band; None where a value beyond the
+        acceptance limit fails.
+    """
+
+    identifier: str
+    factor: float = 0.0
+    guard: Guard = Guard.EXPANDED_UNCERTAINTY
+    between: _Between | None = None
+
+    def decide(self, parameter: Parameter) -> Decision | None:
+        """Return what the rule says of a parameter; None without a limit."""
+        limit = parameter.limit
+        if limit is None:
+            return None
+        uncertainty = parameter.standard_uncertainty
+        if uncertainty is None and self.factor:
+            return Decision(Conformity.UNDECIDED, None, None, None)
+        width = self.factor * self._unit(parameter) if self.factor else 0.0
+        conformity = self._conformity(abs(parameter.value), limit, width)
+        risk = None if uncertainty is None else _risk(parameter.value, limit, uncertainty, conformity)
+        return Decision(conformity, limit - width, limit + width if self.between else limit - width, risk)
+
+    def _unit(self, parameter: Parameter) -> float:
+        expanded = self.guard is Guard.EXPANDED_UNCERTAINTY
+        return (parameter.expanded_uncertainty if expanded else parameter.standard_uncertainty) or 0.0
+
+    def _conformity(self, amount: float, limit: float, width: float) -> Conformity:
+        tolerated = limit * _ROUNDING_OF_DOUBLES
+        if amount <= limit - width + tolerated:
+            return Conformity.MET
+        if self.between is None or amount > limit + width + tolerated:
+            return Conformity.FAILED
+        below, above = self.between
+        return below if amount <= limit + tolerated else above
+
+
+def decision_rule(identifier: str, factor: float = 1.0) -> DecisionRule:
+    """Return a rule.
+
+    Parameters
+    ----------
+    identifier
+        ``simple``, ``guard-band``, ``iso14253-1`` or ``non-binary``.
+    factor
+        r of the guard band r·U; of ``guard-band`` only.
+    """
+    conditional = (Conformity.CONDITIONALLY_MET, Conformity.CONDITIONALLY_FAILED)
+    undecided = (Conformity.UNDECIDED, Conformity.UNDECIDED)
+    return {
+        "simple": DecisionRule("simple"),
+        "guard-band": DecisionRule("guard-band", factor),
+        "iso14253-1": DecisionRule("iso14253-1", 1.65, Guard.STANDARD_UNCERTAINTY, undecided),
+        "non-binary": DecisionRule("non-binary", 1.0, between=conditional),
+    }[identifier]
+
+
+def decided(evaluation: Evaluation, rule: DecisionRule) -> Evaluation:
+    """Return an evaluation with what the rule says of every parameter that has a limit."""
+    parameters = tuple(replace(each, decision=rule.decide(each)) for each in evaluation.parameters)
+    impossible = tuple(_impossible(each) for each in parameters if _accepts_nothing(each))
+    return replace(evaluation, parameters=parameters, findings=(*evaluation.findings, *impossible))
+
+
+def _accepts_nothing(parameter: Parameter) -> bool:
+    accepted = None if parameter.decision is None else parameter.decision.acceptance_limit
+    return accepted is not None and accepted < 0
+
+
+def _impossible(parameter: Parameter) -> Finding:
+    return Finding(
+        _ROOM.given(symbol=plain(parameter.quantity.notation)),
+        _NO_ROOM.given(symbol=plain(parameter.quantity.notation)),
+        met=False,
+    )
+
+
+def _risk(value: float, limit: float, uncertainty: float, conformity: Conformity) -> float | None:
+    conforms = conformity.conforms
+    if conforms is None:
+        return None
+    within = _within(value, limit, uncertainty)
+    return 1.0 - within if conforms else within
+
+
+def _within(value: float, limit: float, uncertainty: float) -> float:
+    """Return the probability that a normal variable lies within ± limit."""
+    if uncertainty == 0:
+        return float(abs(value) <= limit * (1 + _ROUNDING_OF_DOUBLES))
+    scale = uncertainty * math.sqrt(2.0)
+    return 0.5 * (math.erf((limit - value) / scale) + math.erf((limit + value) / scale))

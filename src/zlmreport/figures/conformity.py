@@ -1,0 +1,77 @@
+"""The graph of conformity: every value that has a limit, with its uncertainty, in percent of its limit."""
+
+from __future__ import annotations
+
+from zlmreport.evaluation.evaluation import Evaluation, Parameter
+from zlmreport.figures import alternatives
+from zlmreport.figures.figure import Bar, Figure, Level, Panel, Role
+from zlmreport.language import Language, Words, same
+from zlmreport.quantities.formatting import fixed_number
+from zlmreport.quantities.notation import plain
+
+_TITLE = Words(
+    en="Axis {axis}: amounts in percent of their limits TL with their uncertainty ± U; a line across a bar "
+    "is the acceptance limit",
+    de="Achse {axis}: Beträge in Prozent ihrer Grenzwerte TL mit ihrer Unsicherheit ± U; ein Strich über "
+    "einem Balken ist die Annahmegrenze",
+)
+_BARE_TITLE = Words(
+    en="Axis {axis}: amounts in percent of their limits TL",
+    de="Achse {axis}: Beträge in Prozent ihrer Grenzwerte TL",
+)
+_X_TITLE = Words(en="Parameters with a limit", de="Kenngrößen mit Grenzwert")
+_Y_TITLE = Words(en="Amount over limit", de="Betrag über Grenzwert")
+_BAR = Words(en="{symbol}: {percent} % of its limit", de="{symbol}: {percent} % des Grenzwerts")
+_UNCERTAIN = Words(en="{bar} ± {uncertainty} %", de="{bar} ± {uncertainty} %")
+_ACCEPTED = Words(en="{bar}, accepted up to {accepted} %", de="{bar}, angenommen bis {accepted} %")
+_SENTENCE = Words(en="{bar}.", de="{bar}.")
+
+
+def conformity_graph(evaluation: Evaluation) -> Figure | None:
+    """Return the graph; None where no parameter has a limit."""
+    limited = [each for each in evaluation.parameters if each.limit]
+    if not limited:
+        return None
+    bars = tuple(map(_bar, limited))
+    sentences = [_sentence(each, bar) for each, bar in zip(limited, bars, strict=True)]
+    title = _TITLE if any(bar.uncertainty for bar in bars) else _BARE_TITLE
+    return Figure(
+        key="conformity",
+        title=title.given(axis=evaluation.measurements.axis.name),
+        alternative=alternatives.text(*sentences),
+        x_title=_X_TITLE,
+        y_title=_Y_TITLE,
+        x_unit="",
+        y_unit="%",
+        panels=(Panel(bars=bars, levels=(Level("TL", Role.TOLERANCE, 100.0),)),),
+    )
+
+
+def _bar(parameter: Parameter) -> Bar:
+    limit = parameter.limit or 1.0
+    decision = parameter.decision
+    accepted = None if decision is None else decision.acceptance_limit
+    percent = 100.0 * abs(parameter.value) / limit
+    return Bar(
+        label=same(plain(parameter.quantity.notation)),
+        y=percent,
+        value=_percent(percent),
+        uncertainty=100.0 * (parameter.expanded_uncertainty or 0.0) / limit,
+        accepted=None if accepted in (None, limit) else max(0.0, 100.0 * accepted / limit),
+    )
+
+
+def _sentence(parameter: Parameter, bar: Bar) -> Words:
+    words = _BAR.given(symbol=plain(parameter.quantity.notation), percent=bar.value)
+    if bar.uncertainty:
+        words = _UNCERTAIN.given(bar=words, uncertainty=_percent(bar.uncertainty))
+    if bar.accepted is not None:
+        words = _ACCEPTED.given(bar=words, accepted=_percent(bar.accepted))
+    return _SENTENCE.given(bar=words)
+
+
+def _percent(value: float) -> Words:
+    return Words(
+        en=fixed_number(value, 1, Language.ENGLISH.decimal_sign),
+        de=fixed_number(value, 1, Language.GERMAN.decimal_sign),
+    )

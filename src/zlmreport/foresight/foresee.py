@@ -1,0 +1,153 @@
+"""From a job to all that can be said of its test before it is done."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+from zlmreport.errors import InputError
+from zlmreport.evaluation.requirements import Finding
+from zlmreport.foresight.numbers import PlannedStandard, as_measured
+from zlmreport.foresight.outlook import Prospect, determined, expected_design, outlook, planned_visits
+from zlmreport.foresight.proposal import Proposal, propose
+from zlmreport.foresight.remedies import Remedy, remedies
+from zlmreport.foresight.targets import makes_whole_turns
+from zlmreport.job.job import Job
+from zlmreport.measurement.axis import Axis
+from zlmreport.model.axis_model import AxisModel, Term
+from zlmreport.model.chosen import chosen_terms
+from zlmreport.model.design import Design
+from zlmreport.model.effect import Effect
+from zlmreport.planning.methods import path
+from zlmreport.planning.visits import Visit
+
+_ROUNDING = 1e-9
+#: Readings beyond the number of parameters that a diagnosis needs.
+_FEWEST_DEGREES = 6
+#: What is taken for granted of an axis where the job names no model.
+_USUAL_MODEL = ("offset", "scale-error", "backlash")
+
+
+@dataclass(frozen=True, slots=True)
+class Foresight:
+    """A test before it is done.
+
+    Attributes
+    ----------
+    proposal
+        The plan, and what it takes for granted.
+    visits
+        Its readings in their order.
+    design
+        The same with times and the conditions that are expected.
+    travelled
+        The whole way of the axis, loops included, m or rad.
+    duration
+        Of motion and rest together, s.
+    beyond_travel
+        The lowest and the highest position that the axis reaches, m or rad, where one of them lies beyond
+        an end of its travel.
+    model
+        The effects beside which others are looked for: those of the job that the test determines.
+    prospects
+        What is seen of every other installed effect.
+    remedies
+        What to do about those that the plan hides, by their identifiers.
+    findings
+        What each standard asks of the test, by its designation.
+    """
+
+    proposal: Proposal
+    visits: tuple[Visit, ...]
+    design: Design
+    travelled: float
+    duration: float
+    beyond_travel: tuple[float, float] | None
+    model: AxisModel
+    prospects: tuple[Prospect, ...]
+    remedies: Mapping[str, Remedy]
+    findings: Mapping[str, tuple[Finding, ...]]
+
+    @property
+    def logs(self) -> dict[str, list[str]]:
+        """Conditions to log beside the readings, each with the effects that cannot be tried without it."""
+        found: dict[str, list[str]] = {}
+        for prospect in self.prospects:
+            for column in prospect.logs:
+                if column in self.design.conditions:
+                    found.setdefault(column, []).append(prospect.effect.identifier)
+        return found
+
+
+def foresee(job: Job, standards: Sequence[PlannedStandard], effects: Sequence[Effect]) -> Foresight:
+    """Return what can be said of a job's test before it is done.
+
+    Parameters
+    ----------
+    job
+        The job; its readings need not exist.
+    standards
+        The standards that it names, each with its own keys.
+    effects
+        All that are installed.
+
+    Raises
+    ------
+    InputError
+        If the targets cannot be planned, or are too few for anything to be seen.
+    """
+    proposal = propose(job, standards)
+    plan = proposal.plan
+    stops = [stop.position for stop in path(plan.method, plan.targets.tolist(), plan.runs, plan.overrun)]
+    travelled = sum(abs(later - earlier) for earlier, later in pairwise(stops))
+    listed = planned_visits(plan)
+    design = expected_design(job.axis, plan, proposal.expected)
+    model = _model(job, effects)
+    base = determined(model, design)
+    _demand_readings(job, base, design)
+    prospects = outlook(base, design, effects, proposal.expected)
+    test = as_measured(job.axis, plan.method, plan.targets, plan.runs)
+    return Foresight(
+        proposal=proposal,
+        visits=listed,
+        design=design,
+        travelled=travelled,
+        duration=travelled / plan.feed + plan.dwell * len(listed),
+        beyond_travel=_beyond_travel(job.axis, min(stops), max(stops)),
+        model=base,
+        prospects=prospects,
+        remedies=remedies(prospects, model, job.axis, proposal),
+        findings={
+            standard.designation: tuple(standard.requirements(test, options))
+            for standard, options in standards
+        },
+    )
+
+
+def _demand_readings(job: Job, base: AxisModel, design: Design) -> None:
+    """Refuse a test of which a diagnosis could say nothing."""
+    readings = len(design.position)
+    parameters = sum(term.columns(design, term.grid(design)[0])[0].shape[1] for term in base.terms)
+    if readings < parameters + _FEWEST_DEGREES:
+        raise InputError.at(
+            job.place_of("plan"),
+            f"plan: {readings} readings are too few: the model has {parameters} parameters, and an effect is "
+            f"seen from {_FEWEST_DEGREES} readings more on; take more targets or runs",
+        )
+
+
+def _beyond_travel(axis: Axis, lowest: float, highest: float) -> tuple[float, float] | None:
+    if axis.travel is None or makes_whole_turns(axis):
+        return None
+    first, last = axis.travel
+    slack = _ROUNDING * (last - first)
+    return (lowest, highest) if lowest < first - slack or highest > last + slack else None
+
+
+def _model(job: Job, effects: Sequence[Effect]) -> AxisModel:
+    by_identifier = {effect.identifier: effect for effect in effects}
+    if job.effects:
+        return AxisModel(chosen_terms(job.effects, by_identifier.__getitem__, job.axis.kind))
+    usual = [by_identifier[identifier] for identifier in _USUAL_MODEL if identifier in by_identifier]
+    return AxisModel(tuple(Term(effect) for effect in usual))

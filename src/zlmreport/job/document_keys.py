@@ -1,0 +1,115 @@
+"""The keys of a job file on the document itself: what ISO/IEC 17025:2017 asks of it beside its results."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from pydantic import Field, model_validator
+
+from zlmreport.job.part import JobPart
+from zlmreport.job.types import Date, Lines, Text
+
+
+class Person(JobPart):
+    """Somebody who answers for the certificate."""
+
+    name: Text = Field(description="The person's name.", examples=["Erika Mustermann"])
+    function: Text | None = Field(
+        None, description="The person's function in the laboratory.", examples=["Head of laboratory"]
+    )
+
+
+class Amends(JobPart):
+    """An earlier document that this one changes (ISO/IEC 17025:2017, 7.8.8)."""
+
+    number: Text = Field(description="Number of the earlier document.", examples=["CAL-2026-0117"])
+    reason: Lines = Field(
+        description="Why it is changed.", examples=["The serial number of the machine was wrong."]
+    )
+    changes: list[Lines] = Field(
+        default_factory=list,
+        description="What is changed, one text a change.",
+        examples=[["Serial number: 4712 instead of 4711"]],
+    )
+    kind: Literal["amendment", "replacement"] = Field(
+        "amendment",
+        description="amendment: a further document beside the earlier one; replacement: a whole new one in "
+        "its place.",
+    )
+
+
+class Location(JobPart):
+    """Where the work was done."""
+
+    kind: Literal["laboratory", "customer", "laboratory branch", "customer branch", "other"] = Field(
+        description="Whose place it is."
+    )
+    address: Lines | None = Field(
+        None,
+        description="Its address; without it, that of the laboratory or the customer.",
+        examples=["Hall 3, Millway 2, 12345 Sampletown"],
+    )
+
+    @model_validator(mode="after")
+    def _has_an_address(self) -> Location:
+        """Refuse a place whose address nothing else in the job states."""
+        if self.address is None and self.kind not in {"laboratory", "customer"}:
+            raise ValueError(f"a location of kind {self.kind} needs an address")
+        return self
+
+
+class Dates(JobPart):
+    """Dates beside those of the measurement and the document."""
+
+    received: Date | None = Field(
+        None, description="When the item was received, if that matters for the results."
+    )
+    sampled: Date | None = Field(None, description="When the item was sampled, if that matters.")
+
+
+class External(JobPart):
+    """Results that an external provider supplied."""
+
+    results: Lines = Field(description="Which results.", examples=["Temperatures of the machine's scale"])
+    provider: Text = Field(description="Who supplied them.", examples=["Thermometry Ltd"])
+    reference: Text | None = Field(
+        None, description="The provider's own document.", examples=["Report 2026-88"]
+    )
+    keys: list[Text] = Field(
+        default_factory=list,
+        description="Keys of this job that hold them: marked wherever they are printed.",
+        examples=[["environment.axis_temperature"]],
+    )
+
+
+class OpinionKeys(JobPart):
+    """An opinion or interpretation; no result."""
+
+    statement: Lines = Field(
+        description="The opinion.", examples=["The reversal error points to play in the nut."]
+    )
+    basis: Lines = Field(
+        description="On what it rests.", examples=["The reversal value is alike at all targets."]
+    )
+    by: Person | None = Field(
+        None, description="Who is authorised to state it; without it certificate.authorised_by."
+    )
+
+
+class NextDue(JobPart):
+    """When the next calibration is due; only if the customer has agreed that the document says so."""
+
+    date: Date = Field(description="The date.", examples=["2027-11-18"])
+    agreed: bool = Field(default=False, description="Whether the customer has agreed; it must be true.")
+
+
+class Agreement(JobPart):
+    """What was agreed with the customer about the document."""
+
+    simplified: bool = Field(
+        default=False,
+        description="Whether results are reported in a simplified way: the single readings are left out.",
+    )
+    reference: Text | None = Field(
+        None, description="Where it was agreed.", examples=["Order 4711 of 2026-10-02"]
+    )

@@ -1,0 +1,73 @@
+"""How a file that names another finds it: beside itself, or among the files that it may use."""
+
+from __future__ import annotations
+
+import contextlib
+import posixpath
+from collections.abc import Iterator, Mapping
+from contextvars import ContextVar
+from dataclasses import dataclass
+from pathlib import Path
+
+
+@dataclass(frozen=True, slots=True)
+class Enclosure:
+    """The only files that jobs can name: those that came with a document.
+
+    Attributes
+    ----------
+    files
+        Where each lies, by its path from the folder of the job as it was: ``../laboratory.yaml``.
+    nowhere
+        A folder that is not there: where every other reference leads.
+    """
+
+    files: Mapping[str, Path]
+    nowhere: Path
+
+    def path_of(self, file: Path) -> str | None:
+        """Return the path of one of the files from the job's folder."""
+        return next((path for path, where in self.files.items() if where == file), None)
+
+    def path_named(self, reference: str, naming_file: Path) -> Path:
+        """Return the file that a reference means; one that leads past the folder's files leads nowhere.
+
+        A reference from the root of the file system is answered by its file's name, if only one file has it:
+        no document tells where a job lay.
+        """
+        folder = posixpath.dirname(self.path_of(naming_file) or "")
+        found = self.files.get(posixpath.normpath(posixpath.join(folder, reference)))
+        if found:
+            return found
+        name = posixpath.basename(reference)
+        alike = [path for path in self.files.values() if path.name == name]
+        return alike[0] if len(alike) == 1 else self.nowhere / name
+
+
+_ENCLOSURE: ContextVar[Enclosure | None] = ContextVar("enclosure", default=None)
+
+
+def path_named(reference: str, naming_file: Path) -> Path:
+    """Return the path that a file names: relative to its own folder, or from the root."""
+    enclosure = _ENCLOSURE.get()
+    return enclosure.path_named(reference, naming_file) if enclosure else naming_file.parent / reference
+
+
+def path_from_job(file: Path, job: Path) -> str | None:
+    """Return the path of a file as the job comes to it, from the job's folder; None if it does not say it."""
+    enclosure = _ENCLOSURE.get()
+    if enclosure:
+        return enclosure.path_of(file)
+    if not file.is_relative_to(job.parent):
+        return None
+    return posixpath.normpath(file.relative_to(job.parent).as_posix())
+
+
+@contextlib.contextmanager
+def enclosed(enclosure: Enclosure) -> Iterator[None]:
+    """Let jobs name the files of an enclosure and no others: for a job from a document that anyone sent."""
+    token = _ENCLOSURE.set(enclosure)
+    try:
+        yield
+    finally:
+        _ENCLOSURE.reset(token)

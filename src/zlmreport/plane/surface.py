@@ -1,0 +1,265 @@
+"""The deviation over a plane of two axes.
+
+M. Halaj, E. Kureková, R. Palenčár and T. Loebl, The positional deviation in two axes, equation (13):
+
+    Δ = a + b₁·P + c₁·P² + d₁·P³ + b₂·R + c₂·R² + d₂·R³
+
+The paper fits means of known variance; here single readings are fitted, with the noise that they show.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import comb
+
+import numpy as np
+
+from zlmreport.language import same
+from zlmreport.measurement.approach import Approach
+from zlmreport.model.anywhere import outside
+from zlmreport.model.axis_model import AxisModel, ModelError, Term
+from zlmreport.model.cross_validation import cross_validated_rms
+from zlmreport.model.design import Design
+from zlmreport.model.diagnosis import ErrorNumbers
+from zlmreport.model.effect import Effect, Shape
+from zlmreport.model.estimate import Estimate
+from zlmreport.model.fit import Assumptions, Fit, Prediction, fit
+from zlmreport.model.instrument import InstrumentError
+from zlmreport.model.noise import NoiseSource, noise_parts
+from zlmreport.model.parameter import Dimension, Parameter
+from zlmreport.plane.lines import ACROSS, Readings, points
+from zlmreport.quantities.arrays import FloatArray
+from zlmreport.quantities.units import Unit
+
+#: The highest power of each position in equation (13).
+CUBIC = 3
+
+
+def coefficient_names(orders: tuple[int, int]) -> tuple[str, ...]:
+    """Return the letters of equation (13), up to the orders: a, b1, c1, d1, b2, c2, d2."""
+    letters = "bcd"
+    return (
+        "a",
+        *(f"{letters[power]}{axis}" for axis, order in enumerate(orders, 1) for power in range(order)),
+    )
+
+
+class Powers(Effect):
+    """The powers of both positions, each scaled to −1 … 1 of what was measured, without interaction.
+
+    Parameters
+    ----------
+    orders
+        Highest power along the axis, and across it.
+    across
+        First and last position of the second axis, m.
+    interaction
+        Whether the product of the two positions is added, which equation (13) leaves out.
+    """
+
+    identifier = "plane"
+    title = same("Δ(P, R)")
+    equation = "a + b_{1}·P + c_{1}·P² + d_{1}·P³ + b_{2}·R + c_{2}·R² + d_{2}·R³"
+    shape = Shape.POSITION
+    look = same("")
+
+    def __init__(
+        self, orders: tuple[int, int], across: tuple[float, float], *, interaction: bool = False
+    ) -> None:
+        self.orders = orders
+        self.across = across
+        self.interaction = interaction
+        names = (*coefficient_names(orders), *(("interaction",) if interaction else ()))
+        self.linear = tuple(Parameter(name, name, Dimension.DEVIATION, same(name)) for name in names)
+
+    def columns(self, design: Design, theta: FloatArray) -> FloatArray:  # noqa: ARG002 - no θ
+        """Return the powers at the points of a plane."""
+        along = (design.position - design.middle) / (design.length / 2)
+        first, last = self.across
+        aside = (design.conditions[ACROSS] - (first + last) / 2) / ((last - first) / 2)
+        powers = [np.vander(along, self.orders[0] + 1, increasing=True)]
+        powers.append(np.vander(aside, self.orders[1] + 1, increasing=True)[:, 1:])
+        if self.interaction:
+            powers.append((along * aside)[:, np.newaxis])
+        return np.concatenate(powers, axis=1)
+
+
+@dataclass(frozen=True, slots=True)
+class Coefficients:
+    """The polynomial in powers of both positions, as equation (13) prints it.
+
+    Attributes
+    ----------
+    orders
+        Highest power of P, and of R.
+    values : (1 + both orders,) array
+        a, b₁, c₁, d₁, b₂, c₂, d₂; SI: m, 1, m⁻¹, m⁻², …
+    covariance : square array
+        Of the values.
+    """
+
+    orders: tuple[int, int]
+    values: FloatArray
+    covariance: FloatArray
+
+    @property
+    def powers(self) -> tuple[tuple[int, int], ...]:
+        """The powers of P and of R that each value stands before."""
+        along, across = self.orders
+        return (
+            (0, 0),
+            *((power, 0) for power in range(1, along + 1)),
+            *((0, power) for power in range(1, across + 1)),
+        )
+
+    def in_units(self, position: Unit, deviation: Unit) -> Coefficients:
+        """Return the values for positions and deviations in printed units."""
+        degrees = np.array(self.powers, dtype=np.float64).sum(axis=1)
+        scale = deviation.per_si / position.per_si**degrees
+        return Coefficients(self.orders, self.values * scale, self.covariance * np.outer(scale, scale))
+
+
+@dataclass(frozen=True, slots=True)
+class Surface:
+    """The deviation over the plane for one direction of approach.
+
+    Attributes
+    ----------
+    approach
+        The direction.
+    readings
+        What was fitted.
+    fit
+        The model, with scaled positions.
+    powers
+        Its one effect.
+    error
+        How far the readings are from it.
+    interaction
+        The product of both positions, when it is added: the deviation at the corners of the plane that
+        equation (13) has no term for, m.
+    """
+
+    approach: Approach
+    readings: Readings
+    fit: Fit
+    powers: Powers
+    error: ErrorNumbers
+    interaction: Estimate
+
+    @property
+    def along(self) -> tuple[float, float]:
+        """First and last measured position of the axis, m."""
+        return self.fit.design.span
+
+    @property
+    def across(self) -> tuple[float, float]:
+        """First and last line, m."""
+        return self.powers.across
+
+    def predict(self, places: Sequence[tuple[float, float]]) -> Prediction:
+        """Return the deviation at points of the plane, measured or not.
+
+        Parameters
+        ----------
+        places
+            P and R of each, m.
+
+        Raises
+        ------
+        ModelError
+            If a point lies outside what was measured: a polynomial knows nothing there.
+        """
+        along, across = np.array(places, dtype=np.float64).reshape(-1, 2).T
+        axis = self.fit.design.axis
+        sentences = [
+            *outside(axis.name, axis.position_unit, along, self.along),
+            *outside(self.readings.second, axis.position_unit, across, self.across),
+        ]
+        if sentences:
+            raise ModelError(sentences)
+        return self.fit.predict(points(self.readings, along, across))
+
+    def coefficients(self) -> Coefficients:
+        """Return the polynomial in powers of P and R themselves."""
+        turn = _to_powers(self.powers.orders, self.along, self.across)
+        of_fit = self.fit.uncertainties
+        scaled = of_fit.sigma**2 * of_fit.inverse + of_fit.systematic @ of_fit.systematic.T
+        gamma = self.fit.solution.coefficients[0]
+        return Coefficients(self.powers.orders, turn @ gamma, turn @ scaled @ turn.T)
+
+
+def surface(readings: Readings, instrument: InstrumentError) -> Surface:
+    """Fit equation (13) to the lines of a plane.
+
+    The orders are 3, or less by one than the number of positions or lines where these are fewer than four.
+
+    Parameters
+    ----------
+    readings
+        Of one direction of approach.
+    instrument
+        Its error, common to all readings.
+
+    Raises
+    ------
+    ModelError
+        If the points do not determine the coefficients.
+    """
+    design = readings.design
+    lines = np.unique(readings.across)
+    if len(lines) < 2 or len(design.target_positions) < 2:
+        raise ModelError(["a plane needs two lines at least, and two positions on them"])
+    orders = (min(CUBIC, len(design.target_positions) - 1), min(CUBIC, len(lines) - 1))
+    powers = Powers(orders, (float(lines[0]), float(lines[-1])))
+    # Nobody states when a line was measured after the other, so no drift is taken to run through all of them.
+    parts = tuple(part for part in noise_parts(design) if part.source is not NoiseSource.TIME)
+    assumed = Assumptions(instrument=instrument, parts=parts)
+    fitted = _fitted(powers, readings, assumed)
+    crossed = Powers(orders, powers.across, interaction=True)
+    return Surface(
+        Approach(int(design.direction[0])),
+        readings,
+        fitted,
+        powers,
+        _error(fitted, readings.noise_floor),
+        _fitted(crossed, readings, assumed).estimates[-1],
+    )
+
+
+def _fitted(powers: Powers, readings: Readings, assumed: Assumptions) -> Fit:
+    try:
+        return fit(AxisModel((Term(powers),)), readings.design, readings.deviation, assumed)
+    except ModelError as error:
+        sentence = (
+            f"the {len(readings.deviation)} readings do not determine the {len(powers.linear)} coefficients; "
+            "measure the same positions on every line, and more than one run"
+        )
+        raise ModelError([sentence]) from error
+
+
+def _error(fitted: Fit, floor: float | None) -> ErrorNumbers:
+    return ErrorNumbers(
+        fitted.rms,
+        floor,
+        (fitted.rms / floor) ** 2 if floor else None,
+        cross_validated_rms(fitted.model, fitted.design, fitted.deviation, fitted.solution.thetas),
+    )
+
+
+def _to_powers(
+    orders: tuple[int, int], along: tuple[float, float], across: tuple[float, float]
+) -> FloatArray:
+    """Return T with T·(scaled coefficients) = coefficients of P and R themselves."""
+    turn = np.zeros((1 + sum(orders), 1 + sum(orders)))
+    turn[0, 0] = 1.0
+    first = 1
+    for order, (low, high) in zip(orders, (along, across), strict=True):
+        middle, half = (low + high) / 2, (high - low) / 2
+        for power in range(1, order + 1):
+            for lower in range(power + 1):
+                row = 0 if lower == 0 else first + lower - 1
+                turn[row, first + power - 1] = comb(power, lower) * (-middle) ** (power - lower) / half**power
+        first += order
+    return turn

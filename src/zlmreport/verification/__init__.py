@@ -1,0 +1,1 @@
+"""Whether a certificate holds: all of it against what its own attachments give when evaluated again."""

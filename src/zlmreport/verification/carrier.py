@@ -1,0 +1,207 @@
+"""A PDF that somebody sent: opened without trust, and what it carries, within bounds."""
+
+from __future__ import annotations
+
+import contextlib
+import logging
+import re
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from io import BytesIO
+from pathlib import Path
+from typing import Any, TypeVar
+
+from zlmreport.certificate.attachments import LARGEST_TOTAL, MOST_ATTACHMENTS
+from zlmreport.errors import AccessError, InputError, Place, Problem
+
+#: Of a PDF, in bytes; a certificate has some hundred thousand, and its attachments.
+LARGEST = 2 * LARGEST_TOTAL
+MOST_PAGES = 2000
+#: Nodes of the tree of attachments that are looked at.
+_MOST_NODES = 1000
+_LONGEST_NAME = 200
+#: What no name of an attachment has: parts of a path, and what is not seen.
+_UNSAFE = re.compile(r"[\x00-\x1f\x7f-\x9f/\\\u200e\u200f\u202a-\u202e\u2066-\u2069]|\A\.+\Z|\A\Z")
+
+Read = TypeVar("Read")
+
+
+@dataclass(frozen=True, slots=True)
+class Carried:
+    """A file inside a PDF, as the PDF describes it.
+
+    `checksum` is the MD5 digest that the PDF states, hexadecimal, and empty if it states none.
+    """
+
+    name: str
+    content: bytes = field(repr=False)
+    relationship: str
+    description: str
+    media_type: str
+    checksum: str
+
+
+@dataclass(frozen=True, slots=True)
+class Carrier:
+    """An opened PDF.
+
+    Attributes
+    ----------
+    place
+        The file, for messages.
+    content
+        Its bytes.
+    reader
+        The opened PDF, a `pypdf.PdfReader`.
+    carried
+        Its attachments, by name.
+    """
+
+    place: Place
+    content: bytes = field(repr=False)
+    reader: Any
+    carried: dict[str, Carried]
+
+    @property
+    def creator(self) -> str:
+        """The program that the PDF says it was made by."""
+        return str(self.metadata.get("/Creator", ""))
+
+    @property
+    def metadata(self) -> dict[str, str]:
+        """The entries of the document's information dictionary."""
+        return {str(key): str(value) for key, value in (self.reader.metadata or {}).items()}
+
+
+def read_file(path: Path) -> bytes:
+    """Return the bytes of a PDF file.
+
+    Raises
+    ------
+    AccessError
+        If it cannot be read.
+    InputError
+        If it is no PDF, or larger than any certificate.
+    """
+    place = Place(str(path))
+    try:
+        with path.open("rb") as file:
+            content = file.read(LARGEST + 1)
+    except (OSError, ValueError) as error:  # ValueError: a name that no file system takes
+        reason = getattr(error, "strerror", None) or error
+        raise AccessError.at(place, f"cannot be read: {str(reason).lower()}") from error
+    if len(content) > LARGEST:
+        raise InputError.at(place, f"is larger than {LARGEST >> 20} MiB; no certificate is")
+    if b"%PDF-" not in content[:1024]:
+        raise InputError.at(place, "is no PDF; verify takes a certificate, such as CAL-2026-0117.pdf")
+    return content
+
+
+def opened(content: bytes, place: Place) -> Carrier:
+    """Open a PDF and take out its attachments.
+
+    Raises
+    ------
+    InputError
+        If it is damaged or encrypted, or carries more than any certificate.
+    """
+    return guarded(lambda: _opened(content, place), place)
+
+
+def guarded(read: Callable[[], Read], place: Place) -> Read:
+    """Return what is read from a PDF; whatever breaks on the way is said in one line."""
+    logger = logging.getLogger("pypdf")
+    was_disabled, logger.disabled = logger.disabled, True
+    try:
+        return read()
+    except InputError:
+        raise
+    except Exception as error:  # a foreign file may break its reader in any way
+        reason = " ".join(str(error).split())[:200] or type(error).__name__
+        raise InputError.at(place, f"is damaged, and cannot be read as a PDF: {reason}") from error
+    finally:
+        logger.disabled = was_disabled
+
+
+def _opened(content: bytes, place: Place) -> Carrier:
+    from pypdf import PdfReader  # noqa: PLC0415 - slow to load
+
+    reader = PdfReader(BytesIO(content))
+    if reader.is_encrypted:
+        raise InputError.at(place, "is encrypted, which no certificate is: verify the file as it was issued")
+    if len(reader.pages) > MOST_PAGES:
+        raise InputError.at(place, f"has more than {MOST_PAGES} pages; no certificate has")
+    carried: dict[str, Carried] = {}
+    size = 0
+    for specification in _specifications(reader, place):
+        if len(carried) == MOST_ATTACHMENTS:
+            raise InputError.at(place, f"carries more than {MOST_ATTACHMENTS} files; no certificate does")
+        each = _carried(specification, place)
+        size += len(each.content)
+        if size > LARGEST_TOTAL:
+            raise _too_large(place)
+        if each.name in carried:
+            raise InputError.at(place, f"carries two files of the name {each.name!r}; no certificate does")
+        carried[each.name] = each
+    return Carrier(place, content, reader, carried)
+
+
+def _specifications(reader: Any, place: Place) -> Iterator[Any]:
+    """Yield each file specification that the document lists by name, or as associated with it."""
+    root = reader.trailer["/Root"].get_object()
+    waiting = [root.get("/Names", {}).get_object().get("/EmbeddedFiles")] if "/Names" in root else []
+    listed: list[Any] = []
+    nodes = 0
+    while waiting:
+        node = waiting.pop()
+        if node is None:
+            continue
+        nodes += 1
+        if nodes > _MOST_NODES:
+            raise InputError.at(place, "lists its attachments without end; no certificate does")
+        node = node.get_object()
+        listed.extend(list(node.get("/Names", ()))[1::2])
+        waiting.extend(node.get("/Kids", ()))
+    listed.extend(root.get("/AF", ()))
+    seen: set[Any] = set()
+    for specification in listed:
+        identity = getattr(specification, "idnum", None) or id(specification)
+        if identity not in seen:
+            seen.add(identity)
+            yield specification.get_object()
+
+
+def _carried(specification: Any, place: Place) -> Carried:
+    name = str(specification.get("/UF") or specification.get("/F") or "")
+    if _UNSAFE.search(name) or len(name) > _LONGEST_NAME:
+        raise InputError.at(place, f"carries a file whose name is none: {name[:60]!a}")
+    stream = specification["/EF"].get_object()["/F"].get_object()
+    parameters = stream.get("/Params", {}).get_object() if "/Params" in stream else {}
+    from pypdf.errors import LimitReachedError  # noqa: PLC0415 - loaded with the reader
+
+    try:
+        content = stream.get_data()
+    except LimitReachedError as error:
+        raise _too_large(place) from error
+    return Carried(
+        name,
+        content if isinstance(content, bytes) else content.encode("latin-1"),
+        str(specification.get("/AFRelationship", "")).removeprefix("/"),
+        str(specification.get("/Desc", "")),
+        str(stream.get("/Subtype", "")).removeprefix("/"),
+        _hexadecimal(parameters.get("/CheckSum")),
+    )
+
+
+def _hexadecimal(checksum: Any) -> str:
+    """Return a digest that the reader may have taken for text."""
+    original = getattr(checksum, "original_bytes", b"")
+    with contextlib.suppress(AttributeError):
+        return bytes(original).hex()
+    return ""
+
+
+def _too_large(place: Place) -> InputError:
+    return InputError(
+        [Problem(place, f"carries files of more than {LARGEST_TOTAL >> 20} MiB in all; no certificate does")]
+    )

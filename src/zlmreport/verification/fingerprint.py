@@ -1,0 +1,130 @@
+"""Whether parts of two PDFs are the same, whatever their objects are numbered and however they are packed."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterator, Mapping
+from typing import Any, TypeAlias
+
+from zlmreport.errors import InputError, Place
+
+#: An object of pypdf.
+PdfObject: TypeAlias = Any
+
+#: Of the streams of one document, in bytes.
+_LARGEST = 256 * 1024 * 1024
+_MOST_OBJECTS = 2_000_000
+#: How streams are packed, and what leads back up or is counted over the whole file.
+_LEFT_OUT = frozenset(
+    {
+        "/DecodeParms",
+        "/Filter",
+        "/Length",
+        "/Parent",
+        "/ParentTree",
+        "/ParentTreeNextKey",
+        "/StructParent",
+        "/StructParents",
+    }
+)
+#: Lists to which a signature adds; one alone may stand there without a list.
+_EXTENDED_BY_SIGNATURES = frozenset({"/Annots", "/K"})
+
+
+class Fingerprints:
+    """Digests of the parts of one document.
+
+    Parameters
+    ----------
+    pages
+        Numbers of the pages by the numbers of their objects: a part that leads to a page does not hold it.
+    place
+        The document, for messages.
+    """
+
+    def __init__(self, pages: Mapping[int, int], place: Place) -> None:
+        self._pages = pages
+        self._place = place
+        self._objects = 0
+        self._size = 0
+        self._streams: dict[int, bytes] = {}
+
+    def of(self, part: PdfObject, without: frozenset[str] = frozenset()) -> str:
+        """Return the digest of an object with all that it leads to, but for what stands under some keys.
+
+        The objects are walked without recursion: a foreign file may nest them as deep as it likes.
+        """
+        from pypdf.generic import DictionaryObject, IndirectObject  # noqa: PLC0415 - slow to load
+
+        digest = hashlib.sha256()
+        met: dict[int, int] = {}
+        waiting: list[Any] = [part]
+        while waiting:
+            each = waiting.pop()
+            self._count()
+            if isinstance(each, IndirectObject):
+                number = each.idnum
+                if number in self._pages:
+                    digest.update(f"page {self._pages[number]};".encode())
+                elif number in met:
+                    digest.update(f"again {met[number]};".encode())
+                else:
+                    met[number] = len(met)
+                    waiting.append(each.get_object())
+            elif isinstance(each, DictionaryObject):
+                waiting.extend(reversed(list(self._entries(each, without))))
+            elif isinstance(each, list):
+                waiting.extend((b"]", *reversed(each), b"["))
+            else:
+                digest.update(each if type(each) is bytes else f"{each!r};".encode("utf-8", "replace"))
+        return digest.hexdigest()
+
+    def _entries(self, dictionary: PdfObject, without: frozenset[str]) -> Iterator[Any]:
+        """Yield what a dictionary is made of: marks as bytes, and objects."""
+        yield b"<<"
+        if hasattr(dictionary, "get_data"):
+            yield self._stream(dictionary)
+        for key in sorted(dictionary):
+            value = dictionary.raw_get(key)
+            if key in _EXTENDED_BY_SIGNATURES:
+                found = value.get_object()
+                items = found if isinstance(found, list) else [value]
+                value = [item for item in items if not is_of_signature(item.get_object())]
+                if not value:
+                    continue
+            if key not in _LEFT_OUT and key not in without:
+                yield f"{key}=".encode()
+                yield value
+        yield b">>"
+
+    def _stream(self, stream: PdfObject) -> bytes:
+        """Return the digest of a stream's unpacked bytes."""
+        key = id(stream)
+        if key not in self._streams:
+            content = stream.get_data()
+            content = content if isinstance(content, bytes) else content.encode("utf-8", "replace")
+            self._size += len(content)
+            if self._size > _LARGEST:
+                raise InputError.at(
+                    self._place, f"comes to more than {_LARGEST >> 20} MiB; no certificate does"
+                )
+            self._streams[key] = hashlib.sha256(content).digest()
+        return self._streams[key]
+
+    def _count(self) -> None:
+        self._objects += 1
+        if self._objects > _MOST_OBJECTS:
+            raise InputError.at(self._place, "holds more objects than any certificate")
+
+
+def is_of_signature(item: PdfObject) -> bool:
+    """Whether an object is what a signature that nobody sees adds: its field, and its place in the structure.
+
+    A field that takes room on a page could cover what is printed there: it counts as a change of the page.
+    """
+    if not isinstance(item, dict):
+        return False
+    if item.get("/Subtype") == "/Widget" and item.get("/FT") == "/Sig":
+        left, bottom, right, top = item.get("/Rect", (0, 0, 1, 1))
+        return bool(left == right or bottom == top)
+    return bool(item.get("/S") == "/Form" and not {"/Alt", "/ActualText", "/E"} & item.keys())

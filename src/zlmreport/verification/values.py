@@ -1,0 +1,106 @@
+"""The results file against the one that the attached readings give: value by value."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import Any
+
+from zlmreport.verification.findings import Value, Verdict, is_number
+
+#: Relative, and in units of the results file: another processor rounds the last digits otherwise.
+_TOLERANCE = 1e-9
+#: Of fitted parameters: an iteration multiplies such differences.
+_TOLERANCE_OF_FITS = 1e-6
+_FITTED = "model"
+#: What names an item of a list, first found.
+_NAMES = ("standard", "symbol", "name", "target", "effect", "path", "requirement")
+
+
+def compare(stated: Any, recomputed: Any, *, same_programs: bool) -> tuple[Value, ...]:
+    """Return every value of two results files, side by side.
+
+    Parameters
+    ----------
+    stated, recomputed
+        The files' trees.
+    same_programs
+        Whether both come from the same releases. Otherwise only numbers are compared, words are left open,
+        and the file may have keys that only the later release knows.
+    """
+    return tuple(
+        value if same_programs else _of_another_release(value)
+        for value in _walk(stated, recomputed, ())
+        if same_programs or value.stated is not None
+    )
+
+
+def _of_another_release(value: Value) -> Value:
+    if value.is_number or value.verdict is Verdict.HOLDS:
+        return value
+    return Value(value.path, value.stated, value.recomputed, Verdict.OPEN)
+
+
+def _walk(stated: Any, recomputed: Any, path: tuple[str, ...]) -> Iterator[Value]:
+    if isinstance(stated, dict) and isinstance(recomputed, dict):
+        for key in dict.fromkeys((*stated, *recomputed)):
+            yield from _walk(stated.get(key), recomputed.get(key), (*path, key))
+    elif isinstance(stated, list) and isinstance(recomputed, list):
+        for name, one, other in _paired(stated, recomputed):
+            yield from _walk(one, other, (*path, name))
+    elif isinstance(stated, dict | list) or isinstance(recomputed, dict | list):
+        yield from _on_one_side(stated, recomputed, path)
+    else:
+        yield Value(path, stated, recomputed, _verdict(stated, recomputed, path))
+
+
+def _paired(stated: list[Any], recomputed: list[Any]) -> Iterator[tuple[str, Any, Any]]:
+    """Pair the items of two lists: in their order, or by their names if the lists are not equally long."""
+    if len(stated) == len(recomputed):
+        for number, (one, other) in enumerate(zip(stated, recomputed, strict=True), 1):
+            yield _name(other, number), one, other
+        return
+    left, right = _by_name(stated), _by_name(recomputed)
+    for name in dict.fromkeys((*left, *right)):
+        yield name, left.get(name), right.get(name)
+
+
+def _by_name(items: list[Any]) -> dict[str, Any]:
+    found: dict[str, Any] = {}
+    for number, item in enumerate(items, 1):
+        name = _name(item, number)
+        found[f"{name} ({number})" if name in found else name] = item
+    return found
+
+
+def _name(item: Any, number: int) -> str:
+    keys = item if isinstance(item, dict) else {}
+    return next((f"{keys[key]}" for key in _NAMES if key in keys), str(number))
+
+
+def _on_one_side(stated: Any, recomputed: Any, path: tuple[str, ...]) -> Iterator[Value]:
+    """Yield the values of a branch that has no counterpart of its kind."""
+    for leaf_path, leaf in _leaves(stated, path):
+        yield Value(leaf_path, leaf, None, Verdict.DIFFERS)
+    for leaf_path, leaf in _leaves(recomputed, path):
+        yield Value(leaf_path, None, leaf, Verdict.DIFFERS)
+
+
+def _leaves(node: Any, path: tuple[str, ...]) -> Iterator[tuple[tuple[str, ...], Any]]:
+    if isinstance(node, dict):
+        for key, child in node.items():
+            yield from _leaves(child, (*path, key))
+    elif isinstance(node, list):
+        for number, child in enumerate(node, 1):
+            yield from _leaves(child, (*path, _name(child, number)))
+    elif node is not None:
+        yield path, node
+
+
+def _verdict(stated: Any, recomputed: Any, path: tuple[str, ...]) -> Verdict:
+    if is_number(stated) and is_number(recomputed):
+        tolerance = _TOLERANCE_OF_FITS if path[0] == _FITTED else _TOLERANCE
+        agree = math.isclose(stated, recomputed, rel_tol=tolerance, abs_tol=tolerance)
+    else:
+        agree = type(stated) is type(recomputed) and stated == recomputed
+    return Verdict.HOLDS if agree else Verdict.DIFFERS

@@ -1,0 +1,144 @@
+"""The order of a verification: open, evaluate again, print again, compare."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from zlmreport import pipeline
+from zlmreport.certificate.build import GENERATOR
+from zlmreport.certificate.document import Certificate
+from zlmreport.errors import InputError, Place, ZlmreportError
+from zlmreport.job.loading import load
+from zlmreport.plugins import Registry
+from zlmreport.protocols import Renderer, relationship_of
+from zlmreport.verification import files, numerals, pages, values
+from zlmreport.verification.carrier import Carrier, opened, read_file
+from zlmreport.verification.findings import Finding, Identity, Verdict, Verification
+from zlmreport.verification.signature import signature_finding
+from zlmreport.verification.stated import Results, Stated, stated_by
+from zlmreport.verification.unpacking import laid_out
+
+#: The format of what is verified.
+PRINTED = "pdf"
+_PROGRAM = GENERATOR.partition(" ")[0]
+_OTHER_RELEASES = (
+    "this is {programs}, and other releases made the certificate: its numbers are compared, its words and "
+    "graphs are not"
+)
+_OTHER_LIBRARIES = (
+    "no page is drawn here as it was: other libraries printed it, so words and numbers are compared, and the "
+    "drawing is not"
+)
+
+
+@dataclass(frozen=True, slots=True)
+class _Again:
+    """A certificate that was made again from its attachments.
+
+    `programs` are its generator and its plugins, `results` its results file.
+    """
+
+    certificate: Certificate
+    programs: tuple[str, Mapping[str, str]]
+    carrier: Carrier
+    results: bytes
+
+
+def verify(path: Path, registry: Registry) -> Verification:
+    """Verify a certificate.
+
+    Parameters
+    ----------
+    path
+        A PDF that this program made, signed or not.
+    registry
+        The plugins that evaluate and print again.
+
+    Raises
+    ------
+    AccessError
+        If it cannot be read, or printed again.
+    InputError
+        If it is no such PDF; or if it is, and what it carries cannot be evaluated here although none of its
+        sources was changed: because a plugin is not installed, for example.
+    """
+    carrier = opened(read_file(path), Place(str(path)))
+    found = Verification(Identity(generator=carrier.creator), signature_finding(carrier.content))
+    try:
+        stated = stated_by(carrier)
+    except ValueError as error:
+        return replace(found, files=(Finding("results file", Verdict.DIFFERS, str(error)),))
+    if stated is None:
+        if not carrier.creator.startswith(f"{_PROGRAM} "):
+            raise InputError.at(
+                carrier.place, "is no certificate of zlmreport: it carries no results file to verify"
+            )
+        lacking = Finding("results file", Verdict.DIFFERS, "is not attached; every certificate carries one")
+        return replace(found, files=(lacking,))
+    found = replace(found, identity=_identity(stated.results))
+    sources = stated.results.provenance.sources
+    with laid_out(sources, carrier.carried) as layout:
+        try:
+            again = _again(layout.job, carrier, registry)
+        except ZlmreportError as error:
+            problems = layout.problems(error)
+            compared = files.compare(sources, carrier.carried, None)
+            if all(finding.verdict is not Verdict.DIFFERS for finding in compared):
+                raise type(error)(problems) from error
+            reason = f"cannot be evaluated again: {'; '.join(map(str, problems))}"
+            return replace(found, files=(*compared, Finding("readings", Verdict.DIFFERS, reason)))
+    return _compared(found, carrier, stated, again)
+
+
+def _identity(results: Results) -> Identity:
+    certificate = results.certificate
+    return Identity(certificate.number, certificate.title, certificate.issued, results.provenance.generator)
+
+
+def _again(job_path: Path, carrier: Carrier, registry: Registry) -> _Again:
+    """Load the attached job, evaluate it, and print it with all that the document carries."""
+    printer = registry.renderer(PRINTED)
+    job = load(job_path, registry, formats=(PRINTED,))
+    certificate = pipeline.compose(job, registry)
+    carried = [each for each in registry.renderers if _is_carried(each, certificate, carrier)]
+    contents = pipeline.render(certificate, [*carried, printer], registry)
+    return _Again(
+        certificate,
+        (GENERATOR, registry.versions(job)),
+        opened(contents[PRINTED], Place(f"{carrier.place} (printed again)")),
+        contents[pipeline.RESULTS],
+    )
+
+
+def _is_carried(renderer: Renderer, certificate: Certificate, carrier: Carrier) -> bool:
+    name = pipeline.file_name(certificate, renderer)
+    return relationship_of(renderer) is not None and name in carrier.carried
+
+
+def _compared(found: Verification, carrier: Carrier, stated: Stated, again: _Again) -> Verification:
+    """Return all that is found of a certificate that could be made again."""
+    provenance = stated.results.provenance
+    by_same_programs = again.programs == (provenance.generator, provenance.plugins)
+    found = replace(
+        found,
+        files=files.compare(provenance.sources, carrier.carried, again.carrier.carried),
+        values=values.compare(stated.tree, json.loads(again.results), same_programs=by_same_programs),
+    )
+    if not by_same_programs:
+        generator, plugins = again.programs
+        programs = ", ".join(dict.fromkeys((generator, *sorted(plugins.values()))))
+        return replace(
+            found,
+            pages=numerals.compare(carrier, again.certificate),
+            remarks=(_OTHER_RELEASES.format(programs=programs),),
+        )
+    printed = pages.compare(carrier, again.carrier)
+    return replace(
+        found,
+        pages=printed.pages,
+        document=printed.document,
+        remarks=() if printed.is_drawn_alike else (_OTHER_LIBRARIES,),
+    )

@@ -1,0 +1,46 @@
+"""The numbers of the page on the error model are those of the code."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+from documents.pages import DOCS
+from zlmreport.model import calibration, diagnose, noise, outliers, ranking, spread, steps
+
+_PAGE = " ".join((DOCS / "explanation" / "error-model.md").read_text(encoding="utf-8").split())
+
+
+@pytest.mark.parametrize(
+    ("sentence", "value"),
+    [
+        (r"the whole contest is held (\d+) times more", calibration.TRIALS),
+        (r"exceeds by chance in (\d+) % of these tests", 100 * calibration.LEVEL),
+        (r"by more than ([\d.]+) robust standard deviations", outliers._LIMIT),
+        (r"refutes that they are equal \(at (\d+) %\)", 100 * spread._LEVEL),
+        (r"must surpass them by (\d+) units", ranking.NAMED),
+        (r"A difference of less than (\d+) units", ranking.MENTION),
+        (r"each further name must bring (\d+) units more", ranking.FURTHER),
+        (r"beyond the noise floor by at least (\d+) %", 100 * diagnose.EXPLAINS),
+    ],
+)
+def test_a_number_on_the_page_is_that_of_the_code(sentence: str, value: float) -> None:
+    found = re.search(sentence, _PAGE)
+    assert found
+    assert float(found[1]) == pytest.approx(value)
+
+
+def test_shared_scatter_is_held_to_half_of_that_of_single_readings() -> None:
+    assert {max(ratios) for ratios in noise._RATIOS.values()} == {0.25}  # variances
+    assert "half the scatter of a single reading" in _PAGE
+
+
+def test_the_names_together_hold_three_quarters_of_the_evidence() -> None:
+    assert ranking.EXPLAINED == 0.75
+    assert "at least three quarters of all evidence" in _PAGE
+
+
+def test_the_number_of_steps_is_that_of_the_code() -> None:
+    assert steps._MOST_STEPS == 3
+    assert "up to three times" in _PAGE

@@ -1,0 +1,86 @@
+"""What a job may not state of its uncertainty budget."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from certificate.documents import COMPLETE, job
+from zlmreport.errors import InputError
+
+ROTARY = {"name": "C", "kind": "rotary"}
+
+
+def refused(folder: Path, **groups: Any) -> str:
+    """Return the message on the only mistake of a job."""
+    with pytest.raises(InputError) as caught:
+        job(folder, {**COMPLETE, **groups})
+    (problem,) = caught.value.problems
+    return problem.message
+
+
+@pytest.mark.parametrize(
+    "key",
+    [
+        "misalignment",
+        "machine_temperature",
+        "device_temperature",
+        "expansion_coefficient",
+        "device_expansion_coefficient",
+    ],
+)
+def test_a_rotary_axis_has_no_lengths_that_expand_or_are_misaligned(tmp_path: Path, key: str) -> None:
+    message = refused(tmp_path, axis=ROTARY, evaluate=["nmtba"], uncertainty={key: 1.0})
+
+    assert message == (
+        f"uncertainty.{key}: belongs to a linear axis; take it out, or state contributions of this axis"
+    )
+
+
+def test_a_rotary_axis_has_no_metres(tmp_path: Path) -> None:
+    instrument = {**COMPLETE["instrument"], "expanded_uncertainty_per_metre": 0.5}
+
+    message = refused(tmp_path, axis=ROTARY, evaluate=["nmtba"], instrument=instrument)
+
+    assert message == (
+        "instrument.expanded_uncertainty_per_metre: belongs to a linear axis: a rotary one has no metres"
+    )
+
+
+@pytest.mark.parametrize(
+    ("sizes", "found"),
+    [
+        ({}, "none"),
+        ({"range": 1, "standard_uncertainty": 1}, "standard_uncertainty and range"),
+    ],
+)
+def test_a_contribution_is_stated_once(tmp_path: Path, sizes: dict[str, Any], found: str) -> None:
+    contribution = {"name": "Dead path", "acts": "at-each-reading", **sizes}
+
+    message = refused(tmp_path, uncertainty={"contributions": [contribution]})
+
+    assert message == (
+        "uncertainty.contributions: state one of expanded_uncertainty, standard_uncertainty, range "
+        f"(found: {found})"
+    )
+
+
+def test_a_normal_distribution_has_no_range(tmp_path: Path) -> None:
+    contribution = {"name": "Any", "acts": "at-each-reading", "range": 1, "distribution": "normal"}
+
+    message = refused(tmp_path, uncertainty={"contributions": [contribution]})
+
+    assert message.startswith("uncertainty.contributions.distribution: a normal distribution has no range; ")
+
+
+def test_who_shares_an_error_is_said_for_every_contribution(tmp_path: Path) -> None:
+    message = refused(tmp_path, uncertainty={"contributions": [{"name": "Any", "range": 1}]})
+
+    assert "uncertainty.contributions.acts is missing" in message
+
+
+@pytest.mark.parametrize("key", ["misalignment", "environmental_variation", "resolution"])
+def test_a_range_is_not_negative(tmp_path: Path, key: str) -> None:
+    assert f"uncertainty.{key}" in refused(tmp_path, uncertainty={key: -0.1})

@@ -1,0 +1,92 @@
+"""What must not change a diagnosis: what the model describes, and the order in which things are told."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+from model.axis_tests import (
+    INSTALLED,
+    hidden,
+    known,
+    linear_test,
+    model_of,
+    noise,
+    observations,
+)
+from zlmreport.model.axis_model import AxisModel
+from zlmreport.model.diagnose import diagnose
+from zlmreport.model.diagnosis import Diagnosis, Verdict
+from zlmreport.model.effect import Effect
+from zlmreport.quantities.arrays import FloatArray
+from zlmreport_plugins.effects.polynomial import Polynomial
+
+DESIGN = linear_test(13, 4)
+MODEL = model_of(Polynomial(3), "backlash")
+READINGS = known(DESIGN) + noise(DESIGN) + hidden(DESIGN, "screw-pitch", [0.01], size=1.5)
+
+
+def _diagnosis(
+    added: FloatArray | float = 0.0, model: AxisModel = MODEL, effects: tuple[Effect, ...] = INSTALLED
+) -> Diagnosis:
+    return diagnose(model, observations(DESIGN, READINGS + added), effects)
+
+
+@cache
+def _usual() -> Diagnosis:
+    return _diagnosis()
+
+
+def _outcome(diagnosis: Diagnosis) -> tuple[object, ...]:
+    """Return what a reader takes from a diagnosis."""
+    return (
+        diagnosis.verdict,
+        [each.identifier for each in diagnosis.candidates],
+        [each.equals for each in diagnosis.candidates],
+        [(each.test, each.where) for each in diagnosis.failures],
+    )
+
+
+def _is_like(diagnosis: Diagnosis, usual: Diagnosis) -> None:
+    assert _outcome(diagnosis) == _outcome(usual)
+    for one, other in zip(diagnosis.candidates, usual.candidates, strict=True):
+        # The evidence rests on sums of squares near 1e-9 of those of the readings.
+        assert one.probability == pytest.approx(other.probability, abs=1e-4)
+        assert one.error.rms == pytest.approx(other.error.rms, rel=1e-6)
+
+
+def test_the_example_has_something_to_lose() -> None:
+    assert _usual().verdict is Verdict.MISSING
+    assert _usual().candidates[0].identifier == "screw-pitch"
+
+
+@pytest.mark.parametrize(
+    "added",
+    [
+        np.full(len(DESIGN.position), 40e-6),
+        1e-4 * DESIGN.position,
+        5e-6 * DESIGN.direction,
+        30e-6 * (2 * DESIGN.position - 1) ** 3,
+    ],
+    ids=["offset", "slope", "backlash", "cubic"],
+)
+def test_what_the_model_describes_changes_nothing(added: FloatArray) -> None:
+    _is_like(_diagnosis(added), _usual())
+
+
+def test_readings_of_the_other_sign_give_the_same_names() -> None:
+    mirrored = diagnose(MODEL, observations(DESIGN, -READINGS), INSTALLED)
+    assert [each.identifier for each in mirrored.candidates] == [
+        each.identifier for each in _usual().candidates
+    ]
+    assert mirrored.fit.rms == pytest.approx(_usual().fit.rms, rel=1e-9)
+
+
+def test_the_order_of_the_model_changes_nothing() -> None:
+    _is_like(_diagnosis(model=model_of("backlash", Polynomial(3))), _usual())
+
+
+def test_the_order_in_which_effects_are_installed_changes_nothing() -> None:
+    _is_like(_diagnosis(effects=INSTALLED[::-1]), _usual())

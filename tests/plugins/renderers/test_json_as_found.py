@@ -1,0 +1,58 @@
+"""The results file of an axis that was adjusted, and of a document that changes another."""
+
+from __future__ import annotations
+
+import json
+from importlib.resources import files
+from pathlib import Path
+from typing import Any
+
+import jsonschema
+import pytest
+
+from environments import ROOT
+from zlmreport import pipeline
+from zlmreport.job.loading import load
+from zlmreport.plugins import find_plugins
+from zlmreport_plugins.renderers.json_results import JsonResultsRenderer
+
+SCHEMA = json.loads((files("zlmreport_plugins.renderers") / "results.schema.json").read_text("utf-8"))
+AMENDED = {"number": "EXAMPLE-0", "kind": "replacement", "reason": "Wrong serial number."}
+
+
+@pytest.fixture(scope="module")
+def results(tmp_path_factory: pytest.TempPathFactory) -> Any:
+    """Return the results file of the example job, made a replacement of another."""
+    path: Path = tmp_path_factory.mktemp("job") / "job.yaml"
+    example = ROOT / "configs" / "as-found" / "certificate.yaml"
+    path.write_text(
+        f"schema: zlmreport/job/1\nextends: {example}\n"
+        "certificate: {number: EXAMPLE-1, amends: {number: EXAMPLE-0, kind: replacement, "
+        "reason: Wrong serial number.}}\n"
+    )
+    registry = find_plugins()
+    certificate = pipeline.compose(load(path, registry), registry)
+    return json.loads(JsonResultsRenderer().render(certificate))
+
+
+def test_it_fits_its_schema(results: Any) -> None:
+    jsonschema.Draft202012Validator(SCHEMA).validate(results)
+
+
+def test_it_has_the_axis_as_found_by_the_same_standards(results: Any) -> None:
+    after = [each["standard"] for each in results["evaluations"]]
+    assert [each["standard"] for each in results["as_found"]["evaluations"]] == after
+
+
+def test_each_measurement_has_its_own_file_of_readings(results: Any) -> None:
+    assert [file["name"] for file in results["as_found"]["files"]] == ["x-as-found.csv"]
+    assert [file["name"] for file in results["provenance"]["files"]] == ["x-as-left.csv"]
+
+
+def test_both_files_are_among_the_sources_of_the_certificate(results: Any) -> None:
+    names = {source["name"] for source in results["provenance"]["sources"]}
+    assert {"x-as-found.csv", "x-as-left.csv"} <= names
+
+
+def test_a_document_that_changes_another_names_it(results: Any) -> None:
+    assert results["certificate"]["amends"] == AMENDED

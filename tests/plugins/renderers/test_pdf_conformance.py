@@ -1,0 +1,88 @@
+"""The PDF keeps what it claims, PDF/A-3a and PDF/UA-1, whatever stands in it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from io import BytesIO
+from pathlib import Path
+
+import pytest
+from PIL import Image
+from pypdf import PdfReader
+
+from environments import ROOT
+from pdf_conformance import complaints
+from plugins.renderers.pdf_pages import sample
+from typesetting import samples
+from zlmreport import pipeline
+from zlmreport.certificate.document import Certificate
+from zlmreport.job.loading import load
+from zlmreport.language import Language
+from zlmreport.plugins import find_plugins
+from zlmreport_plugins.renderers.pdf import PdfRenderer, press
+
+
+def _with_logo() -> Certificate:
+    picture = BytesIO()
+    Image.new("RGB", (30, 10), "navy").save(picture, "PNG")
+    plain = samples.certificate(standards=0)
+    assert plain.letterhead is not None
+    return replace(
+        plain, letterhead=replace(plain.letterhead, logo=picture.getvalue(), logo_type="image/png")
+    )
+
+
+_CERTIFICATES = {
+    "English": samples.certificate,
+    "German": lambda: samples.certificate(Language.GERMAN),
+    "Letter": lambda: samples.certificate(paper="Letter"),
+    "no letterhead, no date of issue": lambda: samples.certificate(standards=0, letterhead=None, issued=None),
+    "logo": _with_logo,
+    "tables over several pages": lambda: samples.certificate(readings=samples.measurements(targets=150)),
+    "markup in a name": lambda: samples.certificate(standards=0, customer="<b>A & B</b> ]]> {{ 1 }}"),
+    "control characters in a name": lambda: samples.certificate(
+        standards=0, customer="a\x00b\x1fc\u200b\ufffe"
+    ),
+}
+
+
+@pytest.mark.parametrize("made", _CERTIFICATES.values(), ids=_CERTIFICATES)
+def test_it_conforms(made) -> None:
+    assert complaints(PdfRenderer().render(made())) == []
+
+
+def test_it_conforms_with_graphs_by_way_of_svg(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(press, "DRAWS_ON_PAGES", False)
+    assert complaints(PdfRenderer().render(samples.certificate())) == []
+
+
+@pytest.mark.parametrize("job", ["linear-axis/certificate.yaml", "hidden-effect/job.yaml"])
+def test_a_certificate_of_real_measurements_conforms(job: str) -> None:
+    registry = find_plugins()
+    loaded = load(Path(ROOT, "configs", job), registry, formats=("pdf",))
+    (document,) = pipeline.run(loaded, registry).documents
+    assert complaints(document.content) == []
+
+
+def test_it_claims_both() -> None:
+    reader = sample()
+    packet = reader.trailer["/Root"]["/Metadata"].get_object().get_data().decode()
+    assert 'pdfaid:part="3" pdfaid:conformance="A"' in packet
+    assert "<pdfuaid:part>1</pdfuaid:part>" in packet
+
+
+def test_its_number_and_language_are_metadata() -> None:
+    metadata = sample(Language.GERMAN).xmp_metadata
+    assert metadata is not None
+    assert (metadata.dc_identifier, metadata.dc_language) == ("CAL-2026-0117", ["de"])
+
+
+def test_metadata_can_be_read_without_unpacking_the_file() -> None:
+    content = PdfRenderer().render(samples.certificate(standards=0))
+    assert b"<pdfuaid:part>1</pdfuaid:part>" in content
+
+
+def test_viewers_show_the_title_and_walk_in_the_order_of_the_structure() -> None:
+    reader: PdfReader = sample()
+    assert reader.trailer["/Root"]["/ViewerPreferences"]["/DisplayDocTitle"].value is True
+    assert {page["/Tabs"] for page in reader.pages} == {"/S"}

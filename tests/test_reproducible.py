@@ -1,0 +1,137 @@
+"""The same job gives the same bytes, wherever and whenever it is done."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+from dataclasses import dataclass, field
+from hashlib import sha256
+from pathlib import Path
+
+import pytest
+
+from environments import ROOT
+from zlmreport.plugins import find_plugins
+
+JOB = """\
+schema: zlmreport/job/1
+extends: certificate.yaml
+laboratory: {country: DE}
+evaluate: ["iso230-2:2014", vdi-dgq-3441]
+"""
+FORMATS = [renderer.identifier for renderer in find_plugins().renderers]
+
+#: The command line with a clock that is wrong by so many seconds.
+_WITH_CLOCK = """
+import datetime
+import sys
+import time
+
+off = float(sys.argv.pop(1))
+true_time, true_time_ns, true_localtime, true_gmtime = time.time, time.time_ns, time.localtime, time.gmtime
+time.time = lambda: true_time() + off
+time.time_ns = lambda: true_time_ns() + int(off * 1e9)
+time.localtime = lambda seconds=None: true_localtime(time.time() if seconds is None else seconds)
+time.gmtime = lambda seconds=None: true_gmtime(time.time() if seconds is None else seconds)
+
+
+class Wrong(datetime.datetime):
+    @classmethod
+    def now(cls, tz=None):
+        return cls.fromtimestamp(time.time(), tz)
+
+    @classmethod
+    def utcnow(cls):
+        return cls.fromtimestamp(time.time(), datetime.UTC).replace(tzinfo=None)
+
+    @classmethod
+    def today(cls):
+        return cls.now()
+
+
+class WrongDate(datetime.date):
+    @classmethod
+    def today(cls):
+        return cls.fromtimestamp(time.time())
+
+
+datetime.datetime, datetime.date = Wrong, WrongDate
+
+from zlmreport.cli import main
+
+sys.exit(main())
+"""
+
+
+@dataclass(frozen=True, slots=True)
+class Circumstances:
+    """What differs from run to run.
+
+    `clock` is wrong by so many seconds; `place` is where the job and its data lie; `within` is whether the
+    job is called from its own folder.
+    """
+
+    variables: dict[str, str] = field(default_factory=dict)
+    clock: float = 0.0
+    place: str = "jobs"
+    within: bool = False
+
+
+CIRCUMSTANCES = {
+    "another process": Circumstances(),
+    "another time zone": Circumstances({"TZ": "Pacific/Kiritimati"}),
+    "another locale": Circumstances({"LC_ALL": "C", "LANG": "C", "LANGUAGE": "de", "PYTHONUTF8": "0"}),
+    "another order of sets": Circumstances({"PYTHONHASHSEED": "1"}),
+    "another day": Circumstances(clock=400 * 86400.5),
+    "a stated time of build": Circumstances({"SOURCE_DATE_EPOCH": "1000000000"}),
+    "another folder": Circumstances(place="a folder ü/of old"),
+    "called from the folder": Circumstances(within=True),
+    "all at once": Circumstances(
+        {"TZ": "America/Anchorage", "LC_ALL": "POSIX", "PYTHONHASHSEED": "2", "HOME": "/nonexistent"},
+        clock=-9000 * 86400.5,
+        place="another",
+        within=True,
+    ),
+}
+
+
+def _made(folder: Path, circumstances: Circumstances) -> dict[str, str]:
+    """Make the files in a process of its own, and return the digest of each."""
+    configs = shutil.copytree(ROOT / "configs", folder / circumstances.place, copy_function=shutil.copyfile)
+    job = configs / "linear-axis" / "job.yaml"
+    job.write_text(JOB, encoding="utf-8")
+    date = len(circumstances.place) * 1e8
+    for path in configs.rglob("*"):
+        os.utime(path, (date, date))
+    done = subprocess.run(
+        [
+            *(sys.executable, "-c", _WITH_CLOCK, str(circumstances.clock)),
+            *(job.name if circumstances.within else job, "--quiet"),
+            *("--output", folder / "out", "--format", ",".join(FORMATS)),
+        ],
+        env={"OPENBLAS_NUM_THREADS": "1", "PYTHONHASHSEED": "0", **os.environ, **circumstances.variables},
+        cwd=job.parent if circumstances.within else folder,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert (done.returncode, done.stderr) == (0, "")
+    return {path.name: sha256(path.read_bytes()).hexdigest() for path in (folder / "out").iterdir()}
+
+
+@pytest.fixture(scope="module")
+def first(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
+    return _made(tmp_path_factory.mktemp("first"), Circumstances())
+
+
+def test_every_installed_format_is_compared(first: dict[str, str]) -> None:
+    assert len(first) == len(FORMATS) > 2
+
+
+@pytest.mark.parametrize("circumstances", CIRCUMSTANCES.values(), ids=CIRCUMSTANCES)
+def test_the_same_job_gives_the_same_bytes(
+    circumstances: Circumstances, first: dict[str, str], tmp_path: Path
+) -> None:
+    assert _made(tmp_path, circumstances) == first

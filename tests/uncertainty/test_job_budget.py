@@ -1,0 +1,231 @@
+"""From what a job states to the contributions of its budget."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from certificate.documents import COMPLETE, job, registry
+from zlmreport import pipeline
+from zlmreport.errors import InputError
+from zlmreport.language import Language
+from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.uncertainty.budget import Budget, NoBudget
+from zlmreport.uncertainty.contribution import Acts, Contribution, Distribution
+from zlmreport.uncertainty.job_budget import budget_of
+
+MICROMETRE = 1e-6
+#: Of the readings: from −20 mm to 20 mm.
+LENGTH = 0.04
+
+
+def keys(**groups: Any) -> dict[str, Any]:
+    """Return a complete job, groups of its keys changed."""
+    changed = {name: {**COMPLETE.get(name, {}), **group} for name, group in groups.items()}
+    return {**COMPLETE, **changed}
+
+
+def made(
+    folder: Path, stated: Mapping[str, Any], conditions: Mapping[str, Any] | None = None
+) -> Budget | NoBudget:
+    checked = job(folder, stated)
+    measurements: MeasurementSet = pipeline.read(checked, registry())
+    return budget_of(checked, replace(measurements, conditions=conditions or {}))
+
+
+def contributions(
+    folder: Path, stated: Mapping[str, Any], conditions: Mapping[str, Any] | None = None
+) -> dict[str, Contribution]:
+    """Return the contributions of a job by their names."""
+    budget = made(folder, stated, conditions)
+    assert isinstance(budget, Budget)
+    return {each.name.in_language(Language.ENGLISH): each for each in budget.contributions}
+
+
+def size(contribution: Contribution) -> float:
+    return contribution.standard_uncertainty / MICROMETRE
+
+
+def test_a_number_of_the_instrument_is_a_budget_with_the_last_digit_of_the_readings(tmp_path: Path) -> None:
+    found = contributions(tmp_path, COMPLETE)
+
+    assert list(found) == ["Measuring instrument", "Resolution of the readings"]
+    instrument, resolution = found.values()
+    assert (size(instrument), instrument.acts) == (1.0, Acts.ALONG_THE_LENGTH)
+    assert instrument.source.in_language(Language.ENGLISH) == "calibration certificate C-1"
+    assert (size(resolution), resolution.acts) == (pytest.approx(0.01 / math.sqrt(12)), Acts.AT_EACH_READING)
+
+
+def test_an_uncertainty_per_metre_counts_at_the_measured_length(tmp_path: Path) -> None:
+    stated = keys(instrument={"expanded_uncertainty": 0.3, "expanded_uncertainty_per_metre": 0.5})
+
+    instrument = contributions(tmp_path, stated)["Measuring instrument"]
+
+    assert size(instrument) == pytest.approx((0.3 + 0.5 * LENGTH) / 2)
+    assert instrument.stated.in_language(Language.GERMAN) == "U = 0,3 µm + 0,5 µm/m · L (k = 2)"
+
+
+def test_an_instrument_may_be_said_to_act_otherwise(tmp_path: Path) -> None:
+    stated = keys(uncertainty={"instrument_acts": "at-each-reading"})
+
+    assert contributions(tmp_path, stated)["Measuring instrument"].acts is Acts.AT_EACH_READING
+
+
+def test_a_misalignment_is_a_one_sided_error(tmp_path: Path) -> None:
+    found = contributions(tmp_path, keys(uncertainty={"misalignment": 0.02}))
+
+    misalignment = found["Misalignment of the measuring line"]
+    assert misalignment.distribution is Distribution.ONE_SIDED
+    assert size(misalignment) == pytest.approx((0.02e-3**2 / (2 * LENGTH)) / math.sqrt(3) / MICROMETRE)
+
+
+def test_temperatures_and_coefficients_take_what_the_job_states_beside_them(tmp_path: Path) -> None:
+    found = contributions(
+        tmp_path,
+        keys(
+            environment={"expansion_coefficient": 11.5, "axis_temperature": 18.8},
+            instrument={"expansion_coefficient": 8},
+            uncertainty={
+                "machine_temperature": 0.4,
+                "device_temperature": 0.2,
+                "expansion_coefficient": 2,
+                "device_expansion_coefficient": 1,
+            },
+        ),
+    )
+
+    per_metre = {
+        "Temperature measurement, machine": 11.5 * 0.4,
+        "Temperature measurement, measuring device": 8 * 0.2,
+        "Expansion coefficient, machine": 1.2 * 2,
+        "Expansion coefficient, measuring device": 1.2 * 1,
+    }
+    expected = {name: value * LENGTH / math.sqrt(12) for name, value in per_metre.items()}
+    assert {name: size(found[name]) for name in expected} == pytest.approx(expected)
+    assert {found[name].acts for name in expected} == {Acts.ALONG_THE_LENGTH}
+
+
+def test_a_logged_temperature_counts_by_its_largest_distance_from_20_degrees(tmp_path: Path) -> None:
+    logged = {"axis_temperature": np.array([293.15, np.nan, 290.15, 294.15])}
+
+    found = contributions(tmp_path, keys(uncertainty={"expansion_coefficient": 2}), logged)
+
+    coefficient = found["Expansion coefficient, machine"]
+    assert size(coefficient) == pytest.approx(LENGTH * 3.0 * 2 / math.sqrt(12))
+
+
+@pytest.mark.parametrize(
+    ("key", "needed"),
+    [
+        ("machine_temperature", "environment.expansion_coefficient"),
+        ("device_temperature", "instrument.expansion_coefficient"),
+        ("expansion_coefficient", "environment.axis_temperature or environment.material_temperature"),
+        ("device_expansion_coefficient", "environment.axis_temperature or environment.material_temperature"),
+    ],
+)
+def test_a_range_without_what_its_formula_needs_is_refused_at_its_place(
+    tmp_path: Path, key: str, needed: str
+) -> None:
+    in_words = {"expansion_coefficient": "of steel", "axis_temperature": "about 20"}
+
+    with pytest.raises(InputError) as caught:
+        made(tmp_path, keys(environment=in_words, uncertainty={key: 1.0}))
+
+    (problem,) = caught.value.problems
+    assert problem.message.startswith(f"uncertainty.{key}: ")
+    assert problem.message.endswith(f"without a number in {needed}")
+    text = (tmp_path / "job.yaml").read_text("utf-8")
+    assert key in text.splitlines()[problem.place.line - 1]
+
+
+def test_the_drift_at_rest_acts_at_each_reading(tmp_path: Path) -> None:
+    found = contributions(tmp_path, keys(uncertainty={"environmental_variation": 0.6}))
+
+    drift = found["Variation of the environment during the test"]
+    assert (size(drift), drift.acts) == (pytest.approx(0.6 / math.sqrt(12)), Acts.AT_EACH_READING)
+
+
+@pytest.mark.parametrize(
+    ("stated", "standard_uncertainty", "distribution"),
+    [
+        ({"expanded_uncertainty": 0.5}, 0.25, Distribution.NORMAL),
+        ({"standard_uncertainty": 0.5}, 0.5, Distribution.NORMAL),
+        ({"range": 0.5}, 0.5 / math.sqrt(12), Distribution.RECTANGULAR),
+        ({"range": 0.5, "distribution": "triangular"}, 0.5 / math.sqrt(24), Distribution.TRIANGULAR),
+        ({"range": 0.5, "distribution": "one-sided"}, 0.5 / math.sqrt(3), Distribution.ONE_SIDED),
+        ({"standard_uncertainty": 0.5, "distribution": "rectangular"}, 0.5, Distribution.RECTANGULAR),
+    ],
+)
+def test_any_other_contribution_is_stated_in_one_of_three_ways(
+    tmp_path: Path, stated: dict[str, Any], standard_uncertainty: float, distribution: Distribution
+) -> None:
+    other = {"name": "Dead path", "acts": "at-each-position", **stated}
+
+    found = contributions(tmp_path, keys(uncertainty={"contributions": [other]}))["Dead path"]
+
+    assert size(found) == pytest.approx(standard_uncertainty)
+    assert (found.acts, found.distribution) == (Acts.AT_EACH_POSITION, distribution)
+
+
+def test_the_instrument_of_a_rotary_axis_errs_at_each_position(tmp_path: Path) -> None:
+    rotary = {key: value for key, value in COMPLETE.items() if key != "axis"}
+    rotary["axis"] = {"name": "C", "kind": "rotary"}
+    rotary["evaluate"] = ["iso230-2:2014"]
+
+    budget = made(tmp_path, rotary)
+
+    assert isinstance(budget, Budget)
+    instrument = next(each for each in budget.contributions if each.distribution is Distribution.NORMAL)
+    assert instrument.acts is Acts.AT_EACH_POSITION
+    # 2″ with k = 2.
+    assert instrument.standard_uncertainty == pytest.approx(math.radians(1 / 3600))
+    assert [words.in_language(Language.ENGLISH) for words in budget.not_considered] == [
+        "Variation of the environment during the test"
+    ]
+
+
+def test_contributions_that_act_alike_stand_together(tmp_path: Path) -> None:
+    along = {"name": "Dead path", "acts": "along-the-length", "range": 0.1}
+
+    found = contributions(tmp_path, keys(uncertainty={"contributions": [along]}))
+
+    assert list(found) == ["Measuring instrument", "Dead path", "Resolution of the readings"]
+
+
+def test_usual_contributors_of_which_nothing_is_stated_are_named(tmp_path: Path) -> None:
+    budget = made(tmp_path, keys(uncertainty={"misalignment": 0.1, "environmental_variation": 0.1}))
+
+    assert isinstance(budget, Budget)
+    assert [words.in_language(Language.ENGLISH) for words in budget.not_considered] == [
+        "Temperature measurement, machine",
+        "Temperature measurement, measuring device",
+        "Expansion coefficient, machine",
+        "Expansion coefficient, measuring device",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("instrument", "reason"),
+    [
+        (
+            {"expanded_uncertainty": "see its certificate"},
+            "the uncertainty of the measuring instrument is stated in words and not as a number",
+        ),
+        ({}, "the uncertainty of the measuring instrument is not stated"),
+    ],
+)
+def test_without_a_number_of_the_instrument_there_is_no_budget(
+    tmp_path: Path, instrument: dict[str, Any], reason: str
+) -> None:
+    stated = {**COMPLETE, "instrument": {"name": "Sensor", "certificate": "C-1", **instrument}}
+
+    budget = made(tmp_path, stated)
+
+    assert isinstance(budget, NoBudget)
+    assert budget.reason.in_language(Language.ENGLISH) == reason

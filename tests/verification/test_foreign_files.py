@@ -1,0 +1,237 @@
+"""A file that anyone sent is opened without trust: within bounds, and without reading anything else."""
+
+from __future__ import annotations
+
+import contextlib
+import sys
+import zlib
+from collections.abc import Callable
+from io import BytesIO
+from pathlib import Path
+
+import pytest
+from pypdf import PdfReader, PdfWriter
+from pypdf.generic import (
+    ArrayObject,
+    DictionaryObject,
+    EncodedStreamObject,
+    NameObject,
+    TextStringObject,
+)
+
+from verification.issued import JOB, altered, content_of, registry, specification, with_source
+from zlmreport.errors import AccessError, InputError
+from zlmreport.verification.findings import Verification
+from zlmreport.verification.verify import verify
+
+Verify = Callable[[bytes], Verification]
+SECRET = "secret-of-this-machine"
+
+
+def blank(change: Callable[[PdfWriter], None] = lambda _: None) -> bytes:
+    """Return a PDF of one empty page."""
+    writer = PdfWriter()
+    writer.add_blank_page(100, 100)
+    change(writer)
+    saved = BytesIO()
+    writer.write(saved)
+    return saved.getvalue()
+
+
+def refusal(verified: Verify, pdf: bytes) -> str:
+    with pytest.raises(InputError) as refused:
+        verified(pdf)
+    (problem,) = refused.value.problems
+    assert Path(problem.place.file).name == "certificate.pdf"
+    return problem.message
+
+
+def test_a_foreign_pdf_is_no_certificate(verified: Verify) -> None:
+    assert "is no certificate of zlmreport" in refusal(verified, blank())
+
+
+def test_a_foreign_pdf_with_attachments_is_no_certificate(verified: Verify) -> None:
+    pdf = blank(lambda writer: writer.add_attachment("data.json", b'{"schema": "other/1"}'))
+    assert "is no certificate of zlmreport" in refusal(verified, pdf)
+
+
+def test_an_encrypted_pdf_is_refused(issued: bytes, verified: Verify) -> None:
+    pdf = altered(issued, lambda writer: writer.encrypt("password", algorithm="RC4-128"))
+    assert "is encrypted" in refusal(verified, pdf)
+
+
+@pytest.mark.parametrize("share", [0.1, 0.5, 0.9, 0.99])
+def test_a_truncated_file_never_holds(issued: bytes, verified: Verify, share: float) -> None:
+    with contextlib.suppress(InputError):
+        assert not verified(issued[: int(share * len(issued))]).holds
+
+
+@pytest.mark.parametrize("content", [b"", b"text", b"PK\x03\x04", b"\x89PNG\r\n\x1a\n"])
+def test_what_is_no_pdf_is_refused(verified: Verify, content: bytes) -> None:
+    assert "is no PDF" in refusal(verified, content)
+
+
+@pytest.mark.parametrize("content", [b"%PDF-1.7\n", b"%PDF-1.7\n1 0 obj\n<<", b"%PDF-1.7\n" + b"[" * 100_000])
+def test_a_damaged_pdf_is_refused(verified: Verify, content: bytes) -> None:
+    assert "is damaged" in refusal(verified, content)
+
+
+def test_a_file_that_is_not_there_cannot_be_read(tmp_path: Path) -> None:
+    with pytest.raises(AccessError, match=r"none\.pdf: cannot be read: no such file"):
+        verify(tmp_path / "none.pdf", registry())
+
+
+def test_a_folder_cannot_be_read(tmp_path: Path) -> None:
+    with pytest.raises(AccessError, match="cannot be read: is a directory"):
+        verify(tmp_path, registry())
+
+
+def test_an_attachment_that_unpacks_without_end_is_refused(verified: Verify) -> None:
+    def bomb(writer: PdfWriter) -> None:
+        writer.add_attachment("zeros", b"")
+        stream = EncodedStreamObject()
+        stream._data = zlib.compress(bytes(200 * 1024 * 1024), 9)
+        stream[NameObject("/Filter")] = NameObject("/FlateDecode")
+        specification(writer, "zeros")["/EF"][NameObject("/F")] = writer._add_object(stream)
+
+    assert "files of more than 64 MiB in all" in refusal(verified, blank(bomb))
+
+
+def test_attachments_that_are_too_large_together_are_refused(verified: Verify) -> None:
+    def large(writer: PdfWriter) -> None:
+        for number in range(3):
+            writer.add_attachment(f"zeros-{number}", b"")
+            stream = EncodedStreamObject()
+            stream._data = zlib.compress(bytes(30 * 1024 * 1024), 9)
+            stream[NameObject("/Filter")] = NameObject("/FlateDecode")
+            specification(writer, f"zeros-{number}")["/EF"][NameObject("/F")] = writer._add_object(stream)
+
+    assert "files of more than 64 MiB in all" in refusal(verified, blank(large))
+
+
+def test_more_than_64_attachments_are_refused(verified: Verify) -> None:
+    def many(writer: PdfWriter) -> None:
+        for number in range(65):
+            writer.add_attachment(f"{number:02}.txt", b"")
+
+    assert "more than 64 files" in refusal(verified, blank(many))
+
+
+def test_a_list_of_attachments_that_holds_itself_is_refused(verified: Verify) -> None:
+    def circle(writer: PdfWriter) -> None:
+        node = DictionaryObject()
+        reference = writer._add_object(node)
+        node[NameObject("/Kids")] = ArrayObject([reference])
+        names = DictionaryObject({NameObject("/EmbeddedFiles"): reference})
+        writer.root_object[NameObject("/Names")] = names
+
+    assert "without end" in refusal(verified, blank(circle))
+
+
+@pytest.mark.parametrize(
+    "name", ["../job.yaml", "/etc/job.yaml", "a\\b.yaml", "..", "", "a\nb", "x" * 300, "\u202elmay.boj"]
+)
+def test_an_attachment_whose_name_is_a_path_or_cannot_be_seen_is_refused(verified: Verify, name: str) -> None:
+    def attach(writer: PdfWriter) -> None:
+        writer.add_attachment("plain", b"")
+        entry = specification(writer, "plain")
+        entry[NameObject("/UF")] = entry[NameObject("/F")] = TextStringObject(name)
+
+    assert "whose name is none" in refusal(verified, blank(attach))
+
+
+def test_two_attachments_of_one_name_are_refused(verified: Verify) -> None:
+    def attach(writer: PdfWriter) -> None:
+        writer.add_attachment("same", b"1")
+        writer.add_attachment("other", b"2")
+        specification(writer, "other")[NameObject("/UF")] = TextStringObject("same")
+
+    assert "two files of the name 'same'" in refusal(verified, blank(attach))
+
+
+@pytest.mark.parametrize("levels", [0, 12])
+def test_a_job_inside_a_pdf_reads_no_other_file(
+    issued: bytes, verified: Verify, tmp_path: Path, levels: int
+) -> None:
+    secret = tmp_path / "secret.csv"
+    secret.write_text(f"{SECRET},1\n")
+    named = str(secret) if not levels else "../" * levels + str(secret).lstrip("/")
+    job = JOB.replace("file: x-axis.csv", f"file: {named}").encode()
+    opened: list[str] = []
+    listening = True
+
+    def listen(event: str, arguments: tuple[object, ...]) -> None:
+        if listening and event == "open":
+            opened.append(str(arguments[0]))
+
+    sys.addaudithook(listen)
+    with pytest.raises(AccessError) as refused:
+        verified(with_source(issued, "job.yaml", job))
+    listening = False
+    assert not [path for path in opened if path.endswith("secret.csv") and "not attached" not in path]
+    assert SECRET not in str(refused.value)
+    assert "secret.csv: cannot be read: there is no such file" in str(refused.value)
+
+
+@pytest.mark.parametrize("name", ["/etc/passwd", "../../../../../../../../etc/passwd"])
+def test_a_job_inside_a_pdf_extends_no_other_file(issued: bytes, verified: Verify, name: str) -> None:
+    job = JOB.replace("extends: ../laboratory.yaml", f"extends: {name}").encode()
+    with pytest.raises(AccessError, match="passwd' cannot be read: no such file") as refused:
+        verified(with_source(issued, "job.yaml", job))
+    assert "root" not in str(refused.value)
+
+
+def test_a_job_inside_a_pdf_writes_nothing(
+    issued: bytes, verified: Verify, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    verified(issued)
+    assert [path.name for path in tmp_path.iterdir()] == ["certificate.pdf"]
+
+
+def test_problems_with_an_attached_file_name_it_and_not_where_it_was_unpacked(
+    issued: bytes, verified: Verify
+) -> None:
+    readings = content_of(issued, "x-axis.csv").replace(b"2.9", b"much")
+    with pytest.raises(InputError) as refused:
+        verified(with_source(issued, "x-axis.csv", readings))
+    (problem,) = refused.value.problems
+    assert str(problem).startswith("x-axis.csv:4:9: ")
+
+
+def test_a_yaml_bomb_inside_a_pdf_is_refused(issued: bytes, verified: Verify) -> None:
+    bomb = b"a: &a [x, x, x, x, x, x, x, x, x]\n" + b"".join(
+        b"%c: &%c [%s]\n" % (c + 1, c + 1, b", ".join([b"*%c" % c] * 9)) for c in range(ord("a"), ord("k"))
+    )
+    with pytest.raises(InputError):
+        verified(with_source(issued, "job.yaml", JOB.encode() + bomb))
+
+
+def test_forms_that_draw_one_another_without_end_are_not_read(issued: bytes, verified: Verify) -> None:
+    def nest(writer: PdfWriter) -> None:
+        drawn = None
+        for _ in range(30):
+            form = EncodedStreamObject()
+            form._data = b"/X Do " * 10 if drawn else b"BT ET"
+            form.update(
+                {NameObject("/Type"): NameObject("/XObject"), NameObject("/Subtype"): NameObject("/Form")}
+            )
+            if drawn:
+                objects = DictionaryObject({NameObject("/X"): drawn})
+                form[NameObject("/Resources")] = DictionaryObject({NameObject("/XObject"): objects})
+            drawn = writer._add_object(form)
+        page = writer.pages[1]
+        page["/Resources"].get_object()["/XObject"].get_object()[NameObject("/X")] = drawn
+        stream = page["/Contents"].get_object()
+        stream.set_data(stream.get_data() + b"\n/X Do\n")
+
+    found = verified(altered(issued, nest))
+    assert not found.holds
+
+
+def test_a_signed_copy_of_the_pages_alone_is_no_certificate(issued: bytes, verified: Verify) -> None:
+    def without_creator(writer: PdfWriter) -> None:
+        for page in PdfReader(BytesIO(issued)).pages:
+            writer.add_page(page)
+
+    assert "is no certificate of zlmreport" in refusal(verified, blank(without_creator))

@@ -1,0 +1,99 @@
+"""A signature says who made a certificate; what it says is compared all the same."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from io import BytesIO
+
+import pytest
+from pypdf import PdfReader, PdfWriter
+from pypdf.generic import ArrayObject, FloatObject, NameObject
+
+from signing.keys import NAME, PASSWORD, pkcs12_file
+from verification.issued import altered, with_digit
+from zlmreport.errors import Place
+from zlmreport.signing.signer import open_signer
+from zlmreport.verification.findings import Verdict, Verification
+
+Verify = Callable[[bytes], Verification]
+Sign = Callable[[bytes], bytes]
+
+
+@pytest.fixture(scope="module")
+def sign(tmp_path_factory: pytest.TempPathFactory) -> Sign:
+    file = pkcs12_file(tmp_path_factory.mktemp("key") / "laboratory.p12")
+
+    def signed(pdf: bytes) -> bytes:
+        with open_signer(str(file), lambda _: PASSWORD, Place("--sign")) as signer:
+            return signer.sign(pdf, "Electronic signature")
+
+    return signed
+
+
+def test_an_unsigned_certificate_holds_and_the_finding_says_so(issued: bytes, verified: Verify) -> None:
+    signature = verified(issued).signature
+    assert (signature.verdict, signature.detail) == (
+        Verdict.OPEN,
+        "not signed: nothing tells who made the file",
+    )
+
+
+def test_a_signed_certificate_holds_and_names_the_signer(issued: bytes, sign: Sign, verified: Verify) -> None:
+    found = verified(sign(issued))
+    assert found.holds
+    assert found.signature.verdict is Verdict.HOLDS
+    assert f"intact, by Common Name: {NAME}" in found.signature.detail
+    assert {each.verdict for each in (*found.pages, *found.document)} == {Verdict.HOLDS}
+
+
+def test_a_signed_certificate_that_was_altered_before_does_not_hold(
+    issued: bytes, sign: Sign, verified: Verify
+) -> None:
+    found = verified(sign(with_digit(issued, "7.26", "7.96")))
+    assert found.signature.verdict is Verdict.HOLDS
+    assert not found.holds
+
+
+def test_one_bit_of_what_was_signed_is_found(issued: bytes, sign: Sign, verified: Verify) -> None:
+    pdf = bytearray(sign(issued))
+    pdf[pdf.index(b"%\xf0") + 1] ^= 1  # in a comment that no page shows
+    found = verified(bytes(pdf))
+    assert found.signature.verdict is Verdict.DIFFERS
+    assert not found.holds
+
+
+def test_a_change_after_the_signature_is_found(issued: bytes, sign: Sign, verified: Verify) -> None:
+    writer = PdfWriter(BytesIO(sign(issued)), incremental=True)
+    writer.pages[0][NameObject("/Rotate")] = FloatObject(180)
+    changed = BytesIO()
+    writer.write(changed)
+    found = verified(changed.getvalue())
+    assert found.signature.detail == "the file is signed, but something was added after it was signed"
+    assert found.pages[0].verdict is Verdict.DIFFERS
+
+
+def test_a_field_of_a_signature_that_covers_a_number_is_a_change(
+    issued: bytes, sign: Sign, verified: Verify
+) -> None:
+    def enlarge(writer: PdfWriter) -> None:
+        (page,) = (page for page in writer.pages if _fields(page))
+        (field,) = _fields(page)
+        field[NameObject("/Rect")] = ArrayObject(FloatObject(value) for value in (100, 100, 200, 200))
+
+    found = verified(altered(sign(issued), enlarge))
+    assert Verdict.DIFFERS in {each.verdict for each in found.pages}
+
+
+def test_a_signature_that_was_taken_out_leaves_an_unsigned_certificate(
+    issued: bytes, sign: Sign, verified: Verify
+) -> None:
+    signed = sign(issued)
+    assert PdfReader(BytesIO(signed)).root_object["/AcroForm"]
+    found = verified(signed[: len(issued)])
+    assert found.signature.verdict is Verdict.OPEN
+    assert found.holds
+
+
+def _fields(page) -> list:
+    annotations = page.get("/Annots", [])
+    return [each.get_object() for each in annotations if each.get_object().get("/FT") == "/Sig"]
