@@ -7,12 +7,13 @@ from typing import Any
 
 from testing.exemplary import ExemplaryRenderer, ExemplarySource, ExemplaryStandard
 from testing.exemplary_effect import ExemplaryEffect
+from testing.exemplary_program import ExemplaryProgram
 from zlmreport.hookspecs import hookimpl
 from zlmreport.plugins import Plugin, Registry, collect
 
 
 def offering(
-    standards: Any = (), sources: Any = (), renderers: Any = (), effects: Any = ()
+    standards: Any = (), sources: Any = (), renderers: Any = (), effects: Any = (), part_programs: Any = ()
 ) -> SimpleNamespace:
     """Return a plugin that offers these objects."""
 
@@ -32,16 +33,27 @@ def offering(
     def zlmreport_effects() -> Any:
         return effects
 
+    @hookimpl
+    def zlmreport_part_programs() -> Any:
+        return part_programs
+
     return SimpleNamespace(
         zlmreport_standards=zlmreport_standards,
         zlmreport_sources=zlmreport_sources,
         zlmreport_renderers=zlmreport_renderers,
         zlmreport_effects=zlmreport_effects,
+        zlmreport_part_programs=zlmreport_part_programs,
     )
 
 
 def exemplary_registry() -> Registry:
-    """Return a registry of one standard, one data source, one format and one effect, all fast."""
+    """Return a registry of one standard, data source, format, effect and part program, all fast."""
     plugin = Plugin("exemplary", "exemplary_module", "exemplary-plugins", "1.2")
-    offers = offering([ExemplaryStandard()], [ExemplarySource()], [ExemplaryRenderer()], [ExemplaryEffect()])
+    offers = offering(
+        [ExemplaryStandard()],
+        [ExemplarySource()],
+        [ExemplaryRenderer()],
+        [ExemplaryEffect()],
+        [ExemplaryProgram()],
+    )
     return collect([(plugin, offers)])

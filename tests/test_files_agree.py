@@ -10,6 +10,7 @@ import pytest
 from certificate.documents import COMPLETE, job, registry
 from zlmreport import pipeline
 from zlmreport.quantities.formatting import fixed_number
+from zlmreport.quantities.uncertain import rounded_pair
 
 STANDARDS = ["iso230-2:1988", "iso230-2:2014", "vdi-dgq-3441", "vdi-vde-2617", "nmtba"]
 DECIMALS = 2  # those of the readings
@@ -49,6 +50,11 @@ def printed(value):
     return fixed_number(value, DECIMALS)
 
 
+def printed_pair(value, uncertainty):
+    """Return a value and its uncertainty as they are printed together: one decimal more at most."""
+    return rounded_pair(value, uncertainty, most_decimals=DECIMALS + 1)
+
+
 @pytest.mark.parametrize("standard", STANDARDS)
 def test_every_parameter_is_printed_as_the_results_file_has_it(files, words, standard):
     (evaluation,) = [each for each in files[2]["evaluations"] if each["standard"] == standard]
@@ -57,18 +63,32 @@ def test_every_parameter_is_printed_as_the_results_file_has_it(files, words, sta
         value = parameter["value"]
         if (standard, parameter["symbol"]) == ("iso230-2:1988", "B_mean"):
             value = -value  # this edition prints the mean reversal value with the opposite sign
-        assert printed(value) in found, parameter["symbol"]
+        for text in printed_pair(value, parameter["expanded_uncertainty"]):
+            assert text in found, parameter["symbol"]
+        assert printed(parameter["coverage_factor"]) in found, parameter["symbol"]
 
 
 @pytest.mark.parametrize("standard", STANDARDS)
 def test_every_value_by_position_is_printed_as_the_results_file_has_it(files, words, standard):
     (evaluation,) = [each for each in files[2]["evaluations"] if each["standard"] == standard]
     found = section(words, standard)
-    counts = {"n_fwd", "n_bwd", "target"}
+    others = {"n_fwd", "n_bwd", "target", "U_mean_fwd", "U_mean_bwd", "U_mean"}
     for position in evaluation["positions"]:
         for symbol, value in position.items():
-            assert symbol in counts or printed(value) in found, (position["target"], symbol)
+            assert symbol in others or printed(value) in found, (position["target"], symbol)
+        # Both directions have as many readings, and so one uncertainty.
+        assert position["U_mean_fwd"] == position["U_mean_bwd"]
+        assert printed_pair(0.0, position["U_mean_fwd"])[1] in found, position["target"]
+
+
+def test_every_contribution_is_printed_as_the_results_file_has_it(files, words):
+    for contribution in files[2]["uncertainty"]["contributions"]:
+        size = contribution["standard_uncertainty"]
+        assert rounded_pair(size, size)[1] in words, contribution["name"]
+        assert fixed_number(100 * contribution["share"], 1) in words, contribution["name"]
 
 
 def test_a_number_that_is_not_in_the_results_file_is_not_found(files):
-    assert printed(files[2]["evaluations"][0]["parameters"][0]["value"] + 0.01) not in files[0]
+    first = files[2]["evaluations"][0]["parameters"][0]
+    value, _ = printed_pair(first["value"] + 0.01, first["expanded_uncertainty"])
+    assert value not in files[0]

@@ -15,6 +15,7 @@ from job.jobs import SOUND, loaded
 from offers import exemplary_registry, offering
 from testing.exemplary import ExemplaryRenderer, ExemplarySource, ExemplaryStandard
 from testing.exemplary_effect import ExemplaryEffect
+from testing.exemplary_program import ExemplaryProgram
 from zlmreport.errors import AccessError, InputError, Place
 from zlmreport.hookspecs import hookimpl
 from zlmreport.job.options import Options
@@ -43,6 +44,7 @@ def test_what_plugins_offer_is_found_by_name() -> None:
     assert registry.source("exemplary-text").identifier == "exemplary-text"
     assert registry.renderer("exemplary").suffix == ".json"
     assert registry.effect("exemplary-wave").equation == "A·sin(2πP/Λ)"
+    assert registry.part_program("exemplary-steps").suffix == ".steps"
     assert registry.failed == ()
 
 
@@ -113,6 +115,14 @@ def test_suffix_must_be_one(suffix: str) -> None:
 
     Odd.suffix = suffix
     assert _reason(offering(renderers=[Odd()])) == "format 'exemplary' needs a suffix such as '.pdf'"
+
+
+def test_suffix_of_a_part_program_must_be_one() -> None:
+    class Odd(ExemplaryProgram):
+        suffix = "ngc"
+
+    reason = _reason(offering(part_programs=[Odd()]))
+    assert reason == "part program 'exemplary-steps' needs a suffix such as '.ngc'"
 
 
 def test_title_must_be_words_in_all_languages() -> None:

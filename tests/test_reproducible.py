@@ -81,14 +81,14 @@ class Circumstances:
 
 CIRCUMSTANCES = {
     "another process": Circumstances(),
-    "another time zone": Circumstances({"TZ": "Pacific/Kiritimati"}),
-    "another locale": Circumstances({"LC_ALL": "C", "LANG": "C", "LANGUAGE": "de", "PYTHONUTF8": "0"}),
-    "another order of sets": Circumstances({"PYTHONHASHSEED": "1"}),
-    "another day": Circumstances(clock=400 * 86400.5),
-    "a stated time of build": Circumstances({"SOURCE_DATE_EPOCH": "1000000000"}),
-    "another folder": Circumstances(place="a folder ü/of old"),
-    "called from the folder": Circumstances(within=True),
-    "all at once": Circumstances(
+    "another day and time zone": Circumstances(
+        {"TZ": "Pacific/Kiritimati", "SOURCE_DATE_EPOCH": "1000000000"}, clock=400 * 86400.5
+    ),
+    "another language and order of sets": Circumstances(
+        {"LC_ALL": "C", "LANG": "C", "LANGUAGE": "de", "PYTHONUTF8": "0", "PYTHONHASHSEED": "1"}
+    ),
+    "another folder": Circumstances(place="a folder ü/of old", within=True),
+    "all of it": Circumstances(
         {"TZ": "America/Anchorage", "LC_ALL": "POSIX", "PYTHONHASHSEED": "2", "HOME": "/nonexistent"},
         clock=-9000 * 86400.5,
         place="another",

@@ -27,19 +27,22 @@ def errors(trial: Trial, diagnosis: Diagnosis) -> dict[str, float]:
     A user adds the first candidate where the verdict is that an effect is missing, and nothing otherwise.
     """
     again = trial.again()
-    before = diagnosis.fit
+    before = _error(diagnosis.fit, trial, again)
+
+    def after(effect: Effect) -> float:
+        try:
+            return _error(_with(diagnosis.fit, effect), trial, again)
+        except ModelError:  # the readings that show it were set aside
+            return before
+
     truth = trial.effects[0].effect
-    oracle = _error(_with(before, truth), trial, again)
-    found = {"before": _error(before, trial, again), "oracle": oracle}
+    found = {"before": before, "oracle": after(truth)}
     added = diagnosis.candidates[0].effect if diagnosis.verdict is Verdict.MISSING else None
     if added is None:
-        return found | {"after": found["before"]}
+        return found | {"after": before}
     if (added.identifier, added.settings) == (truth.identifier, truth.settings):
-        return found | {"after": oracle}
-    try:
-        return found | {"after": _error(_with(before, added), trial, again)}
-    except ModelError:
-        return found | {"after": found["before"]}
+        return found | {"after": found["oracle"]}
+    return found | {"after": after(added)}
 
 
 def seen_again(trial: Trial, again: Measured) -> Observations:

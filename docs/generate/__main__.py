@@ -1,4 +1,4 @@
-"""Writes the generated parts of the pages: ``python docs/generate [FOLDER]``.
+"""Writes the generated parts of the pages, and pictures of sequences: ``python docs/generate [FOLDER]``.
 
 A part stands between two comments, ``<!-- generated: NAME -->`` and ``<!-- end: NAME -->``, in any page below
 the folder (this one's parent, if none is given). What is around it is written by hand and left alone.
@@ -16,6 +16,9 @@ import comparison
 import effect_pages
 import hooks
 import job_keys
+import least_numbers
+import methods
+import sequences
 import standard_pages
 
 _PART = re.compile(r"(<!-- generated: (?P<name>[a-z0-9-]+) -->\n).*?(<!-- end: (?P=name) -->)", re.DOTALL)
@@ -26,7 +29,12 @@ PARTS: Mapping[str, Callable[[], str]] = {
     "effects": effect_pages.text,
     "hooks": hooks.hooks_text,
     "protocols": hooks.protocols_text,
+    "instrument-keys": job_keys.instruments_text,
     "job-keys": job_keys.job_text,
+    "least-numbers": least_numbers.text,
+    "methods-drift": methods.drift_text,
+    "methods-sight": methods.sight_text,
+    "program-keys": job_keys.programs_text,
     "source-keys": job_keys.sources_text,
     "standard-keys": job_keys.standards_text,
     "standards": standard_pages.text,
@@ -46,6 +54,8 @@ def generate(folder: Path) -> set[str]:
         after = _PART.sub(filled, before)
         if after != before:
             page.write_text(after, encoding="utf-8")
+    for name, picture in sequences.pictures().items():
+        (folder / "images" / name).write_text(picture, encoding="utf-8")
     return used
 
 

@@ -3,15 +3,28 @@
 from __future__ import annotations
 
 import inspect
+import re
 from collections.abc import Callable, Iterator
 
 from markdown import code, table
 
 from zlmreport import hookspecs
+from zlmreport.emulation.emulator import Emulator
+from zlmreport.foresight.motion import Motion, ProgramStop, Reading
+from zlmreport.live.reading import LiveReading
 from zlmreport.plugins import Kind
-from zlmreport.protocols import SourceContext
+from zlmreport.protocols import Connection, SourceContext
 
-_PROTOCOLS = (*(kind.protocol for kind in Kind), SourceContext)
+_PROTOCOLS = (
+    *(kind.protocol for kind in Kind),
+    SourceContext,
+    Motion,
+    ProgramStop,
+    Reading,
+    Connection,
+    LiveReading,
+    Emulator,
+)
 
 
 def hooks_text() -> str:
@@ -35,7 +48,7 @@ def _protocol(protocol: type) -> Iterator[str]:
     rows = [(code(f"{name}: {type_}"), described[name]) for name, type_ in _annotations(protocol)]
     for name, function in vars(protocol).items():
         if inspect.isfunction(function) and not name.startswith("_"):
-            rows.append((code(_signature(name, function)), " ".join(_doc(function).split())))
+            rows.append((code(_signature(name, function)), " ".join(_without_sections(function).split())))
     yield table(("Member", "Meaning"), rows)
 
 
@@ -59,6 +72,10 @@ def _attributes(doc: str) -> dict[str, str]:
 
 def _doc(documented: object) -> str:
     return _in_markdown(inspect.getdoc(documented) or "")
+
+
+def _without_sections(documented: object) -> str:
+    return re.split(r"\n\n(?:Parameters|Raises|Notes)\n-+\n", _doc(documented))[0]
 
 
 def _first_line(documented: object) -> str:

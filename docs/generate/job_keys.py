@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 import json
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any, TypeAlias
@@ -12,6 +13,7 @@ from pydantic import BaseModel
 from zlmreport.job.fields import field_at
 from zlmreport.job.model import JobKeys
 from zlmreport.job.options import Options
+from zlmreport.language import Language
 from zlmreport.plugins import find_plugins
 
 Schema: TypeAlias = Mapping[str, Any]
@@ -42,6 +44,29 @@ def standards_text() -> str:
         part
         for standard in with_keys
         for part in (f"### `standard: {standard.identifier}`", _table(standard.options))
+    )
+
+
+def programs_text() -> str:
+    """Return the keys of each installed writer of part programs."""
+    return "\n\n".join(
+        part
+        for program in find_plugins().part_programs
+        for part in (f"### `program: {program.identifier}`", _table(program.options))
+    )
+
+
+def instruments_text() -> str:
+    """Return what each installed live instrument is, and its keys."""
+    return "\n\n".join(
+        part
+        for instrument in find_plugins().instruments
+        for part in (
+            f"## `{instrument.identifier}`",
+            f"{instrument.title.in_language(Language.ENGLISH)}.",
+            (inspect.getdoc(type(instrument)) or "").partition("\n\nParameters\n")[0],
+            _table(instrument.options),
+        )
     )
 
 

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 import pluggy
 
-from zlmreport.protocols import DataSource, Effect, Renderer, Standard
+from zlmreport.protocols import DataSource, Effect, Instrument, PartProgram, Renderer, Standard
 
 PROJECT = "zlmreport"
 
@@ -33,3 +33,13 @@ def zlmreport_renderers() -> Iterable[Renderer]:  # type: ignore[empty-body]
 @hookspec
 def zlmreport_effects() -> Iterable[Effect]:  # type: ignore[empty-body]
     """Return the effects that this plugin adds to the error model."""
+
+
+@hookspec
+def zlmreport_part_programs() -> Iterable[PartProgram]:  # type: ignore[empty-body]
+    """Return the languages in which this plugin writes part programs."""
+
+
+@hookspec
+def zlmreport_instruments() -> Iterable[Instrument]:  # type: ignore[empty-body]
+    """Return the live instruments that this plugin reads."""

@@ -143,7 +143,7 @@ def run(job: Job, registry: Registry, signer: Signer | None = None) -> Outcome:
         contents = render(certificate, renderers, registry)
         if signer:
             contents |= {
-                each.identifier: signer.sign(
+                each.identifier: signer(
                     contents[each.identifier], _SIGNATURE.in_language(certificate.language)
                 )
                 for each in renderers

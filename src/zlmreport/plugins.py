@@ -29,7 +29,7 @@ from zlmreport.job.fields import keys_in
 from zlmreport.job.job import Job
 from zlmreport.job.options import Options
 from zlmreport.language import Words
-from zlmreport.protocols import DataSource, Effect, Renderer, Standard
+from zlmreport.protocols import DataSource, Effect, Instrument, PartProgram, Renderer, Standard
 
 GROUP = "zlmreport"
 DISABLE = "ZLMREPORT_DISABLE_PLUGINS"
@@ -40,7 +40,7 @@ _IDENTIFIER = re.compile(r"[A-Za-z0-9][A-Za-z0-9:._-]*")
 _SUFFIX = re.compile(r"(\.[A-Za-z0-9]+)+")
 _LONGEST_REASON = 300
 
-Offered = TypeVar("Offered", Standard, DataSource, Renderer, Effect)
+Offered = TypeVar("Offered", Standard, DataSource, Renderer, Effect, PartProgram, Instrument)
 
 
 class Kind(Enum):
@@ -50,6 +50,8 @@ class Kind(Enum):
     SOURCE = ("data source", "zlmreport_sources", DataSource, frozenset({"plugin"}))
     RENDERER = ("format", "zlmreport_renderers", Renderer, frozenset[str]())
     EFFECT = ("effect", "zlmreport_effects", Effect, frozenset[str]())
+    PART_PROGRAM = ("part program", "zlmreport_part_programs", PartProgram, frozenset({"program"}))
+    INSTRUMENT = ("instrument", "zlmreport_instruments", Instrument, frozenset({"plugin"}))
 
     def __init__(self, label: str, hook: str, protocol: type, reserved: frozenset[str]) -> None:
         self.label = label
@@ -100,7 +102,7 @@ class Registry:
 
     Attributes
     ----------
-    standards, sources, renderers, effects
+    standards, sources, renderers, effects, part_programs, instruments
         What they offer, in the order of identifiers.
     origins
         The plugin that offers each, by kind and identifier.
@@ -117,6 +119,8 @@ class Registry:
     origins: Mapping[tuple[Kind, str], Plugin] = field(default_factory=lambda: MappingProxyType({}))
     failed: tuple[FailedPlugin, ...] = ()
     disabled: tuple[str, ...] = ()
+    part_programs: tuple[PartProgram, ...] = ()
+    instruments: tuple[Instrument, ...] = ()
 
     def standard(self, identifier: str, named_at: Place | None = None) -> Standard:
         """Return a standard; raise `InputError` at the place that names it if there is none."""
@@ -133,6 +137,14 @@ class Registry:
     def effect(self, identifier: str, named_at: Place | None = None) -> Effect:
         """Return an effect; raise `InputError` at the place that names it if there is none."""
         return self._find(Kind.EFFECT, self.effects, identifier, named_at)
+
+    def part_program(self, identifier: str, named_at: Place | None = None) -> PartProgram:
+        """Return a part program; raise `InputError` at the place that names it if there is none."""
+        return self._find(Kind.PART_PROGRAM, self.part_programs, identifier, named_at)
+
+    def instrument(self, identifier: str, named_at: Place | None = None) -> Instrument:
+        """Return a live instrument; raise `InputError` at the place that names it if there is none."""
+        return self._find(Kind.INSTRUMENT, self.instruments, identifier, named_at)
 
     def versions(self, job: Job) -> dict[str, str]:
         """Return the release of every plugin that a job's results come from, by its identifier."""
@@ -277,6 +289,8 @@ def collect(
         MappingProxyType({key: plugin for key, (plugin, _) in in_order}),
         tuple(sorted(failures, key=lambda each: each.plugin.name)),
         tuple(disabled),
+        cast("tuple[PartProgram, ...]", of_kind(Kind.PART_PROGRAM)),
+        cast("tuple[Instrument, ...]", of_kind(Kind.INSTRUMENT)),
     )
 
 
@@ -314,9 +328,10 @@ def _check(kind: Kind, offered: Any) -> None:
         raise _UnfitError(f"{who} needs an identifier of letters, digits and the characters : . _ -")
     if not isinstance(offered.title, Words):
         raise _UnfitError(f"{who} needs a title in Words")
+    writes_files = {Kind.RENDERER: ".pdf", Kind.PART_PROGRAM: ".ngc"}
+    if kind in writes_files and not (isinstance(offered.suffix, str) and _SUFFIX.fullmatch(offered.suffix)):
+        raise _UnfitError(f"{who} needs a suffix such as {writes_files[kind]!r}")
     if kind is Kind.RENDERER:
-        if not isinstance(offered.suffix, str) or not _SUFFIX.fullmatch(offered.suffix):
-            raise _UnfitError(f"{who} needs a suffix such as '.pdf'")
         return
     if not isinstance(offered.options, type) or not issubclass(offered.options, Options):
         raise _UnfitError(f"{who} needs options that are a subclass of Options")

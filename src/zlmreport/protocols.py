@@ -5,27 +5,34 @@ An `Effect` is declared in `zlmreport.model.effect`: it is all that the error mo
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from typing import Any, Protocol, runtime_checkable
+from types import TracebackType
+from typing import Any, Protocol, Self, runtime_checkable
 
 from zlmreport.certificate.attachments import Relationship
 from zlmreport.certificate.document import Certificate
+from zlmreport.emulation.emulator import Emulator, Scene
 from zlmreport.errors import Place
 from zlmreport.evaluation.evaluation import Arithmetic, Evaluation
 from zlmreport.evaluation.quantity import PositionQuantity, Quantity
 from zlmreport.evaluation.requirements import Finding
 from zlmreport.evaluation.statistics import PositionStatistics
 from zlmreport.figures.figure import Figure
+from zlmreport.foresight.motion import Motion
 from zlmreport.job.options import Options
 from zlmreport.language import Words
+from zlmreport.live.reading import LiveReading
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.model.effect import Effect
 
 __all__ = [
+    "Connection",
     "DataSource",
     "Effect",
+    "Instrument",
+    "PartProgram",
     "Renderer",
     "SourceContext",
     "Standard",
@@ -153,3 +160,98 @@ def relationship_of(renderer: Renderer) -> Relationship | None:
 def carries_attachments(renderer: Renderer) -> bool:
     """Return whether a renderer's documents carry other files."""
     return getattr(renderer, "carries_attachments", False)
+
+
+@runtime_checkable
+class PartProgram(Protocol):
+    """A writer of part programs: the motion of a planned test in the language of a control.
+
+    Attributes
+    ----------
+    identifier
+        As ``plan.programs`` names it: ``linuxcnc``.
+    title
+        In words.
+    suffix
+        Of the file: ``.ngc``.
+    options
+        Its job keys beside ``program``; all have a default, for a command line has no keys.
+    """
+
+    identifier: str
+    title: Words
+    suffix: str
+    options: type[Options]
+
+    def write(self, motion: Motion, options: Any) -> str:
+        """Return the program in ASCII; raise `InputError` at ``motion.place`` for what cannot be programmed.
+
+        The axis stops at every stop of the motion and stays at those that are read for ``motion.dwell``.
+        """
+
+
+class Connection(Protocol):
+    """An open instrument; it is left as a context manager, which closes its port.
+
+    Attributes
+    ----------
+    can_zero
+        Whether the instrument can be told to count from here.
+    """
+
+    can_zero: bool
+
+    def __enter__(self) -> Self:
+        """Return the connection."""
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        """Close the port."""
+
+    def readings(self) -> Iterator[LiveReading]:
+        """Yield readings from now on, without end; raise `AccessError` once the instrument is gone.
+
+        An instrument that sends unasked yields each of its readings, up to 1000 a second; one that answers
+        questions is asked at the rate of its options. So a loop over this iterator can watch a window of
+        readings for stability by their `LiveReading.time`, and needs no clock, no pause and no thread of its
+        own. The next reading comes, or the error, within the time-out of the options. What did not arrive
+        whole is yielded too, with a fault: a loop decides by `LiveReading.is_usable`, and ends a run by
+        `LiveReading.loses_zero`. A loop that stays away for long, such as for a slow disk, may miss
+        readings; where the instrument numbers them, `LiveReading.skipped` tells how many.
+
+        Each call begins anew: what came in the meantime is dropped.
+        """
+
+    def zero(self) -> None:
+        """Let the instrument count from here; raise `AccessError` if it cannot or does not."""
+
+
+@runtime_checkable
+class Instrument(Protocol):
+    """A live instrument.
+
+    Attributes
+    ----------
+    identifier
+        As jobs name it: ``umd1``.
+    title
+        In words.
+    options
+        Its job keys; all but ``port`` have a default. `zlmreport.live.options` has what most need.
+    """
+
+    identifier: str
+    title: Words
+    options: type[Options]
+
+    def open(self, options: Any) -> Connection:
+        """Open its port; raise `AccessError` with what the operator can do, `InputError` for no port."""
+
+    def emulator(self, scene: Scene) -> Emulator:
+        """Return an instrument that is not there, as one with the default options reads it.
+
+        It speaks as the real one does, knows no port and no clock, and shows the troubles of the scene that
+        its protocol has a way to show. ``zlmreport emulate`` puts it on a line; nobody should have to own an
+        instrument to try its plugin.
+        """

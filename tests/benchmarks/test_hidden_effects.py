@@ -16,6 +16,7 @@ sys.path.insert(0, str(Path(__file__).parents[2] / "benchmarks"))
 from hidden_effects import records
 from hidden_effects.cases import Case, Kind, Scatter, cases, effects
 from hidden_effects.generic import is_tried_on
+from hidden_effects.prediction import errors
 from hidden_effects.run import run
 from hidden_effects.sparse import sparse
 from hidden_effects.stepwise import stepwise
@@ -23,7 +24,9 @@ from hidden_effects.tables import report
 from hidden_effects.tables.outcome import outcome
 from hidden_effects.tables.shares import Share
 from hidden_effects.tables.targets import targets
-from hidden_effects.trial import drawn_trial
+from hidden_effects.trial import EFFECTS, drawn_trial
+from zlmreport.model.diagnose import diagnose
+from zlmreport.model.observe import observe
 from zlmreport.planning.methods import Method
 from zlmreport.simulation.visibility import base_columns, beyond
 
@@ -103,6 +106,16 @@ class TestTrials:
         assert again.hidden == pytest.approx(slope * np.maximum(0.0, position - kink), abs=1e-15)
         inner = np.unique(trial.first.design.position)[1:-1]
         assert not np.any(np.isin(position, inner))
+
+
+class TestOracle:
+    def test_where_the_readings_are_gone_that_show_the_effect_it_adds_nothing(self) -> None:
+        trial = drawn_trial(case("first-run", method=Method.UNIDIRECTIONAL))
+        assert trial is not None
+        observed = observe(trial.first.measurements, overrun=trial.description.plan.overrun)
+        later = observed.without(np.flatnonzero(observed.design.run == observed.design.run.min()))
+        found = errors(trial, diagnose(trial.model, later, tuple(EFFECTS.values())))
+        assert found["oracle"] == found["before"]
 
 
 class TestGenericWays:

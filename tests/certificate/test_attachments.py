@@ -86,14 +86,23 @@ def test_what_lies_in_the_folder_later_is_not_what_is_carried(tmp_path: Path) ->
     assert contents["six.txt"] == b"1 2 3 -1 -2 -3"
 
 
-def test_no_document_tells_the_folders_of_the_laboratory(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+@pytest.mark.parametrize("job", ["job.yaml", "data/job.yaml"])
+def test_a_path_from_the_root_is_told_as_the_job_states_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, job: str
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    elsewhere = tmp_path / "customers" / "six.txt"
-    elsewhere.parent.mkdir()
-    certificate = composed(Path(), readings=str(elsewhere), job="job.yaml")
-    assert [source.path for source in certificate.sources] == ["job.yaml", "six.txt"]
+    readings = str(tmp_path / "data" / "six.txt")
+    for folder in (Path(), tmp_path):  # the job, too, may be named from the root
+        certificate = composed(folder, readings=readings, job=job)
+        assert [source.path for source in certificate.sources] == ["job.yaml", readings]
+
+
+def test_no_document_tells_folders_that_the_job_does_not_state(tmp_path: Path) -> None:
+    (tmp_path / "customers").mkdir()
+    (tmp_path / "customers/laboratory.yaml").write_text("laboratory: {name: A, address: B, logo: logo.png}\n")
+    (tmp_path / "customers/logo.png").write_bytes(PNG)
+    certificate = composed(tmp_path, f"extends: {tmp_path}/customers/laboratory.yaml")
+    assert certificate.sources[-1].path == "logo.png"
 
 
 def test_files_of_one_name_are_told_apart(tmp_path: Path) -> None:

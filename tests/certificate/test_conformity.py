@@ -7,8 +7,8 @@ from dataclasses import replace
 from typing import Any
 
 import pytest
-from tests.certificate.documents import COMPLETE, certificate, lines_of
 
+from certificate.documents import COMPLETE, certificate, lines_of
 from zlmreport.certificate import conformity
 from zlmreport.certificate.document import Graph, Table
 from zlmreport.certificate.scribe import Scribe

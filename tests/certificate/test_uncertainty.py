@@ -140,3 +140,42 @@ def test_a_german_document_states_its_budget_in_german(tmp_path: Path) -> None:
     assert "Fluchtungsabweichung der Messlinie" in text
     assert "Rechteck, ab null" in text
     assert "Erweiterungsfaktor k" in text
+
+
+def adjusted(folder: Path, readings_before: str) -> Certificate:
+    """Return the certificate of an axis that was adjusted, with other readings as found."""
+    (folder / "left.csv").write_text("target,direction,run,deviation\n0,+,1,0.5\n10,+,1,1.5\n")
+    (folder / "found.csv").write_text(f"target,direction,run,deviation\n{readings_before}")
+    before, after = (
+        {"date": "2026-11-18", "source": {"plugin": "laser-csv", "file": f"{name}.csv"}}
+        for name in ("found", "left")
+    )
+    as_found = {"work": "adjustment", "adjustment": "Scale factor renewed.", "measurement": before}
+    keys = {
+        **WITH_BUDGET,
+        "axis": {"name": "Y"},
+        "as_found": as_found,
+        "measurement": after,
+        "evaluate": ["nmtba"],
+    }
+    return certificate(folder, keys)
+
+
+def titles(document: Certificate) -> list[str]:
+    return [each.title for each in document.sections if each.key.endswith("uncertainty")]
+
+
+def test_two_measurements_by_the_same_set_up_have_one_budget(tmp_path: Path) -> None:
+    document = adjusted(tmp_path, "0,+,1,0.9\n10,+,1,9.5\n")
+
+    assert titles(document) == ["Uncertainty of measurement"]
+
+
+def test_two_measurements_whose_budgets_differ_have_both(tmp_path: Path) -> None:
+    # The first was made over a longer distance, over which a misalignment counts less.
+    document = adjusted(tmp_path, "0,+,1,0.9\n20,+,1,9.5\n")
+
+    assert titles(document) == [
+        "Uncertainty of measurement (as left, after the adjustment)",
+        "Uncertainty of measurement (as found, before the adjustment)",
+    ]

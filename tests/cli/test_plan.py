@@ -12,6 +12,7 @@ from typing import Any
 import pytest
 
 from foresight.planned import REGISTRY, WHOLE_PITCHES, job_text
+from plugins.part_programs.controls import linuxcnc
 from zlmreport.cli import main
 
 Capture = pytest.CaptureFixture[str]
@@ -104,6 +105,14 @@ def test_lines_say_what_is_hidden_why_and_what_to_change(lines: Callable[..., st
     assert re.search(r"screw-pitch 0 % visible, then \d\d % ", effects)
 
 
+def test_lines_warn_of_targets_at_half_pitches(lines: Callable[..., str]) -> None:
+    half = "plan: {targets: {positions: [0, 55, 110, 165, 220, 275, 330, 385, 440, 495, 550]}}"
+    text = " ".join(lines(("plan: {}", half)).split())
+    assert (
+        "check: all targets lie at two phases of the pitch of 10 mm: of what repeats with it, a part" in text
+    )
+
+
 def test_lines_say_what_is_hidden_by_the_sequence(lines: Callable[..., str]) -> None:
     text = " ".join(lines(("method: linear", "method: pendulum")).split())
     assert "in this sequence time runs along with the position; measure by the linear method" in text
@@ -177,7 +186,78 @@ def test_form_that_is_there_is_never_written_over(folder: Path, capsys: Capture)
 def test_files_that_were_written_stand_in_the_json(capsys: Capture) -> None:
     assert main(["plan", "job.yaml", "--output", "plan", "--json"]) == 0
     files = json.loads(capsys.readouterr().out)["files"]
-    assert files == ["plan/PLAN-1-targets.csv", "plan/PLAN-1-readings.csv"]
+    assert files == ["plan/PLAN-1-targets.csv", "plan/PLAN-1-readings.csv", "plan/PLAN-1-sequence.svg"]
+
+
+def test_picture_of_the_sequence_has_a_mark_for_each_reading(folder: Path) -> None:
+    assert main(["plan", "job.yaml", "--output", "plan"]) == 0
+    picture = (folder / "plan/PLAN-1-sequence.svg").read_text("utf-8")
+    assert 'aria-label="110 readings, 10 at each of 11 positions' in picture
+
+
+def test_part_programs_of_the_job_are_written_with_its_keys(folder: Path, capsys: Capture) -> None:
+    programs = "plan: {programs: [linuxcnc, {program: fanuc, number: 12}]}"
+    (folder / "job.yaml").write_text(job_text(("plan: {}", programs)), encoding="utf-8")
+    assert main(["plan", "job.yaml", "--output", "plan"]) == 0
+    assert "plan/PLAN-1.ngc\nplan/PLAN-1.nc\n" in capsys.readouterr().out
+    assert len(linuxcnc((folder / "plan/PLAN-1.ngc").read_text("ascii")).stops) == 121
+    assert (folder / "plan/PLAN-1.nc").read_text("ascii").startswith("%\nO0012\n")
+
+
+def test_part_programs_of_the_command_line_stand_instead_of_the_jobs(folder: Path) -> None:
+    programs = "plan: {programs: [linuxcnc, {program: fanuc, number: 12}]}"
+    (folder / "job.yaml").write_text(job_text(("plan: {}", programs)), encoding="utf-8")
+    assert main(["plan", "job.yaml", "--output", "plan", "--program", "fanuc, heidenhain"]) == 0
+    assert sorted(path.suffix for path in folder.glob("plan/*")) == [".csv", ".csv", ".h", ".nc", ".svg"]
+    assert "\nO0012\n" in (folder / "plan/PLAN-1.nc").read_text("ascii")
+
+
+@pytest.mark.usefixtures("folder")
+def test_part_programs_that_wait_for_a_folder_are_told(lines: Callable[..., str]) -> None:
+    text = lines(("plan: {}", "plan: {programs: [linuxcnc, fanuc]}"))
+    assert "part programs for linuxcnc, fanuc: state a folder, --output DIR" in text
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["--program", "fanuc"], "a part program is a file; state its folder, too: --output DIR\n"),
+        (
+            ["--program", ",", "-o", "plan"],
+            "there is no part program in the list; for example linuxcnc,fanuc\n",
+        ),
+        (["--program", "fanuc,fanuc", "-o", "plan"], "fanuc is listed twice; remove one of them\n"),
+        (
+            ["--program", "fanux", "-o", "plan"],
+            "no plugin provides part program 'fanux'; did you mean 'fanuc'?",
+        ),
+    ],
+)
+def test_wrong_part_program_is_told(
+    folder: Path, capsys: Capture, arguments: list[str], message: str
+) -> None:
+    assert main(["plan", "job.yaml", *arguments]) == 2
+    assert capsys.readouterr().err.startswith(f"zlmreport plan --program: {message}")
+    assert not (folder / "plan").exists()
+
+
+def test_everything_that_controls_cannot_be_told_is_told_at_once(folder: Path, capsys: Capture) -> None:
+    fine = "plan: {targets: {positions: [0, 100.00012, 300]}, programs: [linuxcnc, fanuc]}"
+    (folder / "job.yaml").write_text(job_text(("plan: {}", fine)), encoding="utf-8")
+    assert main(["plan", "job.yaml", "--output", "plan"]) == 2
+    one, other = capsys.readouterr().err.splitlines()
+    assert one.startswith("job.yaml:9:62: target 2, 100.00012 mm, has more than the 4 digits after the point")
+    assert other.startswith(
+        "job.yaml:9:72: target 2, 100.00012 mm, has more than the 3 digits after the point"
+    )
+    assert not (folder / "plan").exists()
+
+
+def test_part_program_that_is_there_is_never_written_over(folder: Path, capsys: Capture) -> None:
+    (folder / "PLAN-1.ngc").write_text("edited\n", encoding="utf-8")
+    assert main(["plan", "job.yaml", "--output", ".", "--program", "linuxcnc"]) == 2
+    assert capsys.readouterr().err.startswith("PLAN-1.ngc: is there already")
+    assert (folder / "PLAN-1.ngc").read_text("utf-8") == "edited\n"
 
 
 def test_mistake_of_the_job_is_told_at_its_place(folder: Path, capsys: Capture) -> None:

@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from tests.certificate.documents import COMPLETE, certificate, text_of
 
+from certificate.documents import COMPLETE, certificate, text_of
 from zlmreport.errors import InputError
 from zlmreport.physics.refractive_index import refractive_index
 

@@ -9,8 +9,10 @@ import pytest
 
 from documents.pages import DOCS
 from zlmreport import errors, hookspecs
+from zlmreport.emulation.emulator import Emulator
+from zlmreport.live.reading import LiveReading
 from zlmreport.plugins import Kind
-from zlmreport.protocols import SourceContext
+from zlmreport.protocols import Connection, SourceContext
 
 _PAGE = (DOCS / "reference" / "plugin-interfaces.md").read_text(encoding="utf-8")
 _LIVE_HOOKS = [
@@ -20,7 +22,7 @@ _LIVE_HOOKS = [
 ]
 _MEMBERS = [
     f"{protocol.__name__}.{member}"
-    for protocol in (*(kind.protocol for kind in Kind), SourceContext)
+    for protocol in (*(kind.protocol for kind in Kind), SourceContext, Connection, LiveReading, Emulator)
     for member in (
         *protocol.__annotations__,
         *(name for name in vars(protocol) if inspect.isfunction(vars(protocol)[name])),

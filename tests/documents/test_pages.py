@@ -58,7 +58,8 @@ def test_the_map_leads_to_every_page() -> None:
 
 
 def test_pictures_are_shown_and_small() -> None:
-    shown = {target for page in pages() for _, target, _ in _inside(page) if target.suffix == ".png"}
+    suffixes = {".png", ".svg"}
+    shown = {target for page in pages() for _, target, _ in _inside(page) if target.suffix in suffixes}
     assert shown == set(DOCS.glob("images/*"))
     assert all(picture.stat().st_size < _LARGEST_PICTURE for picture in shown)
 

@@ -12,6 +12,7 @@ from zlmreport.job.job import Job
 from zlmreport.job.loading import load
 from zlmreport.plugins import Plugin, collect
 from zlmreport_plugins import effects
+from zlmreport_plugins.part_programs import fanuc, heidenhain, linuxcnc
 from zlmreport_plugins.renderers import json_results
 from zlmreport_plugins.sources import laser_csv
 from zlmreport_plugins.standards import iso230_2, vdi
@@ -32,7 +33,8 @@ output: {formats: [json]}
 #: On whole pitches, as customers like to prescribe them.
 WHOLE_PITCHES = "plan: {targets: {positions: [0, 60, 120, 180, 240, 300, 360, 420, 480, 540, 600]}}"
 REGISTRY = collect(
-    (Plugin(module.__name__), module) for module in (effects, laser_csv, iso230_2, vdi, json_results)
+    (Plugin(module.__name__), module)
+    for module in (effects, laser_csv, iso230_2, vdi, json_results, linuxcnc, fanuc, heidenhain)
 )
 
 

@@ -17,6 +17,8 @@ from typing import Any
 
 import pytest
 
+import zlmreport_plugins.instruments
+import zlmreport_plugins.part_programs
 import zlmreport_plugins.renderers
 import zlmreport_plugins.sources
 import zlmreport_plugins.standards
@@ -90,7 +92,13 @@ def test_the_sources_hold_what_a_packager_runs_and_reads(folder: str, in_sdist: 
 
 
 def test_every_built_in_plugin_is_declared_as_an_entry_point(metadata: dict[str, Any]) -> None:
-    kinds = [zlmreport_plugins.renderers, zlmreport_plugins.sources, zlmreport_plugins.standards]
+    kinds = [
+        zlmreport_plugins.instruments,
+        zlmreport_plugins.part_programs,
+        zlmreport_plugins.renderers,
+        zlmreport_plugins.sources,
+        zlmreport_plugins.standards,
+    ]
     present = {
         f"{kind.__name__}.{module.name}" for kind in kinds for module in pkgutil.iter_modules(kind.__path__)
     }

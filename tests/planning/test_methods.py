@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+import itertools
+
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from zlmreport.measurement.approach import Approach
 from zlmreport.planning.methods import Method, Stop, path
@@ -76,6 +80,24 @@ def test_pendulum_has_the_shortest_way_for_targets_far_apart() -> None:
         for method in BOTH
     }
     assert min(ways, key=ways.__getitem__) is Method.PENDULUM
+
+
+@given(
+    method=st.sampled_from(Method),
+    intervals=st.lists(st.integers(1, 5000), min_size=1, max_size=12),
+    overrun=st.integers(1, 5000),
+    runs=st.integers(1, 6),
+)
+def test_every_reading_comes_from_its_side_whatever_the_targets(
+    method: Method, intervals: list[int], overrun: int, runs: int
+) -> None:
+    targets = [float(position) for position in itertools.accumulate(intervals)]
+    listed = visits(path(method, targets, runs, float(overrun)))
+    approaches = [Approach.POSITIVE] if method is Method.UNIDIRECTIONAL else list(Approach)
+    wanted = set(itertools.product(range(len(targets)), approaches, range(1, runs + 1)))
+    assert {(visit.target, visit.approach, visit.run) for visit in listed} == wanted
+    assert len(listed) == len(wanted)
+    assert all(visit.since_reversal >= min(overrun, *intervals) for visit in listed)
 
 
 @pytest.mark.parametrize("method", Method)

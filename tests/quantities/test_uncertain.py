@@ -29,6 +29,25 @@ def test_two_digits_of_the_uncertainty_are_kept(
     assert rounded_pair(value, uncertainty) == written
 
 
+@pytest.mark.parametrize(
+    ("uncertainty", "written"),
+    [
+        (0.0123, ("1.235", "0.012")),
+        # Less than a twentieth is lost by rounding down: 0.0104 is 0.010.
+        (0.0104, ("1.235", "0.010")),
+        # Nearly half would be lost: rounded up.
+        (0.00149, ("1.235", "0.002")),
+        (0.00001, ("1.235", "0.001")),
+        # Enough digits as it is.
+        (1.49, ("1.2", "1.5")),
+    ],
+)
+def test_decimals_end_where_the_readings_do_and_an_uncertainty_is_rather_rounded_up(
+    uncertainty: float, written: tuple[str, str]
+) -> None:
+    assert rounded_pair(1.23456, uncertainty, most_decimals=3) == written
+
+
 def test_a_value_without_uncertainty_keeps_three_decimals() -> None:
     assert rounded_pair(1.23456, 0.0) == ("1.235", "0.000")
 

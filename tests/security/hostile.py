@@ -11,18 +11,17 @@ from zlmreport.job.model import JobKeys
 
 Path = tuple[str, ...]
 
-#: Keys whose texts name something that must exist, or are never printed: a hostile one is refused.
+#: Keys whose texts name something that must exist: a hostile one is refused.
 NAMES = {
     ("extends",),
     ("extends", "[]"),
-    ("measurement", "source", "plugin"),
-    ("as_found", "measurement", "source", "plugin"),
-    ("evaluate", "[]", "standard"),
     ("provided_by_customer", "[]"),
     ("external", "[]", "keys", "[]"),
     ("model", "effects", "[]"),
     ("output", "formats", "[]"),
 }
+#: The last part of others of that kind.
+IDENTIFIERS = {"plugin", "program", "standard"}
 #: A short way to write a key that has a longer one, which is used here.
 SHORT = {("location",)}
 
@@ -33,7 +32,7 @@ def text_keys() -> dict[Path, int]:
     return {
         path: part["maxLength"]
         for path, part in _strings(schema, schema, ())
-        if path not in NAMES and path not in SHORT
+        if path not in NAMES | SHORT and path[-1] not in IDENTIFIERS
     }
 
 

@@ -22,4 +22,4 @@ def unsigned() -> bytes:
 def signed(unsigned: bytes, tmp_path_factory: pytest.TempPathFactory) -> bytes:
     file = pkcs12_file(tmp_path_factory.mktemp("key") / "laboratory.p12")
     with open_signer(str(file), lambda _: PASSWORD, PLACE) as signer:
-        return signer.sign(unsigned, "Electronic signature")
+        return signer(unsigned, "Electronic signature")

@@ -9,7 +9,7 @@ import pytest
 
 from pdf_conformance import complaints
 from signing.conftest import PLACE
-from signing.keys import NAME, PASSWORD, pkcs12_file, rsa_key
+from signing.keys import PASSWORD, pkcs12_file, rsa_key
 from zlmreport.signing.signer import open_signer
 from zlmreport.signing.state import Integrity, signature_state
 
@@ -42,7 +42,7 @@ def test_a_signature_is_read_to_those_who_cannot_see_it(signed: bytes) -> None:
 def test_a_file_that_ends_without_a_line_break_is_signed(unsigned: bytes, tmp_path) -> None:
     file = pkcs12_file(tmp_path / "laboratory.p12")
     with open_signer(str(file), lambda _: PASSWORD, PLACE) as signer:
-        signed = signer.sign(unsigned.rstrip(), "Electronic signature")
+        signed = signer(unsigned.rstrip(), "Electronic signature")
     assert signature_state(signed).integrity is Integrity.INTACT
     assert complaints(signed) == []
 
@@ -54,7 +54,7 @@ def test_a_pdf_without_structure_is_signed_as_well(tmp_path) -> None:
         pdf.save(plain)
     file = pkcs12_file(tmp_path / "laboratory.p12")
     with open_signer(str(file), lambda _: PASSWORD, PLACE) as signer:
-        signed = signer.sign(plain.getvalue(), "Electronic signature")
+        signed = signer(plain.getvalue(), "Electronic signature")
     assert signature_state(signed).integrity is Integrity.INTACT
 
 
@@ -62,6 +62,5 @@ def test_a_pdf_without_structure_is_signed_as_well(tmp_path) -> None:
 def test_a_key_of_rsa_signs_with_and_without_a_password(unsigned: bytes, tmp_path, password: str) -> None:
     file = pkcs12_file(tmp_path / "laboratory.p12", rsa_key(), password=password)
     with open_signer(str(file), lambda _: password, PLACE) as signer:
-        assert signer.name == f"Common Name: {NAME}"
-        signed = signer.sign(unsigned, "Electronic signature")
+        signed = signer(unsigned, "Electronic signature")
     assert signature_state(signed).integrity is Integrity.INTACT

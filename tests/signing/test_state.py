@@ -36,7 +36,7 @@ def test_the_fingerprint_is_that_of_the_certificate(unsigned: bytes, tmp_path) -
     certificate = certificate_of(elliptic())
     file = pkcs12_file(tmp_path / "laboratory.p12", certificate=certificate)
     with open_signer(str(file), lambda _: PASSWORD, PLACE) as signer:
-        (signature,) = signature_state(signer.sign(unsigned, "signature")).signatures
+        (signature,) = signature_state(signer(unsigned, "signature")).signatures
     assert signature.fingerprint == certificate.fingerprint(SHA256()).hex()
 
 

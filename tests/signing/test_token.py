@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import subprocess
 from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from shutil import which
 
@@ -12,8 +13,9 @@ from cryptography.hazmat.primitives.serialization import Encoding
 
 from pdf_conformance import complaints
 from signing.conftest import PLACE
-from signing.keys import NAME, certificate_of, in_der, rsa_key
+from signing.keys import PASSWORD, certificate_of, in_der, pkcs12_file, rsa_key
 from zlmreport.errors import AccessError, InputError
+from zlmreport.signing.pades import Pades
 from zlmreport.signing.signer import open_signer
 from zlmreport.signing.state import Integrity, signature_state
 from zlmreport.signing.token_uri import TokenUri, parse_token_uri
@@ -52,6 +54,50 @@ def test_a_driver_that_is_not_there_is_told(tmp_path: Path) -> None:
         pytest.fail("it was opened")
 
 
+def test_the_key_of_a_token_signs_and_the_token_is_closed_behind_it(
+    unsigned: bytes, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    import pyhanko.sign.pkcs11
+    from pyhanko.sign.signers import SimpleSigner
+
+    asked = []
+
+    @contextmanager
+    def session(module, *, token_criteria, user_pin):
+        asked.append((module, token_criteria.label, user_pin))
+        yield "session"
+        asked.append("closed")
+
+    def key(opened, *, cert_label, key_label):
+        asked.append((opened, cert_label, key_label))
+        file = pkcs12_file(tmp_path / "key.p12")
+        return SimpleSigner.load_pkcs12_data(file.read_bytes(), [], PASSWORD.encode())
+
+    monkeypatch.setattr(pyhanko.sign.pkcs11, "open_pkcs11_session", session)
+    monkeypatch.setattr(pyhanko.sign.pkcs11, "PKCS11Signer", key)
+    named = "pkcs11:token=Lab;object=signature?module-path=/usr/lib/token.so"
+    with open_signer(named, lambda of: {"token Lab": _PIN}[of], PLACE) as signer:
+        signed = signer(unsigned, "Electronic signature")
+    assert asked == [("/usr/lib/token.so", "Lab", _PIN), ("session", "signature", "signature"), "closed"]
+    assert signature_state(signed).integrity is Integrity.INTACT
+
+
+def test_a_key_that_fails_to_sign_is_told(
+    unsigned: bytes, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from pkcs11.exceptions import DeviceRemoved
+    from pyhanko.sign.signers import SimpleSigner
+
+    async def removed(*_: object, **__: object) -> bytes:
+        raise DeviceRemoved
+
+    content = pkcs12_file(tmp_path / "key.p12").read_bytes()
+    key = SimpleSigner.load_pkcs12_data(content, [], PASSWORD.encode())
+    monkeypatch.setattr(key, "async_sign_raw", removed)
+    with pytest.raises(AccessError, match="--sign: the key did not sign: DeviceRemoved"):
+        Pades(key, PLACE)(unsigned, "Electronic signature")
+
+
 @pytest.fixture(scope="module")
 def token(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
     """The address of a key in a token that is made of files; a process can have but one such token."""
@@ -82,8 +128,7 @@ def token(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
 
 def test_a_token_signs(token: str, unsigned: bytes) -> None:
     with open_signer(token, lambda _: _PIN, PLACE) as signer:
-        assert signer.name == f"Common Name: {NAME}"
-        signed = signer.sign(unsigned, "Electronic signature")
+        signed = signer(unsigned, "Electronic signature")
     assert signature_state(signed).integrity is Integrity.INTACT
     assert complaints(signed) == []
 

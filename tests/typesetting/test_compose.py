@@ -186,7 +186,7 @@ def test_every_cell_of_every_table_is_set() -> None:
         block for section in set_certificate.sections for block in section.blocks if isinstance(block, Table)
     ]
     rows = [
-        [text(cell) for cell in row.iter("td")]
+        [text(cell) for cell in row]
         for sheet in tree(set_certificate).iterfind(".//table[@class]")
         if sheet.find("thead") is not None
         for row in sheet.iterfind("tbody/tr")
@@ -219,6 +219,16 @@ def test_a_verdict_has_a_shape_and_a_word(mark: Mark, shape: str) -> None:
     cell = tree(certificate(cover=(table,), standards=0)).find(".//td[@class]")
     assert cell is not None
     assert (cell.get("class"), text(cell)) == (f"verdict {shape}", "word")
+
+
+def test_the_first_cell_of_a_row_heads_it_where_there_are_others() -> None:
+    rows = RowGroup((("a", "1"), ("b", "2")))
+    table = Table("caption", (Column("name"), Column("value")), (rows,))
+    set_rows = tree(certificate(cover=(table,), standards=0)).findall(".//div[@class='cover']//tbody/tr")
+    assert [[(cell.tag, cell.get("scope"), text(cell)) for cell in row] for row in set_rows] == [
+        [("th", "row", "a"), ("td", None, "1")],
+        [("th", "row", "b"), ("td", None, "2")],
+    ]
 
 
 def test_the_unit_stands_in_the_heading() -> None:

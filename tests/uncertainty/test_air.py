@@ -6,8 +6,8 @@ import math
 from pathlib import Path
 
 import pytest
-from tests.certificate.documents import COMPLETE, job, registry
 
+from certificate.documents import COMPLETE, job, registry
 from zlmreport import pipeline
 from zlmreport.language import Language
 from zlmreport.uncertainty.air import air_contributions

@@ -151,6 +151,26 @@ def test_the_drift_at_rest_acts_at_each_reading(tmp_path: Path) -> None:
     assert (size(drift), drift.acts) == (pytest.approx(0.6 / math.sqrt(12)), Acts.AT_EACH_READING)
 
 
+def test_a_stated_resolution_takes_the_place_of_the_last_digit(tmp_path: Path) -> None:
+    resolution = contributions(tmp_path, keys(uncertainty={"resolution": 0.5}))["Resolution of the readings"]
+
+    assert size(resolution) == pytest.approx(0.5 / math.sqrt(12))
+    assert resolution.source.in_language(Language.ENGLISH) == "stated by the laboratory"
+
+
+def test_the_last_digit_of_corrected_readings_says_nothing_of_the_instrument(tmp_path: Path) -> None:
+    corrected = keys(
+        environment={"material_temperature": 21.0},
+        corrections={"material": {"expansion_coefficient": 11.5}},
+    )
+
+    budget = made(tmp_path, corrected)
+
+    assert isinstance(budget, Budget)
+    not_considered = [words.in_language(Language.ENGLISH) for words in budget.not_considered]
+    assert "Resolution of the readings" in not_considered
+
+
 @pytest.mark.parametrize(
     ("stated", "standard_uncertainty", "distribution"),
     [

@@ -126,7 +126,7 @@ def with_results(pdf: bytes, change: Callable[[dict[str, Any]], None]) -> bytes:
     """Return a PDF with a change in its results file."""
     results = json.loads(content_of(pdf, f"{NUMBER}.json"))
     change(results)
-    return with_attachment(pdf, f"{NUMBER}.json", json.dumps(results, indent=2, ensure_ascii=False).encode())
+    return with_attachment(pdf, f"{NUMBER}.json", json.dumps(results, indent=2).encode())
 
 
 def with_source(pdf: bytes, name: str, content: bytes) -> bytes:

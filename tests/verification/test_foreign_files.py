@@ -6,8 +6,10 @@ import contextlib
 import sys
 import zlib
 from collections.abc import Callable
+from dataclasses import replace
 from io import BytesIO
 from pathlib import Path
+from typing import Any
 
 import pytest
 from pypdf import PdfReader, PdfWriter
@@ -19,7 +21,7 @@ from pypdf.generic import (
     TextStringObject,
 )
 
-from verification.issued import JOB, altered, content_of, registry, specification, with_source
+from verification.issued import JOB, altered, content_of, registry, specification, with_results, with_source
 from zlmreport.errors import AccessError, InputError
 from zlmreport.verification.findings import Verification
 from zlmreport.verification.verify import verify
@@ -74,6 +76,32 @@ def test_what_is_no_pdf_is_refused(verified: Verify, content: bytes) -> None:
 @pytest.mark.parametrize("content", [b"%PDF-1.7\n", b"%PDF-1.7\n1 0 obj\n<<", b"%PDF-1.7\n" + b"[" * 100_000])
 def test_a_damaged_pdf_is_refused(verified: Verify, content: bytes) -> None:
     assert "is damaged" in refusal(verified, content)
+
+
+def test_pages_that_hold_themselves_are_refused(verified: Verify) -> None:
+    def circle(writer: PdfWriter) -> None:
+        pages = writer.root_object["/Pages"]
+        pages[NameObject("/Kids")] = ArrayObject([pages.indirect_reference])
+
+    assert "is damaged" in refusal(verified, blank(circle))
+
+
+def test_a_page_whose_stream_is_damaged_is_refused(issued: bytes, verified: Verify) -> None:
+    def damage(writer: PdfWriter) -> None:
+        stream = writer.pages[0]["/Contents"].get_object()
+        stream._data = stream._data[:-20]
+
+    assert "is damaged, and cannot be read as a certificate: a stream" in refusal(
+        verified, altered(issued, damage)
+    )
+
+
+def test_nothing_that_a_damaged_file_brings_about_is_printed(
+    issued: bytes, verified: Verify, capfd: pytest.CaptureFixture[str]
+) -> None:
+    with contextlib.suppress(InputError):
+        verified(issued[: len(issued) // 2])
+    assert capfd.readouterr() == ("", "")
 
 
 def test_a_file_that_is_not_there_cannot_be_read(tmp_path: Path) -> None:
@@ -199,6 +227,29 @@ def test_problems_with_an_attached_file_name_it_and_not_where_it_was_unpacked(
     assert str(problem).startswith("x-axis.csv:4:9: ")
 
 
+@pytest.mark.parametrize("path", ["", "..", "/", "a\0b.yaml", "\ud800.yaml", "x" * 400, "../" * 5000])
+def test_a_job_whose_stated_path_is_none_is_told_from_the_job(
+    issued: bytes, verified: Verify, path: str
+) -> None:
+    def state(results: dict[str, Any]) -> None:
+        results["provenance"]["sources"][0]["path"] = path
+
+    with contextlib.suppress(AccessError):  # the laboratory is not found from there
+        assert not verified(with_results(issued, state)).holds
+
+
+def test_results_that_are_nested_without_end_are_refused(issued: bytes, verified: Verify) -> None:
+    nested: Any = 1.0
+    for _ in range(900):
+        nested = [nested]
+
+    def nest(results: dict[str, Any]) -> None:
+        results["evaluations"][0]["parameters"][0]["value"] = nested
+
+    with contextlib.suppress(InputError):
+        assert not verified(with_results(issued, nest)).holds
+
+
 def test_a_yaml_bomb_inside_a_pdf_is_refused(issued: bytes, verified: Verify) -> None:
     bomb = b"a: &a [x, x, x, x, x, x, x, x, x]\n" + b"".join(
         b"%c: &%c [%s]\n" % (c + 1, c + 1, b", ".join([b"*%c" % c] * 9)) for c in range(ord("a"), ord("k"))
@@ -235,3 +286,25 @@ def test_a_signed_copy_of_the_pages_alone_is_no_certificate(issued: bytes, verif
             writer.add_page(page)
 
     assert "is no certificate of zlmreport" in refusal(verified, blank(without_creator))
+
+
+@pytest.mark.parametrize("identifier", ["json", "pdf"])
+def test_without_a_plugin_that_it_needs_a_verification_says_so(
+    issued: bytes, tmp_path: Path, identifier: str
+) -> None:
+    renderers = tuple(each for each in registry().renderers if each.identifier != identifier)
+    (tmp_path / "certificate.pdf").write_bytes(issued)
+    with pytest.raises(InputError, match=f"no plugin provides format '{identifier}'"):
+        verify(tmp_path / "certificate.pdf", replace(registry(), renderers=renderers))
+
+
+def test_a_plugin_that_breaks_is_named_and_ends_nothing_with_a_traceback(
+    issued: bytes, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def broken(*_: object) -> None:
+        raise ZeroDivisionError("in a plugin")
+
+    monkeypatch.setattr("zlmreport.pipeline.compose", broken)
+    (tmp_path / "certificate.pdf").write_bytes(issued)
+    with pytest.raises(InputError, match="cannot be evaluated again: ZeroDivisionError: in a plugin"):
+        verify(tmp_path / "certificate.pdf", registry())

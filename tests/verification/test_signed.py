@@ -25,7 +25,7 @@ def sign(tmp_path_factory: pytest.TempPathFactory) -> Sign:
 
     def signed(pdf: bytes) -> bytes:
         with open_signer(str(file), lambda _: PASSWORD, Place("--sign")) as signer:
-            return signer.sign(pdf, "Electronic signature")
+            return signer(pdf, "Electronic signature")
 
     return signed
 

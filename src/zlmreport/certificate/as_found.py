@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from zlmreport.certificate import corrections, readings, results
+from zlmreport.certificate import corrections, readings, results, uncertainty
 from zlmreport.certificate.changes import changes, limits
 from zlmreport.certificate.circumstances import environment_facts, measurement_facts
 from zlmreport.certificate.document import (
@@ -111,6 +111,21 @@ def readings_as_found(keys: AsFound, before: Sequence[Evaluated], scribe: Scribe
     measurements = before[0].evaluation.measurements
     section = readings.section(measurements, _scribe_of(before, scribe), "as_found.measurement.source")
     return _labelled(replace(section, key="as-found-readings"), NAMES[keys.work][0], scribe)
+
+
+def uncertainty_beside_as_found(
+    keys: AsFound, before: Sequence[Evaluated], after: Sequence[Evaluated], scribe: Scribe
+) -> Iterator[Section]:
+    """Yield the section on the uncertainty: one for both measurements, or two where their budgets differ."""
+    axis = after[0].evaluation.measurements.axis
+    as_left = uncertainty.section(after[0].budget, axis, scribe)
+    if before[0].budget == after[0].budget:
+        yield as_left
+        return
+    as_found = uncertainty.section(before[0].budget, axis, scribe)
+    state_before, state_after = NAMES[keys.work]
+    yield _labelled(as_left, state_after, scribe)
+    yield _labelled(replace(as_found, key="as-found-uncertainty"), state_before, scribe)
 
 
 def _scribe_of(before: Sequence[Evaluated], scribe: Scribe) -> Scribe:

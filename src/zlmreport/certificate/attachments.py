@@ -5,7 +5,7 @@ With them anyone can evaluate it again; `zlmreport verify` does.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Container, Iterable, Iterator
 from dataclasses import dataclass
 from enum import Enum, StrEnum
 from pathlib import Path, PurePosixPath
@@ -13,6 +13,7 @@ from pathlib import Path, PurePosixPath
 from zlmreport.errors import InputError, Place
 from zlmreport.job.job import Job
 from zlmreport.job.references import path_from_job
+from zlmreport.job.tree import texts
 from zlmreport.language import Language, Words
 from zlmreport.measurement.provenance import SourceFile
 
@@ -100,8 +101,8 @@ class Source:
     name
         Its name as an attachment.
     path
-        From the job's folder, as the job comes to it: ``../laboratory.yaml``. It tells nothing of the
-        folders of a laboratory that the job itself does not say.
+        From the job's folder, as the job comes to it: ``../laboratory.yaml``; or from the root, where the
+        job itself says so. It tells nothing of the folders of a laboratory that the job does not.
     file
         Its digest and bytes.
     """
@@ -124,19 +125,23 @@ def sources(job: Job, readings: Iterable[SourceFile], logo: SourceFile | None) -
     logo
         The file of its laboratory's logo, if it has one.
     """
-    found: dict[str, tuple[Role, SourceFile]] = {}
+    stated = frozenset(texts(job.tree))
+    found: dict[tuple[str, str], tuple[Role, SourceFile]] = {}
+
+    def add(role: Role, file: SourceFile) -> None:
+        found.setdefault((_path(file, job, stated), file.sha256), (role, file))
+
     tables = set(job.axis.files)
     for number, file in enumerate(job.files):
-        role = Role.TABLE if file in tables else Role.EXTENDED if number else Role.JOB
-        found.setdefault(_path(file, job), (role, file))
+        add(Role.TABLE if file in tables else Role.EXTENDED if number else Role.JOB, file)
     for file in readings:
-        found.setdefault(_path(file, job), (Role.READINGS, file))
+        add(Role.READINGS, file)
     if logo:
-        found.setdefault(_path(logo, job), (Role.LOGO, logo))
+        add(Role.LOGO, logo)
     taken: set[str] = set()
     return tuple(
         Source(role, _unique(_clean(file.name), taken, job.keys.certificate.number), path, file)
-        for path, (role, file) in found.items()
+        for (path, _), (role, file) in found.items()
     )
 
 
@@ -178,10 +183,16 @@ def media_type(name: str) -> str:
     return _MEDIA_TYPES.get(PurePosixPath(name).suffix.lower(), _UNKNOWN)
 
 
-def _path(file: SourceFile, job: Job) -> str:
-    """Return the path of a file from the job's folder, or only its name where the job does not lead to it."""
+def _path(file: SourceFile, job: Job, stated: Container[str]) -> str:
+    """Return the path by which the job comes to a file; only its name where the job does not state one.
+
+    A path from the root is told if it is among the values that the job states.
+    """
     job_path = job.files[0].path
-    return (file.path and job_path and path_from_job(file.path, job_path)) or file.name
+    if file.path is None or job_path is None:
+        return file.name
+    from_root = str(file.path) if file.path.is_absolute() and str(file.path) in stated else None
+    return path_from_job(file.path, job_path, from_root) or file.name
 
 
 def _unique(name: str, taken: set[str], number: str) -> str:

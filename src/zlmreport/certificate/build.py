@@ -17,7 +17,7 @@ from zlmreport.certificate import (
     results,
     uncertainty,
 )
-from zlmreport.certificate.as_found import beside_as_found, readings_as_found
+from zlmreport.certificate.as_found import beside_as_found, readings_as_found, uncertainty_beside_as_found
 from zlmreport.certificate.attachments import sources
 from zlmreport.certificate.document import Certificate, Letterhead, PageWords, Party, Section
 from zlmreport.certificate.identity import lines
@@ -85,7 +85,7 @@ def build(
         sections=(
             conditions.section(job, measurements, scribe),
             *_results(job, evaluated, as_found, scribe),
-            uncertainty.section(evaluated[0].budget, job.axis, scribe),
+            *_uncertainty(job, evaluated, as_found, scribe),
             *_readings(job, measurements, as_found, scribe),
             origin.section(made_from, read, GENERATOR, plugins, scribe),
             *opinions.section(job.keys, scribe),
@@ -120,6 +120,15 @@ def _results(
     sections = (results.section(each, scribe) for each in evaluated)
     keys = job.keys.as_found
     return beside_as_found(keys, sections, as_found, evaluated, scribe) if keys else sections
+
+
+def _uncertainty(
+    job: Job, evaluated: tuple[Evaluated, ...], as_found: tuple[Evaluated, ...], scribe: Scribe
+) -> Iterator[Section]:
+    """Yield the uncertainty budget; of an axis that was adjusted, that of both measurements."""
+    if job.keys.as_found:
+        return uncertainty_beside_as_found(job.keys.as_found, as_found, evaluated, scribe)
+    return iter([uncertainty.section(evaluated[0].budget, job.axis, scribe)])
 
 
 def _readings(

@@ -70,10 +70,12 @@ _READINGS = (
 _READING_AIDS = (
     Words(
         en="Values were computed from the unrounded readings, and limits are compared with unrounded values; "
-        "only what is printed is rounded, to the decimals of the readings.",
+        "only what is printed is rounded: a value with its uncertainty, any other to the decimals of the "
+        "readings.",
         de="Gerechnet wurde mit ungerundeten Messwerten, und Grenzwerte werden mit ungerundeten Werten "
         "verglichen; "
-        "gerundet ist nur, was gedruckt steht, auf die Dezimalstellen der Messwerte.",
+        "gerundet ist nur, was gedruckt steht: ein Wert mit seiner Unsicherheit, jeder andere auf die "
+        "Dezimalstellen der Messwerte.",
     ),
     Words(
         en="Signs: deviation = actual − target position; reversal value B = mean of the positive "

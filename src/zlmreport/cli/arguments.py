@@ -19,6 +19,7 @@ SIGN_PASSWORD = "ZLMREPORT_SIGN_PASSWORD"  # noqa: S105 (a name)
 
 _COMMANDS = {
     "check": "validate jobs, their data and the tests; write nothing",
+    "emulate": "put an instrument that is not there on a line, to try capture without hardware",
     "init": "write a commented job with sample data that runs as it is",
     "model": "fit a job's error model, find what it lacks, add it, watch the error fall",
     "plan": "choose targets and their sequence, and say what such a test will not see",
@@ -173,6 +174,87 @@ def _init(command: str) -> _Parser:
     return parser
 
 
+def _emulate(command: str) -> _Parser:
+    parser = _Parser(
+        f"zlmreport {command}",
+        "Put an instrument that is not there on a pseudo-terminal, or on a TCP port of this computer. It\n"
+        "watches an axis that goes from position to position, and speaks as the real instrument does.\n"
+        "It runs until Ctrl-C; 'zlmreport plugins' lists the instruments.",
+        "examples:\n"
+        "  zlmreport emulate umd1\n"
+        "  zlmreport emulate umd1 --link interferometer --course 0,100,200,100,0 --fault lost-beam@30\n"
+        "  zlmreport emulate ids3010 --port 9090",
+    )
+    parser.add_argument("instrument", metavar="INSTRUMENT", help="umd1, nd28x, ids3010 or another")
+    parser.add_argument(
+        "--link", metavar="PATH", type=Path, help="a name for the pseudo-terminal that stays the same"
+    )
+    parser.add_argument(
+        "--port", metavar="N", type=_port, help="a TCP port instead of a pseudo-terminal; 0 for any free one"
+    )
+    parser.add_argument(
+        "--course",
+        metavar="P,P",
+        type=_course,
+        default=(0.0, 100.0, 200.0, 100.0),
+        help="positions that the axis goes to in turn, over and over, mm (--course=-5,0 for one that begins "
+        "with a negative); 0,100,200,100 without it",
+    )
+    for name, metavar, without, meaning in (
+        ("dwell", "S", 5.0, "how long the axis rests at each position, s"),
+        ("feed", "F", 3000.0, "how fast it goes, mm/min"),
+        ("noise", "U", 0.05, "standard deviation of what shakes it, micrometres"),
+        ("drift", "V", 0.0, "by how much everything moves away, micrometres a minute"),
+    ):
+        parser.add_argument(
+            f"--{name}",
+            metavar=metavar,
+            type=_position,
+            default=without,
+            help=f"{meaning}; {without:g} without it",
+        )
+    parser.add_argument(
+        "--fault",
+        metavar="KIND@S",
+        type=_fault,
+        action="append",
+        default=[],
+        help=f"what goes wrong, and how many seconds after the start: {', '.join(_FAULTS)}; may be given "
+        "several times. An instrument shows only what its protocol can say",
+    )
+    return parser
+
+
+#: As `zlmreport.emulation.faults` knows them; a test holds the two together.
+_FAULTS = ("lost-beam", "skipped", "error", "garbled", "unplugged")
+
+
+def _fault(text: str) -> tuple[str, float]:
+    """Read a fault and when it happens."""
+    kind, _, moment = text.partition("@")
+    if kind not in _FAULTS:
+        raise argparse.ArgumentTypeError(f"{kind!r} is no fault; {did_you_mean(kind, _FAULTS)}")
+    try:
+        start = float(moment)
+    except ValueError:
+        start = math.nan
+    if not (math.isfinite(start) and start >= 0):
+        raise argparse.ArgumentTypeError(f"{text!r} does not say when; write seconds, such as {kind}@30")
+    return kind, start
+
+
+def _course(text: str) -> tuple[float, ...]:
+    """Read positions, parted by commas."""
+    return tuple(_position(part) for part in text.split(","))
+
+
+def _port(text: str) -> int:
+    """Read the number of a TCP port."""
+    if not (text.isascii() and text.isdigit() and int(text) < 65_536):
+        raise argparse.ArgumentTypeError(f"{text!r} is no TCP port; write a number up to 65535, such as 9090")
+    return int(text)
+
+
 def _plugins(command: str) -> _Parser:
     return _Parser(
         f"zlmreport {command}",
@@ -214,7 +296,8 @@ def _plan(command: str) -> _Parser:
         "Plan the test of a job before anything is measured: target positions with random fractions, the\n"
         "sequence of its positioning method, and what such a test will see of each installed effect.\n"
         "The readings that the job names need not exist. Numbers come from its key plan.",
-        "examples:\n  zlmreport plan x-axis.yaml\n  zlmreport plan x-axis.yaml --output plan",
+        "examples:\n  zlmreport plan x-axis.yaml\n"
+        "  zlmreport plan x-axis.yaml --output plan --program linuxcnc",
     )
     parser.add_argument("job", metavar="JOB.yaml", type=Path, help="job file")
     parser.add_argument(
@@ -222,7 +305,13 @@ def _plan(command: str) -> _Parser:
         "--output",
         metavar="DIR",
         type=Path,
-        help="write the targets, and a form for the readings, as CSV files into this folder",
+        help="write the targets, a form for the readings, a picture of the sequence and part programs into "
+        "this folder",
+    )
+    parser.add_argument(
+        "--program",
+        metavar="P,P",
+        help="with --output: part programs, parted by commas, instead of the job's: linuxcnc,fanuc",
     )
     parser.add_argument("--json", action="store_true", help="print the plan as JSON (zlmreport/plan/1)")
     return parser
@@ -286,6 +375,12 @@ def _verify(command: str) -> _Parser:
     )
     parser.add_argument("certificate", metavar="FILE.pdf", type=Path, help="certificate, signed or not")
     parser.add_argument("--json", action="store_true", help="print every finding as JSON")
+    parser.add_argument(
+        "--dcc-schema",
+        metavar="DIR",
+        type=Path,
+        help="check an attached digital certificate (DCC) by PTB's rules, and by PTB's schema in this folder",
+    )
     return parser
 
 
@@ -348,6 +443,7 @@ def _demand_model_action(options: argparse.Namespace, parser: _Parser) -> None:
 
 _PARSERS = {
     "check": _check,
+    "emulate": _emulate,
     "init": _init,
     "model": _model,
     "plan": _plan,

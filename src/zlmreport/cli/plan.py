@@ -8,6 +8,7 @@ from zlmreport import pipeline
 from zlmreport.cli.plan_files import plan_files, refuse_files_that_are_there
 from zlmreport.cli.plan_json import plan_values
 from zlmreport.cli.plan_lines import plan_lines
+from zlmreport.cli.plan_programs import chosen_programs, program_files
 from zlmreport.cli.summary import print_json
 from zlmreport.cli.terminal import shown_path
 from zlmreport.foresight.foresee import foresee
@@ -19,8 +20,15 @@ def run(options: Namespace) -> int:
     """Plan the test of a job; its readings need not exist."""
     registry = find_plugins(files=options.plugin)
     job = load(options.job, registry)
+    programs = chosen_programs(options.program, options.output, job, registry)
     foresight = foresee(job, pipeline.standards(job, registry), registry.effects)
-    documents = plan_files(options.output, job, foresight) if options.output else ()
+    documents: tuple[pipeline.Document, ...] = ()
+    if options.output:
+        plan = foresight.proposal.plan
+        documents = (
+            *plan_files(options.output, job, foresight),
+            *program_files(options.output, job, plan, programs, registry),
+        )
     refuse_files_that_are_there(documents)
     written = pipeline.write(documents)
     if options.json:
@@ -28,6 +36,9 @@ def run(options: Namespace) -> int:
         return 0
     print(*plan_lines(job, foresight), sep="\n")
     print()
+    if programs and not options.output:
+        names = ", ".join(each.identifier for each in programs)
+        print(f"part programs for {names}: state a folder, --output DIR")
     for path in written:
         print(shown_path(path))
     print(f"next: measure, then zlmreport {shown_path(options.job)}")

@@ -1,4 +1,4 @@
-"""What ``zlmreport plan --output`` writes: the targets to type in, and a form for the readings."""
+"""What ``zlmreport plan --output`` writes: targets to type in, a form for the readings, the sequence."""
 
 from __future__ import annotations
 
@@ -6,39 +6,34 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 from zlmreport.errors import InputError, Place, Problem
+from zlmreport.figures.sequence import sequence
 from zlmreport.foresight.foresee import Foresight
+from zlmreport.foresight.motion import motion_of
+from zlmreport.foresight.targets import in_users_unit
 from zlmreport.job.job import Job
 from zlmreport.measurement.approach import Approach
-from zlmreport.measurement.axis import Axis
 from zlmreport.pipeline import Document
-from zlmreport.quantities.arrays import FloatArray
 
 SIGNS = {Approach.POSITIVE: "+", Approach.NEGATIVE: "-"}
-#: More digits than any control takes, and fewer than a double rounds at.
-_DIGITS = 9
-
-
-def in_users_unit(axis: Axis, positions: FloatArray) -> list[float]:
-    """Return positions in mm or °, as decimal numbers that were meant."""
-    return [round(value, _DIGITS) for value in axis.position_unit.from_si(positions).tolist()]
 
 
 def plan_files(folder: Path, job: Job, foresight: Foresight) -> tuple[Document, ...]:
-    """Return the files of a plan.
+    """Return the files of a plan: its targets, a form for the readings, and a picture of its sequence.
 
     The form has a row for each reading in the order in which they are to be taken, its deviation empty, and
     empty columns for what should be logged; the data source ``laser-csv`` reads it filled in.
     """
+    texts = {
+        "targets.csv": "".join(f"{line}\n" for line in _targets(job, foresight)),
+        "readings.csv": "".join(f"{line}\n" for line in _readings(job, foresight)),
+        "sequence.svg": _picture(job, foresight),
+    }
     number = job.keys.certificate.number
-    texts = {"targets": _targets(job, foresight), "readings": _readings(job, foresight)}
-    return tuple(
-        Document(folder / f"{number}-{name}.csv", "".join(f"{line}\n" for line in lines).encode())
-        for name, lines in texts.items()
-    )
+    return tuple(Document(folder / f"{number}-{name}", text.encode()) for name, text in texts.items())
 
 
 def refuse_files_that_are_there(documents: Iterable[Document]) -> None:
-    """Refuse to write over a form that somebody may have filled in."""
+    """Refuse to write over a form that somebody may have filled in, or a program that has been edited."""
     problems = [
         Problem(Place(str(document.path)), "is there already; choose another folder, or remove it")
         for document in documents
@@ -46,6 +41,14 @@ def refuse_files_that_are_there(documents: Iterable[Document]) -> None:
     ]
     if problems:
         raise InputError(problems)
+
+
+def _picture(job: Job, foresight: Foresight) -> str:
+    from zlmreport.figures.draw import to_svg  # noqa: PLC0415 (brings matplotlib)
+
+    keys = job.keys.certificate
+    motion = motion_of(keys.number, job.axis, foresight.proposal.plan, job.place_of("plan"))
+    return to_svg(sequence(motion), keys.language)
 
 
 def _targets(job: Job, foresight: Foresight) -> Iterator[str]:

@@ -8,10 +8,11 @@ from pathlib import Path
 from typing import Any
 
 from zlmreport.cli.model_lines import said
-from zlmreport.cli.plan_files import SIGNS, in_users_unit
+from zlmreport.cli.plan_files import SIGNS
 from zlmreport.foresight.foresee import Foresight
 from zlmreport.foresight.outlook import Prospect
 from zlmreport.foresight.remedies import Remedy
+from zlmreport.foresight.targets import in_users_unit
 from zlmreport.job.job import Job
 from zlmreport.measurement.axis import Axis
 from zlmreport.model.parameter import unit_of
@@ -43,6 +44,7 @@ def plan_values(job: Job, foresight: Foresight, written: Sequence[Path]) -> dict
         "travelled": position.from_si(foresight.travelled),
         "duration": foresight.duration,
         "targets": targets,
+        "two_phases_of": [said(period) for period in foresight.half_seen],
         "visits": [
             {
                 "target": targets[visit.target],

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from zlmreport.cli.model_lines import said, width, wrapped
-from zlmreport.cli.plan_files import in_users_unit
 from zlmreport.cli.terminal import Colour, table
 from zlmreport.evaluation import printed
 from zlmreport.foresight.conditions import ASSUMPTION
 from zlmreport.foresight.foresee import Foresight
 from zlmreport.foresight.outlook import Prospect, Sight
 from zlmreport.foresight.remedies import Remedy
+from zlmreport.foresight.targets import in_users_unit
 from zlmreport.job.job import Job
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.axis import Axis
@@ -60,6 +60,12 @@ def _targets(job: Job, foresight: Foresight) -> Iterator[str]:
     starts = range(0, len(filled), columns)
     rows = [[text for cell in filled[start : start + columns] for text in cell] for start in starts]
     yield from table(rows, right=range(2 * columns), indent="  ")
+    for period in foresight.half_seen:
+        text = (
+            f"all targets lie at two phases of {said(period)}: of what repeats with it, a part stays "
+            "hidden that no share below counts; choose targets with a random fraction"
+        )
+        yield from wrapped(f"{Colour.YELLOW.of('check')}: {text}")
 
 
 def _sequence(job: Job, foresight: Foresight) -> Iterator[str]:

@@ -24,6 +24,8 @@ def listing(registry: Registry) -> Iterator[str]:
         (Kind.SOURCE, registry.sources),
         (Kind.RENDERER, registry.renderers),
         (Kind.EFFECT, registry.effects),
+        (Kind.PART_PROGRAM, registry.part_programs),
+        (Kind.INSTRUMENT, registry.instruments),
     ):
         yield Colour.BOLD.of(f"{kind.label}s")
         rows = [

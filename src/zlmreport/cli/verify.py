@@ -15,7 +15,7 @@ _DOES_NOT_HOLD = 1
 
 def run(options: Namespace) -> int:
     """Verify a certificate; return 1 if anything in it does not hold."""
-    found = verify(options.certificate, find_plugins(files=options.plugin))
+    found = verify(options.certificate, find_plugins(files=options.plugin), options.dcc_schema)
     code = 0 if found.holds else _DOES_NOT_HOLD
     if options.json:
         print_json(as_json(options.certificate, found, code))

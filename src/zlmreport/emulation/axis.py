@@ -6,7 +6,7 @@ import math
 from bisect import bisect_right
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import accumulate
+from itertools import accumulate, pairwise
 from random import Random
 from typing import Protocol
 
@@ -14,7 +14,7 @@ from typing import Protocol
 _NOISE_GRAIN = 1e-4
 
 
-class Motion(Protocol):
+class EmulatedAxis(Protocol):
     """Where an axis is.
 
     The emulated devices ask nothing else of it, so that an axis with an error model may take the place of a
@@ -58,7 +58,7 @@ class MovingAxis:
 
     def _on_course(self, time: float) -> float:
         stops = [*self.course, self.course[0]]
-        ways = [abs(there - here) for here, there in zip(stops, stops[1:], strict=False)]
+        ways = [abs(there - here) for here, there in pairwise(stops)]
         leaves = [0.0, *accumulate(self.dwell + way / self.feed for way in ways)]
         since = math.fmod(max(time, 0.0), leaves[-1])
         leg = min(bisect_right(leaves, since) - 1, len(ways) - 1)

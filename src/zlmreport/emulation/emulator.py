@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Protocol
 
-from zlmreport.emulation.axis import Motion, MovingAxis
+from zlmreport.emulation.axis import EmulatedAxis, MovingAxis
 from zlmreport.emulation.faults import Troubles
 
 
@@ -15,13 +15,13 @@ class Scene:
 
     Attributes
     ----------
-    motion
+    axis
         The axis that it measures.
     troubles
         What goes wrong, and when. Whether the line is unplugged or garbled is no matter of the instrument.
     """
 
-    motion: Motion = field(default_factory=MovingAxis)
+    axis: EmulatedAxis = field(default_factory=MovingAxis)
     troubles: Troubles = field(default_factory=Troubles)
 
 

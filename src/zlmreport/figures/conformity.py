@@ -19,6 +19,10 @@ _BARE_TITLE = Words(
     en="Axis {axis}: amounts in percent of their limits TL",
     de="Achse {axis}: Beträge in Prozent ihrer Grenzwerte TL",
 )
+_GRAPH = Words(
+    en="Bar chart of the parameters of axis {axis} that have a limit.",
+    de="Balkendiagramm der Kenngrößen der Achse {axis}, die einen Grenzwert haben.",
+)
 _X_TITLE = Words(en="Parameters with a limit", de="Kenngrößen mit Grenzwert")
 _Y_TITLE = Words(en="Amount over limit", de="Betrag über Grenzwert")
 _BAR = Words(en="{symbol}: {percent} % of its limit", de="{symbol}: {percent} % des Grenzwerts")
@@ -33,7 +37,8 @@ def conformity_graph(evaluation: Evaluation) -> Figure | None:
     if not limited:
         return None
     bars = tuple(map(_bar, limited))
-    sentences = [_sentence(each, bar) for each, bar in zip(limited, bars, strict=True)]
+    graph = _GRAPH.given(axis=evaluation.measurements.axis.name)
+    sentences = [graph, *(_sentence(each, bar) for each, bar in zip(limited, bars, strict=True))]
     title = _TITLE if any(bar.uncertainty for bar in bars) else _BARE_TITLE
     return Figure(
         key="conformity",

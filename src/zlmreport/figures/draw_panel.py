@@ -45,6 +45,8 @@ _LONE_DASH = 3.5
 _HALF_BAR = 0.32
 _HALF_WHISKER = 0.07
 _HALF_ACCEPTED = 0.4
+#: Distance of bars from which on they grow no wider, in points: few bars are no wall.
+_WIDEST_DISTANCE = 90.0
 
 PAGE = IdentityTransform()
 
@@ -136,22 +138,28 @@ def _bars(layout: PanelLayout) -> Iterator[Artist]:
     """Return the bars, which grow from zero."""
     frame = layout.frame
     for number, bar in enumerate(layout.panel.bars):
-        left, right = frame.x_point(number - _HALF_BAR), frame.x_point(number + _HALF_BAR)
+        left, right = _ends(frame, number, _HALF_BAR)
         bottom, top = sorted((frame.y_point(0.0), frame.y_point(bar.y)))
         corners = Box(left, bottom, right, top).corners
         yield Outline("bar", Path(corners, closed=True), PAGE, *BAR)
         if bar.accepted is not None:
             height = frame.y_point(bar.accepted)
-            ends = [(frame.x_point(number + side * _HALF_ACCEPTED), height) for side in (-1, 1)]
+            ends = [(end, height) for end in _ends(frame, number, _HALF_ACCEPTED)]
             yield lines("accepted", [ends], ROLES[Role.BAND_LIMIT].stroke)
         if bar.uncertainty:
             yield _whisker(frame, number, bar)
 
 
+def _ends(frame: Frame, number: int, half: float) -> tuple[float, float]:
+    """Return where something begins and ends that is centred on a bar, `half` in distances of bars."""
+    middle, reach = frame.x_point(number), half * min(frame.x_factor, _WIDEST_DISTANCE)
+    return middle - reach, middle + reach
+
+
 def _whisker(frame: Frame, number: int, bar: Bar) -> Outline:
     low, high = (frame.y_point(bar.y + side * bar.uncertainty) for side in (-1, 1))
     middle = frame.x_point(number)
-    left, right = (frame.x_point(number + side * _HALF_WHISKER) for side in (-1, 1))
+    left, right = _ends(frame, number, _HALF_WHISKER)
     across = [[(left, height), (right, height)] for height in (low, high)]
     return lines("whisker", [[(middle, low), (middle, high)], *across], DIMENSION)
 

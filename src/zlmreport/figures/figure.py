@@ -32,6 +32,7 @@ class Role(Enum):
     UNCERTAINTY_POSITIVE = "expanded uncertainty of the model, positive approach"
     UNCERTAINTY_NEGATIVE = "expanded uncertainty of the model, negative approach"
     NOISE = "scatter of single readings"
+    PATH = "motion of the axis"
 
 
 @dataclass(frozen=True, slots=True)

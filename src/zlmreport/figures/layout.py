@@ -25,6 +25,7 @@ _MILLIMETRE = 72 / 25.4
 #: The text width of an A4 page.
 WIDTH = 170 * _MILLIMETRE
 _HEIGHT_OF_PANEL = 52 * _MILLIMETRE
+_HEIGHT_OF_BARS = 34 * _MILLIMETRE
 _HEIGHT_BESIDES = 38 * _MILLIMETRE
 
 TICK_LENGTH = 3.0
@@ -55,8 +56,9 @@ class FigureLayout:
 
 
 def figure_height(figure: Figure) -> float:
-    """Return the height of a figure in points; it depends on nothing but the number of panels."""
-    return _HEIGHT_BESIDES + _HEIGHT_OF_PANEL * len(figure.panels)
+    """Return the height of a figure in points; it depends on nothing but the number of panels and bars."""
+    heights = (_HEIGHT_OF_BARS if panel.bars else _HEIGHT_OF_PANEL for panel in figure.panels)
+    return _HEIGHT_BESIDES + sum(heights)
 
 
 def lay_out(figure: Figure, language: Language) -> FigureLayout:

@@ -18,6 +18,7 @@ _BLUE = (0.0, 0.39, 0.65)
 _VERMILION = (0.8, 0.33, 0.0)
 _GREEN = (0.0, 0.45, 0.335)
 _VIOLET = (0.45, 0.22, 0.62)
+_GREY = (0.4, 0.4, 0.4)
 
 INK: Colour = (0.1, 0.1, 0.1)
 WHITE: Colour = (1.0, 1.0, 1.0)
@@ -71,6 +72,7 @@ ROLES = {
     Role.UNCERTAINTY_POSITIVE: _style(_BLUE, 0.6, (1.8, 1.0), None, 0.14),
     Role.UNCERTAINTY_NEGATIVE: _style(_VERMILION, 0.6, (0.7, 0.9), None, 0.14),
     Role.NOISE: _style(_BLACK, 0.7, (3.2, 1.8), None, 0.07),
+    Role.PATH: _style(_GREY, 0.5, (24.0, 0.8), None, 0.06),
 }
 MARK_SIZES = {Mark.UP: 4.6, Mark.DOWN: 4.6, Mark.DISC: 3.8}
 #: Parts a mark from the line that it sits on.

@@ -10,10 +10,12 @@ from zlmreport.errors import InputError
 from zlmreport.evaluation.requirements import Finding
 from zlmreport.foresight.numbers import PlannedStandard, as_measured
 from zlmreport.foresight.outlook import Prospect, determined, expected_design, outlook, planned_visits
+from zlmreport.foresight.phases import periods_at_phases
 from zlmreport.foresight.proposal import Proposal, propose
 from zlmreport.foresight.remedies import Remedy, remedies
 from zlmreport.foresight.targets import makes_whole_turns
 from zlmreport.job.job import Job
+from zlmreport.language import Words
 from zlmreport.measurement.axis import Axis
 from zlmreport.model.axis_model import AxisModel, Term
 from zlmreport.model.chosen import chosen_terms
@@ -45,6 +47,8 @@ class Foresight:
         The whole way of the axis, loops included, m or rad.
     duration
         Of motion and rest together, s.
+    half_seen
+        Known periods of which the targets see two phases only, and so what repeats with them in part only.
     beyond_travel
         The lowest and the highest position that the axis reaches, m or rad, where one of them lies beyond
         an end of its travel.
@@ -63,6 +67,7 @@ class Foresight:
     design: Design
     travelled: float
     duration: float
+    half_seen: tuple[Words, ...]
     beyond_travel: tuple[float, float] | None
     model: AxisModel
     prospects: tuple[Prospect, ...]
@@ -114,6 +119,7 @@ def foresee(job: Job, standards: Sequence[PlannedStandard], effects: Sequence[Ef
         design=design,
         travelled=travelled,
         duration=travelled / plan.feed + plan.dwell * len(listed),
+        half_seen=tuple(periods_at_phases(job.axis, plan.targets, 2)),
         beyond_travel=_beyond_travel(job.axis, min(stops), max(stops)),
         model=base,
         prospects=prospects,

@@ -6,24 +6,19 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import reduce
 
-import numpy as np
-
-from zlmreport.evaluation import printed
 from zlmreport.foresight.outlook import Prospect, Sight, determined, expected_design, outlook
+from zlmreport.foresight.phases import periods_at_phases
 from zlmreport.foresight.proposal import Proposal
-from zlmreport.foresight.targets import drawn_targets, periods, usual_overrun
+from zlmreport.foresight.targets import drawn_targets, usual_overrun
 from zlmreport.language import Words
 from zlmreport.measurement.axis import Axis
 from zlmreport.model.axis_model import AxisModel
 from zlmreport.model.statements import listed
 from zlmreport.planning.methods import Method
-from zlmreport.quantities.arrays import FloatArray
 from zlmreport.simulation.description import Plan
 
 #: With more targets than these or more runs, one more is no remedy worth the time.
 _MANY_TARGETS, _MANY_RUNS = 21, 5
-#: Phases that agree within this share of a period are one.
-_ONE_PHASE = 0.01
 
 _BOUND_TO_POSITION = Words(
     en="in this sequence time runs along with the position",
@@ -33,10 +28,6 @@ _SAME_PHASE = Words(
     en="all targets lie at the same phase of {periods}",
     de="alle Zielpositionen liegen bei derselben Phase {periods}",
 )
-_PERIODS = {
-    "axis.screw_pitch": Words(en="the pitch of {period}", de="der Steigung von {period}"),
-    "axis.signal_period": Words(en="the signal period of {period}", de="der Signalperiode von {period}"),
-}
 _MEASURE_LINEARLY = Words(en="measure by the linear method", de="nach dem Linearverfahren messen")
 _RANDOM_FRACTIONS = Words(
     en="choose targets with a random fraction", de="Zielpositionen mit zufälligem Anteil wählen"
@@ -156,19 +147,10 @@ def _of_targets(axis: Axis, plan: Plan, seed: int) -> Iterator[_Change]:
     def drawn(each: Plan, count: int) -> Plan:
         return replace(each, targets=drawn_targets(spread_over, count, overrun, None, seed))
 
-    blind = [
-        _PERIODS[key].given(period=printed.position(axis, period))
-        for key, period in periods(axis)
-        if _is_seen_at_one_phase(plan.targets, period)
-    ]
+    blind = periods_at_phases(axis, plan.targets, 1)
     if blind:
         reason = _SAME_PHASE.given(periods=listed(blind))
         yield _Change(reason, _RANDOM_FRACTIONS, lambda each: drawn(each, len(each.targets)))
     if len(plan.targets) < _MANY_TARGETS:
         advice = _MORE_TARGETS.given(count=_MANY_TARGETS)
         yield _Change(None, advice, lambda each: drawn(each, _MANY_TARGETS))
-
-
-def _is_seen_at_one_phase(targets: FloatArray, period: float) -> bool:
-    turns = (targets - targets[0]) / period
-    return bool(np.abs(turns - np.rint(turns)).max() < _ONE_PHASE)

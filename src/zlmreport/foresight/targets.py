@@ -18,6 +18,8 @@ _USUAL_DIGITS, _LEAST_PHASES = 3, 20
 #: Without a known pitch: share of the interval that the fractions cover.
 _SHARE_OF_INTERVAL = 1 / 4
 _RIGHT_ANGLE = math.pi / 2
+#: More digits than any control takes, and fewer than a double rounds at.
+_DIGITS = 9
 _ROUNDING = 1e-9
 
 
@@ -74,6 +76,11 @@ def drawn_targets(axis: Axis, count: int, overrun: float, period: float | None, 
     if axis.kind is AxisKind.ROTARY and period:
         typed = _at_quarter_turns(typed, first, last)
     return read_only_floats(typed)
+
+
+def in_users_unit(axis: Axis, positions: FloatArray) -> list[float]:
+    """Return positions in mm or °, as decimal numbers that were meant."""
+    return [round(value, _DIGITS) for value in axis.position_unit.from_si(positions).tolist()]
 
 
 def periods(axis: Axis) -> tuple[tuple[str, float], ...]:

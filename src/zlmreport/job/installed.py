@@ -61,6 +61,22 @@ class InstalledRenderer(Protocol):
         """Of its files."""
 
 
+class InstalledProgram(Protocol):
+    """A writer of part programs with its own keys."""
+
+    @property
+    def identifier(self) -> str:
+        """As jobs name it."""
+
+    @property
+    def options(self) -> type[Options]:
+        """Its own keys."""
+
+    @property
+    def suffix(self) -> str:
+        """Of its files."""
+
+
 class NamedParameter(Protocol):
     """A parameter of an effect."""
 
@@ -114,6 +130,10 @@ class Installed(Protocol):
     def effects(self) -> Sequence[InstalledEffect]:
         """All effects."""
 
+    @property
+    def part_programs(self) -> Sequence[InstalledProgram]:
+        """All writers of part programs."""
+
     def source(self, identifier: str, named_at: Place | None = None) -> InstalledSource:
         """Return a data source."""
 
@@ -125,3 +145,6 @@ class Installed(Protocol):
 
     def effect(self, identifier: str, named_at: Place | None = None) -> InstalledEffect:
         """Return an effect."""
+
+    def part_program(self, identifier: str, named_at: Place | None = None) -> InstalledProgram:
+        """Return a writer of part programs."""

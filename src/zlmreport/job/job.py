@@ -44,6 +44,15 @@ class SourceChoice:
 
 
 @dataclass(frozen=True, slots=True)
+class ProgramChoice:
+    """A part program that the job names, its own keys validated, and where the job names it."""
+
+    identifier: str
+    options: Options
+    place: Place
+
+
+@dataclass(frozen=True, slots=True)
 class Job:
     """A checked job.
 
@@ -59,6 +68,8 @@ class Job:
         The data source of the axis as it was found before an adjustment; None where there was none.
     effects
         The effects of the error model, with the parameters that it fixes.
+    programs
+        The part programs of its plan.
     formats
         Identifiers of the renderers.
     directory
@@ -78,6 +89,7 @@ class Job:
     directory: Path
     files: tuple[SourceFile, ...]
     source_as_found: SourceChoice | None = None
+    programs: tuple[ProgramChoice, ...] = ()
     tree: Keys = field(default_factory=lambda: keys_of(Place("job")))
 
     @property

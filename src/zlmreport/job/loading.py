@@ -10,10 +10,12 @@ from zlmreport.errors import InputError, Place, Problem, did_you_mean
 from zlmreport.job.contradictions import contradictions
 from zlmreport.job.effects import effect_choices
 from zlmreport.job.extends import compose
+from zlmreport.job.formats import JOB, refuse_other_format
 from zlmreport.job.installed import Installed, InstalledStandard
 from zlmreport.job.interpret import axis_in_si, tolerances_in_si
 from zlmreport.job.job import Job, SourceChoice, StandardChoice
 from zlmreport.job.model import JobKeys
+from zlmreport.job.programs import program_choices
 from zlmreport.job.text import quoted
 from zlmreport.job.tree import Entry, Items, Keys, Node, Scalar, keys_of, place_of, walk
 from zlmreport.job.validate import validate
@@ -21,6 +23,7 @@ from zlmreport.job.validate import validate
 _SOURCE = ("measurement", "source")
 _SOURCE_AS_FOUND = ("as_found", "measurement", "source")
 _EFFECTS = ("model", "effects")
+_PROGRAMS = ("plan", "programs")
 
 
 def load(path: Path, registry: Installed, formats: tuple[str, ...] = (), content: bytes | None = None) -> Job:
@@ -46,12 +49,14 @@ def load(path: Path, registry: Installed, formats: tuple[str, ...] = (), content
     """
     composition = compose(path, content)
     tree = composition.keys
+    refuse_other_format(tree, JOB)
     problems: list[Problem] = []
     keys = validate(JobKeys, tree, problems)
     source = _source(tree, _SOURCE, registry, problems)
     source_as_found = _source(tree, _SOURCE_AS_FOUND, registry, problems)
     standards = list(_standards(tree, registry, problems))
     effects = effect_choices(_at(tree, _EFFECTS), registry, problems, within=".".join(_EFFECTS))
+    programs = program_choices(_at(tree, _PROGRAMS), registry, problems, within=".".join(_PROGRAMS))
     formats = formats or _formats(tree, keys, registry, problems)
     if keys:
         problems.extend(contradictions(keys, tree))
@@ -68,6 +73,7 @@ def load(path: Path, registry: Installed, formats: tuple[str, ...] = (), content
             for choice, each in zip(standards, keys.evaluate, strict=True)
         ),
         effects=effects,
+        programs=programs,
         formats=formats,
         directory=keys.output.directory or path.parent,
         files=(*composition.files, *axis.files),

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Any
 
-from pydantic import Field
+from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from zlmreport.job.part import JobPart
-from zlmreport.job.types import Finite, NotNegative, Positive
+from zlmreport.job.types import Finite, NotNegative, Positive, Text
 
 
 class PlannedTargetKeys(JobPart):
@@ -32,6 +33,20 @@ class PlannedTargetKeys(JobPart):
     )
 
 
+class ProgramKeys(BaseModel):
+    """A part program; the plugin's own keys may follow."""
+
+    model_config = ConfigDict(extra="allow", frozen=True)
+
+    program: Text = Field(description="Identifier of an installed writer of part programs.")
+
+    @model_validator(mode="before")
+    @classmethod
+    def _bare_identifier(cls, value: Any) -> Any:
+        """Take a bare identifier for the part program without further keys."""
+        return {"program": value} if isinstance(value, str | int | float) else value
+
+
 class PlanKeys(JobPart):
     """The test before it is done, for `zlmreport plan`."""
 
@@ -44,10 +59,11 @@ class PlanKeys(JobPart):
         le=1000,
         description="Readings of each target in each direction. Without it what the standards ask, mostly 5.",
     )
-    overrun: Positive | None = Field(
+    overrun: Finite | None = Field(
         None,
-        description="How far beyond a target the axis turns round, mm or degrees. Without it 5, or a "
-        "fiftieth of a short travel.",
+        ge=0.001,
+        description="How far beyond a target the axis turns round, mm or degrees, at least 0.001. Without it "
+        "5, or a fiftieth of a short travel.",
     )
     seed: int | None = Field(
         None,
@@ -61,6 +77,12 @@ class PlanKeys(JobPart):
     )
     temperature_change: Positive = Field(
         1.0, description="By how much temperatures are expected to rise during the test, K."
+    )
+    programs: list[ProgramKeys] = Field(
+        default_factory=list,
+        description="Part programs that are written beside the plan; a bare identifier stands for "
+        "{program: …}.",
+        examples=[["linuxcnc"]],
     )
 
 

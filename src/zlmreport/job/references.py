@@ -17,7 +17,8 @@ class Enclosure:
     Attributes
     ----------
     files
-        Where each lies, by its path from the folder of the job as it was: ``../laboratory.yaml``.
+        Where each lies, by its path from the folder of the job as it was, ``../laboratory.yaml``, or from
+        the root.
     nowhere
         A folder that is not there: where every other reference leads.
     """
@@ -32,8 +33,7 @@ class Enclosure:
     def path_named(self, reference: str, naming_file: Path) -> Path:
         """Return the file that a reference means; one that leads past the folder's files leads nowhere.
 
-        A reference from the root of the file system is answered by its file's name, if only one file has it:
-        no document tells where a job lay.
+        A reference to a file whose path is not known is answered by the file's name, if only one has it.
         """
         folder = posixpath.dirname(self.path_of(naming_file) or "")
         found = self.files.get(posixpath.normpath(posixpath.join(folder, reference)))
@@ -53,11 +53,21 @@ def path_named(reference: str, naming_file: Path) -> Path:
     return enclosure.path_named(reference, naming_file) if enclosure else naming_file.parent / reference
 
 
-def path_from_job(file: Path, job: Path) -> str | None:
-    """Return the path of a file as the job comes to it, from the job's folder; None if it does not say it."""
+def path_from_job(file: Path, job: Path, from_root: str | None = None) -> str | None:
+    """Return the path by which a job comes to a file: from its folder, or None if the file lies elsewhere.
+
+    Parameters
+    ----------
+    file, job
+        As they were read.
+    from_root
+        How the job names the file, if it does so from the root of the file system.
+    """
     enclosure = _ENCLOSURE.get()
     if enclosure:
         return enclosure.path_of(file)
+    if from_root:
+        return posixpath.normpath(from_root)
     if not file.is_relative_to(job.parent):
         return None
     return posixpath.normpath(file.relative_to(job.parent).as_posix())

@@ -8,8 +8,15 @@ from typing import Any, TypeAlias
 from pydantic import BaseModel
 from pydantic.errors import PydanticInvalidForJsonSchema
 
-from zlmreport.job.installed import Installed, InstalledEffect, InstalledSource, InstalledStandard
+from zlmreport.job.installed import (
+    Installed,
+    InstalledEffect,
+    InstalledProgram,
+    InstalledSource,
+    InstalledStandard,
+)
 from zlmreport.job.model import DecisionRuleKeys, JobKeys, SourceKeys, StandardKeys
+from zlmreport.job.plan_keys import ProgramKeys
 
 Schema: TypeAlias = dict[str, Any]
 
@@ -43,6 +50,13 @@ def job_schema(registry: Installed) -> Schema:
             *(_effect(effect, definitions) for effect in registry.effects),
         ]
     }
+    definitions[ProgramKeys.__name__] = {
+        "description": definitions[ProgramKeys.__name__]["description"],
+        "anyOf": [
+            {"enum": [program.identifier for program in registry.part_programs]},
+            *(_program(program, definitions) for program in registry.part_programs),
+        ],
+    }
     formats = definitions["Output"]["properties"]["formats"]
     formats["items"] = {"enum": [renderer.identifier for renderer in registry.renderers]}
     for part in _parts(schema):
@@ -75,6 +89,12 @@ def _standard(standard: InstalledStandard, definitions: Schema) -> Schema:
         },
     }
     return _with_keys(_own_keys(standard.options, standard.identifier, definitions), keys)
+
+
+def _program(program: InstalledProgram, definitions: Schema) -> Schema:
+    """Return the schema of a part program's keys."""
+    key = {"const": program.identifier, "description": "Identifier of the part program."}
+    return _with_keys(_own_keys(program.options, program.identifier, definitions), {"program": key})
 
 
 def _effect(effect: InstalledEffect, definitions: Schema) -> Schema:
@@ -140,7 +160,7 @@ def _parts(schema: Any) -> Iterator[Schema]:
 def _without_demands(schema: Schema) -> Schema:
     """Return the schema without what its own parts must have; plugins' keys stay with their plugin."""
     relaxed = {key: value for key, value in schema.items() if key != "required"}
-    plugin_parts = {SourceKeys.__name__, StandardKeys.__name__}
+    plugin_parts = {SourceKeys.__name__, StandardKeys.__name__, ProgramKeys.__name__}
     relaxed["$defs"] = {
         name: definition
         if name in plugin_parts or "." in name

@@ -9,6 +9,7 @@ from pathlib import Path
 from zlmreport.errors import InputError, Place, Problem
 from zlmreport.job.effects import EffectChoice, effect_choices
 from zlmreport.job.extends import compose
+from zlmreport.job.formats import SIMULATION, refuse_other_format
 from zlmreport.job.installed import Installed
 from zlmreport.job.interpret import axis_in_si
 from zlmreport.job.simulation_keys import SimulationKeys
@@ -65,6 +66,7 @@ def load_simulation(path: Path, registry: Installed) -> SimulationFile:
     """
     composition = compose(path)
     tree = composition.keys
+    refuse_other_format(tree, SIMULATION)
     problems: list[Problem] = []
     keys = validate(SimulationKeys, tree, problems)
     effects = effect_choices(_value(tree, "effects"), registry, problems, within="effects")

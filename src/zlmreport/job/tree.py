@@ -122,3 +122,13 @@ def merged(base: Keys, own: Keys) -> Keys:
             value = merged(inherited.value, value)
         entries[key] = Entry(key, entry.place, value)
     return Keys(own.place, MappingProxyType(entries))
+
+
+def texts(tree: Node) -> Iterator[str]:
+    """Yield every single value as it is spelt."""
+    if isinstance(tree, Scalar):
+        yield tree.text
+    else:
+        parts = tree.items if isinstance(tree, Items) else (entry.value for entry in tree.entries.values())
+        for part in parts:
+            yield from texts(part)

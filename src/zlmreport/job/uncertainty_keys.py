@@ -85,7 +85,7 @@ class UncertaintyKeys(JobPart):
     resolution: NotNegative | None = Field(
         None,
         description="Smallest step of the readings, micrometres (arc seconds). Without it that of their last "
-        "digit, 0.001 at least.",
+        "digit, 0.001 at least; nothing if they are corrected.",
         examples=[0.1],
     )
     instrument_acts: ActsName | None = Field(

@@ -55,6 +55,4 @@ class Patience:
                 f"the instrument {happened}: {self._expected} should have come within {seconds}; "
                 "look at its cable, its power and its settings for the interface"
             )
-        self._port.fail(
-            f"what arrives are no {self._expected}: {shown(self._nonsense)}; {self._advice}"
-        )
+        self._port.fail(f"what arrives are no {self._expected}: {shown(self._nonsense)}; {self._advice}")

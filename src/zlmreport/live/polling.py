@@ -12,7 +12,9 @@ from zlmreport.live.reading import Fault, LiveReading
 Answer = TypeVar("Answer")
 
 
-def ask(port: Port, request: bytes, understood: Callable[[bytes], Answer | None], wait: float) -> Answer | bytes:
+def ask(
+    port: Port, request: bytes, understood: Callable[[bytes], Answer | None], wait: float
+) -> Answer | bytes:
     """Send a question and return its answer.
 
     Parameters

@@ -94,7 +94,10 @@ class Port:
 
     def close(self) -> None:
         """Close the port; it may be closed already."""
+        network = getattr(self._port, "_socket", None)
         self._port.close()
+        if network is not None:  # pyserial leaves one open whose other end has gone
+            network.close()
 
     def read(self, wait: float) -> bytes:
         """Return what has arrived; wait for the first byte, but no longer than `wait`, s."""
@@ -127,7 +130,8 @@ class Port:
     def _is_gone(self, error: OSError) -> NoReturn:
         raise AccessError.at(
             self.place,
-            f"the instrument is gone ({_in_one_line(error)}); look at its cable and its power, then start again",
+            f"the instrument is gone ({_in_one_line(error)}); look at its cable and its power, "
+            "then start again",
         ) from error
 
 

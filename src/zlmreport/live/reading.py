@@ -26,6 +26,9 @@ class Fault(Flag):
     UNREADABLE = auto()
 
 
+#: Of a sound reading.
+NO_FAULT = Fault(0)
+
 #: Faults after which the instrument's zero is gone.
 _LOSES_ZERO = Fault.BEAM_LOST | Fault.TOO_FAST | Fault.RESTARTED
 
@@ -55,10 +58,10 @@ class LiveReading:
 
     value: float
     time: float
-    faults: Fault = Fault(0)
+    faults: Fault = NO_FAULT
     skipped: int = 0
     message: str = ""
-    conditions: Mapping[str, float] = field(default=NO_CONDITIONS)
+    conditions: Mapping[str, float] = field(default_factory=lambda: NO_CONDITIONS)
 
     @property
     def is_usable(self) -> bool:

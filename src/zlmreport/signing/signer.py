@@ -4,24 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, ExitStack, contextmanager, nullcontext
-from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeAlias
 
 from zlmreport.errors import AccessError, InputError, Place
 from zlmreport.signing.token_uri import SCHEME, TokenUri, parse_token_uri
 
-
-@dataclass(frozen=True, slots=True)
-class Signer:
-    """A key that is ready to sign, and the name on its certificate.
-
-    `sign` takes the bytes of a PDF, and what the signature is called in it for those who hear it read.
-    """
-
-    name: str
-    sign: Callable[[bytes, str], bytes]
+#: Takes the bytes of a PDF, and what the signature is called in it for those who hear it read; returns the
+#: signed PDF.
+Signer: TypeAlias = Callable[[bytes, str], bytes]
 
 
 @contextmanager
@@ -57,7 +49,7 @@ def open_signer(named: str, ask_password: Callable[[str], str], place: Place) ->
     else:
         opened = nullcontext(_in_file(Path(named), ask_password, place))
     with opened as key:
-        yield Signer(key.signing_cert.subject.human_friendly, Pades(key, place))
+        yield Pades(key, place)
 
 
 def _valid(key: Any, named: str, place: Place) -> Any:

@@ -21,22 +21,30 @@ expected. The kit needs no test framework.
 from zlmreport.testing.certificates import sample_certificate
 from zlmreport.testing.designs import full_designs
 from zlmreport.testing.effects import EFFECT_CHECKS, check_effect
+from zlmreport.testing.instruments import INSTRUMENT_CHECKS, check_instrument
 from zlmreport.testing.measurements import bidirectional_test, simulated_test
+from zlmreport.testing.motions import sample_motion
+from zlmreport.testing.part_programs import PART_PROGRAM_CHECKS, check_part_program
 from zlmreport.testing.renderers import RENDERER_CHECKS, check_renderer
 from zlmreport.testing.sources import SOURCE_CHECKS, check_source
 from zlmreport.testing.standards import STANDARD_CHECKS, check_standard
 
 __all__ = [
     "EFFECT_CHECKS",
+    "INSTRUMENT_CHECKS",
+    "PART_PROGRAM_CHECKS",
     "RENDERER_CHECKS",
     "SOURCE_CHECKS",
     "STANDARD_CHECKS",
     "bidirectional_test",
     "check_effect",
+    "check_instrument",
+    "check_part_program",
     "check_renderer",
     "check_source",
     "check_standard",
     "full_designs",
     "sample_certificate",
+    "sample_motion",
     "simulated_test",
 ]

@@ -137,7 +137,9 @@ def _blocks(evaluation: Evaluation, text: str) -> tuple[Block, ...]:
             text,
             (Column(Symbol("x̄_{i}↑"), "µm", Align.RIGHT), Column(text, align=Align.CENTRE), Column("")),
             (
-                RowGroup((("1.5", Explained(text, text), Verdict(Mark.MET, text)),), heading=text, note=text),
+                RowGroup(
+                    (("1.5", Explained(text, text), Verdict(Mark.MET, text)),), text, text, section="nothing"
+                ),
                 RowGroup((("−", Symbol("R_{i}"), Verdict(Mark.NOT_MET, text)),)),
                 RowGroup((("", "", Verdict(Mark.OPEN, text)),)),
             ),

@@ -48,7 +48,8 @@ class Budget:
 
     def share(self, contribution: Contribution) -> float:
         """Return the share of a contribution in the variance of such a reading, from 0 to 1."""
-        return contribution.standard_uncertainty**2 / self.standard_uncertainty**2
+        combined = self.standard_uncertainty
+        return (contribution.standard_uncertainty / combined) ** 2 if combined else 0.0
 
 
 @dataclass(frozen=True, slots=True)

@@ -54,7 +54,7 @@ def _quantiles(distribution: Distribution, probability: FloatArray) -> FloatArra
     """Return the quantiles of a distribution whose root mean square is 1."""
     full_range = distribution.range_over_standard_uncertainty
     if distribution is Distribution.NORMAL:
-        return np.array([NormalDist().inv_cdf(each) for each in probability.tolist()])
+        return np.array(list(map(NormalDist().inv_cdf, probability.tolist())))
     if distribution is Distribution.ONE_SIDED:
         return probability * full_range
     if distribution is Distribution.RECTANGULAR:

@@ -107,11 +107,14 @@ def _of_the_length(job: Job, set_up: SetUp) -> Iterator[Contribution]:
 
 
 def _fluctuations(job: Job, measurements: MeasurementSet) -> Iterator[Contribution]:
-    """Yield what each reading has of its own: the drift of the environment, and its last digit."""
+    """Yield what each reading has of its own: the drift of the environment, and its last digit.
+
+    Readings that were corrected have digits that the instrument never showed.
+    """
     unit = job.axis.deviation_unit
     keys = job.keys.uncertainty
     step, source = keys.resolution, wording.STATED
-    if step is None:
+    if step is None and not measurements.provenance.corrections:
         step, source = _last_digit(unit.from_si(measurements.deviation)), wording.LAST_DIGIT
     for key, full_range, origin in (
         ("environmental_variation", keys.environmental_variation, wording.DRIFT_AT_REST),

@@ -111,7 +111,7 @@ def _seed(measurements: MeasurementSet, readings: FloatArray) -> int:
 
 def _expanded(distances: FloatArray, least: float) -> Expanded:
     standard = math.sqrt(float(np.mean(distances**2)))
-    if standard < least:
+    if standard <= least:
         return Expanded(0.0, COVERAGE_FACTOR)
     rank = math.ceil(COVERAGE_PROBABILITY * len(distances)) - 1
     half_width = float(np.partition(distances, rank)[rank])

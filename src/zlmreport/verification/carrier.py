@@ -12,7 +12,8 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from zlmreport.certificate.attachments import LARGEST_TOTAL, MOST_ATTACHMENTS
-from zlmreport.errors import AccessError, InputError, Place, Problem
+from zlmreport.errors import AccessError, InputError, Place
+from zlmreport.verification.streams import TooLargeError, unpacked
 
 #: Of a PDF, in bytes; a certificate has some hundred thousand, and its attachments.
 LARGEST = 2 * LARGEST_TOTAL
@@ -55,22 +56,20 @@ class Carrier:
         The opened PDF, a `pypdf.PdfReader`.
     carried
         Its attachments, by name.
+    metadata
+        The entries of its information dictionary.
     """
 
     place: Place
     content: bytes = field(repr=False)
     reader: Any
     carried: dict[str, Carried]
+    metadata: dict[str, str]
 
     @property
     def creator(self) -> str:
         """The program that the PDF says it was made by."""
         return str(self.metadata.get("/Creator", ""))
-
-    @property
-    def metadata(self) -> dict[str, str]:
-        """The entries of the document's information dictionary."""
-        return {str(key): str(value) for key, value in (self.reader.metadata or {}).items()}
 
 
 def read_file(path: Path) -> bytes:
@@ -109,18 +108,19 @@ def opened(content: bytes, place: Place) -> Carrier:
 
 
 def guarded(read: Callable[[], Read], place: Place) -> Read:
-    """Return what is read from a PDF; whatever breaks on the way is said in one line."""
+    """Return what is read from a PDF and what it carries; whatever breaks on the way is said in one line."""
     logger = logging.getLogger("pypdf")
-    was_disabled, logger.disabled = logger.disabled, True
+    level = logger.level
+    logger.setLevel(logging.CRITICAL + 1)  # what it has to say of a damaged file is not for the terminal
     try:
         return read()
     except InputError:
         raise
     except Exception as error:  # a foreign file may break its reader in any way
         reason = " ".join(str(error).split())[:200] or type(error).__name__
-        raise InputError.at(place, f"is damaged, and cannot be read as a PDF: {reason}") from error
+        raise InputError.at(place, f"is damaged, and cannot be read as a certificate: {reason}") from error
     finally:
-        logger.disabled = was_disabled
+        logger.setLevel(level)
 
 
 def _opened(content: bytes, place: Place) -> Carrier:
@@ -132,18 +132,22 @@ def _opened(content: bytes, place: Place) -> Carrier:
     if len(reader.pages) > MOST_PAGES:
         raise InputError.at(place, f"has more than {MOST_PAGES} pages; no certificate has")
     carried: dict[str, Carried] = {}
-    size = 0
+    room = LARGEST_TOTAL
     for specification in _specifications(reader, place):
         if len(carried) == MOST_ATTACHMENTS:
             raise InputError.at(place, f"carries more than {MOST_ATTACHMENTS} files; no certificate does")
-        each = _carried(specification, place)
-        size += len(each.content)
-        if size > LARGEST_TOTAL:
-            raise _too_large(place)
+        try:
+            each = _carried(specification, room, place)
+        except TooLargeError as error:
+            raise InputError.at(
+                place, f"carries files of more than {LARGEST_TOTAL >> 20} MiB in all; no certificate does"
+            ) from error
+        room -= len(each.content)
         if each.name in carried:
             raise InputError.at(place, f"carries two files of the name {each.name!r}; no certificate does")
         carried[each.name] = each
-    return Carrier(place, content, reader, carried)
+    metadata = {str(key): str(value) for key, value in (reader.metadata or {}).items()}
+    return Carrier(place, content, reader, carried, metadata)
 
 
 def _specifications(reader: Any, place: Place) -> Iterator[Any]:
@@ -171,21 +175,16 @@ def _specifications(reader: Any, place: Place) -> Iterator[Any]:
             yield specification.get_object()
 
 
-def _carried(specification: Any, place: Place) -> Carried:
+def _carried(specification: Any, room: int, place: Place) -> Carried:
     name = str(specification.get("/UF") or specification.get("/F") or "")
     if _UNSAFE.search(name) or len(name) > _LONGEST_NAME:
         raise InputError.at(place, f"carries a file whose name is none: {name[:60]!a}")
     stream = specification["/EF"].get_object()["/F"].get_object()
-    parameters = stream.get("/Params", {}).get_object() if "/Params" in stream else {}
-    from pypdf.errors import LimitReachedError  # noqa: PLC0415 - loaded with the reader
-
-    try:
-        content = stream.get_data()
-    except LimitReachedError as error:
-        raise _too_large(place) from error
+    parameters = stream["/Params"].get_object() if "/Params" in stream else {}
+    content = unpacked(stream, room)
     return Carried(
         name,
-        content if isinstance(content, bytes) else content.encode("latin-1"),
+        content,
         str(specification.get("/AFRelationship", "")).removeprefix("/"),
         str(specification.get("/Desc", "")),
         str(stream.get("/Subtype", "")).removeprefix("/"),
@@ -199,9 +198,3 @@ def _hexadecimal(checksum: Any) -> str:
     with contextlib.suppress(AttributeError):
         return bytes(original).hex()
     return ""
-
-
-def _too_large(place: Place) -> InputError:
-    return InputError(
-        [Problem(place, f"carries files of more than {LARGEST_TOTAL >> 20} MiB in all; no certificate does")]
-    )

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any, TypeAlias
 
 from zlmreport.errors import InputError, Place
+from zlmreport.verification.streams import TooLargeError, unpacked
 
 #: An object of pypdf.
 PdfObject: TypeAlias = Any
@@ -101,13 +102,13 @@ class Fingerprints:
         """Return the digest of a stream's unpacked bytes."""
         key = id(stream)
         if key not in self._streams:
-            content = stream.get_data()
-            content = content if isinstance(content, bytes) else content.encode("utf-8", "replace")
-            self._size += len(content)
-            if self._size > _LARGEST:
+            try:
+                content = unpacked(stream, _LARGEST - self._size)
+            except TooLargeError as error:
                 raise InputError.at(
                     self._place, f"comes to more than {_LARGEST >> 20} MiB; no certificate does"
-                )
+                ) from error
+            self._size += len(content)
             self._streams[key] = hashlib.sha256(content).digest()
         return self._streams[key]
 

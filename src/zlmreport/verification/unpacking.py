@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import os
 import posixpath
 import tempfile
 from collections.abc import Iterator, Mapping, Sequence
@@ -13,6 +14,9 @@ from zlmreport.errors import Place, Problem, ZlmreportError
 from zlmreport.job.references import Enclosure, enclosed
 from zlmreport.verification.carrier import Carried
 from zlmreport.verification.stated import StatedSource
+
+#: Of a file system, in bytes.
+_LONGEST_NAME = 255
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,7 +65,7 @@ def laid_out(sources: Sequence[StatedSource], carried: Mapping[str, Carried]) ->
         files: dict[str, Path] = {}
         names: dict[str, str] = {}
         for number, source in enumerate(sources):
-            path = Path(folder, str(number), posixpath.basename(source.path) or source.name)
+            path = Path(folder, str(number), _file_name(source))
             path.parent.mkdir()
             names[str(path)] = source.name
             files.setdefault(posixpath.normpath(source.path), path)
@@ -71,6 +75,16 @@ def laid_out(sources: Sequence[StatedSource], carried: Mapping[str, Carried]) ->
         names[f"{nowhere}/"] = ""
         with enclosed(Enclosure(files, nowhere)):
             yield Layout(next(iter(files.values())), names)
+
+
+def _file_name(source: StatedSource) -> str:
+    """Return the name that a file had, for documents print it; another where no file can have that name."""
+    name = posixpath.basename(source.path)
+    try:
+        is_possible = len(os.fsencode(name)) <= _LONGEST_NAME and "\0" not in name
+    except UnicodeEncodeError:
+        is_possible = False
+    return name if is_possible and name not in {"", ".", ".."} else "file"
 
 
 def _position(place: Place) -> tuple[int, int]:

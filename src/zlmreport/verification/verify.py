@@ -15,7 +15,8 @@ from zlmreport.job.loading import load
 from zlmreport.plugins import Registry
 from zlmreport.protocols import Renderer, relationship_of
 from zlmreport.verification import files, numerals, pages, values
-from zlmreport.verification.carrier import Carrier, opened, read_file
+from zlmreport.verification.carrier import Carrier, guarded, opened, read_file
+from zlmreport.verification.digital import digital_findings
 from zlmreport.verification.findings import Finding, Identity, Verdict, Verification
 from zlmreport.verification.signature import signature_finding
 from zlmreport.verification.stated import Results, Stated, stated_by
@@ -47,7 +48,7 @@ class _Again:
     results: bytes
 
 
-def verify(path: Path, registry: Registry) -> Verification:
+def verify(path: Path, registry: Registry, dcc_schema: Path | None = None) -> Verification:
     """Verify a certificate.
 
     Parameters
@@ -56,6 +57,8 @@ def verify(path: Path, registry: Registry) -> Verification:
         A PDF that this program made, signed or not.
     registry
         The plugins that evaluate and print again.
+    dcc_schema
+        A folder with PTB's schema, to check an attached digital certificate by it and by PTB's rules.
 
     Raises
     ------
@@ -83,14 +86,24 @@ def verify(path: Path, registry: Registry) -> Verification:
     with laid_out(sources, carrier.carried) as layout:
         try:
             again = _again(layout.job, carrier, registry)
-        except ZlmreportError as error:
-            problems = layout.problems(error)
+        except Exception as error:  # what anyone sent may break anything that it is handed to
+            ended = error if isinstance(error, ZlmreportError) else _unforeseen(carrier.place, error)
+            problems = layout.problems(ended)
             compared = files.compare(sources, carrier.carried, None)
             if all(finding.verdict is not Verdict.DIFFERS for finding in compared):
-                raise type(error)(problems) from error
+                raise type(ended)(problems) from error
             reason = f"cannot be evaluated again: {'; '.join(map(str, problems))}"
             return replace(found, files=(*compared, Finding("readings", Verdict.DIFFERS, reason)))
-    return _compared(found, carrier, stated, again)
+    complete = _compared(found, carrier, stated, again)
+    if dcc_schema is None:
+        return complete
+    digital = digital_findings(carrier.carried, dcc_schema)
+    return replace(complete, files=(*complete.files, *digital))
+
+
+def _unforeseen(place: Place, error: Exception) -> ZlmreportError:
+    reason = " ".join(f"{type(error).__name__}: {error}".split())[:300]
+    return InputError.at(place, f"cannot be evaluated again: {reason}")
 
 
 def _identity(results: Results) -> Identity:
@@ -100,11 +113,13 @@ def _identity(results: Results) -> Identity:
 
 def _again(job_path: Path, carrier: Carrier, registry: Registry) -> _Again:
     """Load the attached job, evaluate it, and print it with all that the document carries."""
-    printer = registry.renderer(PRINTED)
+    results, printer = registry.renderer(pipeline.RESULTS), registry.renderer(PRINTED)
     job = load(job_path, registry, formats=(PRINTED,))
     certificate = pipeline.compose(job, registry)
-    carried = [each for each in registry.renderers if _is_carried(each, certificate, carrier)]
-    contents = pipeline.render(certificate, [*carried, printer], registry)
+    others = [
+        each for each in registry.renderers if each is not results and _is_carried(each, certificate, carrier)
+    ]
+    contents = pipeline.render(certificate, [results, *others, printer], registry)
     return _Again(
         certificate,
         (GENERATOR, registry.versions(job)),
@@ -125,7 +140,10 @@ def _compared(found: Verification, carrier: Carrier, stated: Stated, again: _Aga
     found = replace(
         found,
         files=files.compare(provenance.sources, carrier.carried, again.carrier.carried),
-        values=values.compare(stated.tree, json.loads(again.results), same_programs=by_same_programs),
+        values=guarded(
+            lambda: values.compare(stated.tree, json.loads(again.results), same_programs=by_same_programs),
+            carrier.place,
+        ),
     )
     if not by_same_programs:
         generator, plugins = again.programs

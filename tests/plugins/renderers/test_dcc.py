@@ -11,8 +11,8 @@ from typing import Any
 from xml.etree import ElementTree as ET
 
 import pytest
-from tests.certificate.documents import COMPLETE, certificate
 
+from certificate.documents import COMPLETE, certificate
 from zlmreport.certificate.document import Certificate
 from zlmreport.errors import InputError
 from zlmreport.evaluation.conformity import Conformity, Decision
@@ -41,6 +41,10 @@ REPLACING: Mapping[str, Any] = {
         "amends": {"number": "CAL-0", "reason": "Wrong serial number.", "kind": "replacement"},
     },
 }
+REPAIRED: Mapping[str, Any] = {
+    **KEYS,
+    "as_found": {"work": "repair", "adjustment": "New nut.", "measurement": KEYS["measurement"]},
+}
 ROTARY: Mapping[str, Any] = {**KEYS, "axis": {"name": "C", "kind": "rotary"}}
 
 
@@ -63,7 +67,9 @@ def values(root: ET.Element) -> Iterator[tuple[str, float, str]]:
 
 
 @pytest.mark.parametrize(
-    "keys", [KEYS, GERMAN, REPLACING, ROTARY], ids=["english", "german", "replacement", "rotary"]
+    "keys",
+    [KEYS, GERMAN, REPLACING, ROTARY, REPAIRED],
+    ids=["english", "german", "replacement", "rotary", "repaired"],
 )
 class TestValid:
     """Against the independent checks of PTB."""
@@ -208,6 +214,23 @@ def test_its_language_is_that_of_the_certificate(tmp_path):
 
     assert text(root, ".//dcc:usedLangCodeISO639_1") == "de"
     assert {each.get("lang") for each in root.iterfind(".//dcc:content", NAMES)} == {"de", None}
+
+
+def test_an_axis_as_found_and_as_left_is_told_apart_by_its_state(tmp_path):
+    root = document(tmp_path, REPAIRED)
+    states = [
+        text(each, "dcc:influenceConditions/dcc:influenceCondition/dcc:status")
+        for each in root.iterfind(".//dcc:measurementResult", NAMES)
+    ]
+
+    assert states == ["beforeRepair", "afterRepair"]
+
+
+def test_the_place_of_work_is_the_one_on_the_cover(tmp_path):
+    inside = {**KEYS, "location": {"kind": "laboratory"}}
+
+    assert text(document(tmp_path), ".//dcc:performanceLocation") == "customer"
+    assert text(document(tmp_path, inside), ".//dcc:performanceLocation") == "laboratory"
 
 
 def test_everything_that_a_dcc_must_state_is_demanded_at_once(tmp_path):

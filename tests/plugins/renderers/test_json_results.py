@@ -7,6 +7,7 @@ import math
 from dataclasses import replace
 from functools import cache, partial
 from importlib.resources import files
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -15,6 +16,7 @@ from jsonschema import Draft202012Validator
 
 from typesetting import samples
 from uncertainty.budgets import contribution
+from zlmreport.certificate.attachments import Role, Source
 from zlmreport.certificate.document import Certificate
 from zlmreport.evaluation.decision import decided, decision_rule
 from zlmreport.job.options import Options
@@ -22,6 +24,7 @@ from zlmreport.language import Language, Words
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.axis import AxisKind
 from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.measurement.provenance import SourceFile
 from zlmreport.uncertainty.budget import Budget, NoBudget
 from zlmreport.uncertainty.contribution import Acts, Distribution
 from zlmreport.uncertainty.expanded import with_uncertainty
@@ -300,3 +303,19 @@ def test_what_breaks_the_schema_is_noticed(change: dict[str, Any], complaint: st
 def violations(value: Any) -> set[str]:
     """Return the paths at which a results file breaks its schema."""
     return {error.json_path for error in Draft202012Validator(SCHEMA).iter_errors(value)}
+
+
+def test_every_file_that_it_was_made_from_is_named_with_its_role_path_and_digest() -> None:
+    file = SourceFile.of(Path("shared/laboratory.yaml"), b"laboratory: {}\n")
+    source = Source(Role.EXTENDED, "laboratory.yaml", "../shared/laboratory.yaml", file)
+    certificate = replace(samples.certificate(standards=0), sources=(source,))
+    assert render(certificate)["provenance"]["sources"] == [
+        {
+            "role": "extended",
+            "name": "laboratory.yaml",
+            "path": "../shared/laboratory.yaml",
+            "sha256": file.sha256,
+            "size": 15,
+        }
+    ]
+    Draft202012Validator(SCHEMA).validate(render(certificate))

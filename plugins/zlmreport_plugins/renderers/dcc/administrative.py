@@ -8,8 +8,8 @@ from xml.etree import ElementTree as ET
 
 from zlmreport.certificate.document import Certificate
 from zlmreport.certificate.identity import lines as address_lines
+from zlmreport.certificate.place import place_of_work
 from zlmreport.errors import InputError, Problem
-from zlmreport.job.document_keys import Location
 from zlmreport.job.job import Job
 from zlmreport.job.model import Customer, Laboratory
 from zlmreport.language import Language, Words
@@ -112,6 +112,7 @@ def _core_data(certificate: Certificate, job: Job) -> ET.Element:
     assert begin is not None  # noqa: S101 - what is missing was refused before
     assert keys.laboratory is not None  # noqa: S101 - likewise
     end = keys.measurement.end or begin
+    place = place_of_work(keys)
     received, issued = keys.dates.received, certificate.issued
     language = certificate.language.value
     amended = keys.certificate.amends
@@ -124,7 +125,7 @@ def _core_data(certificate: Certificate, job: Job) -> ET.Element:
         dcc("receiptDate", received.isoformat()) if received else None,
         dcc("beginPerformanceDate", begin.isoformat()),
         dcc("endPerformanceDate", end.isoformat()),
-        dcc("performanceLocation", _place(keys.location)),
+        dcc("performanceLocation", _PLACES.get(place.kind, "other") if place else "other"),
         dcc("issueDate", issued.isoformat()) if issued else None,
         dcc(
             "reportAmendedSubstituted",
@@ -134,13 +135,6 @@ def _core_data(certificate: Certificate, job: Job) -> ET.Element:
         if amended
         else None,
     )
-
-
-def _place(location: Location | str | None) -> str:
-    """Return whose place it was: the customer's, where the job says nothing else, as on the cover."""
-    if location is None:
-        return "customer"
-    return "other" if isinstance(location, str) else _PLACES.get(location.kind, "other")
 
 
 def _item(job: Job, writer: Writer) -> ET.Element:

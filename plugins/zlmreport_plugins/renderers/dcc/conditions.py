@@ -50,6 +50,11 @@ _CONDITIONS = {
         "",
     ),
 }
+_STATE = Words(en="State of the axis", de="Zustand der Achse")
+_STATES = {
+    "before": Words(en="as found", de="wie vorgefunden"),
+    "after": Words(en="as left", de="wie hinterlassen"),
+}
 _REMARKS = Words(en="Remarks on the environment", de="Bemerkungen zur Umgebung")
 _CALIBRATION = Words(en="Calibration certificate: {number}", de="Kalibrierschein: {number}")
 _SERIAL = Words(en="Serial number", de="Seriennummer")
@@ -80,6 +85,28 @@ def equipment(job: Job, writer: Writer) -> ET.Element | None:
         )
         if instrument.serial
         else None,
+    )
+
+
+def state(when: str, work: str | None, writer: Writer) -> ET.Element | None:
+    """Return whether the axis was measured before or after an adjustment or repair; None without one.
+
+    Parameters
+    ----------
+    when
+        ``before`` or ``after``.
+    work
+        ``adjustment`` or ``repair``.
+    writer
+        In the certificate's language.
+    """
+    if work is None:
+        return None
+    return dcc(
+        "influenceCondition",
+        writer.named("name", _STATE),
+        dcc("status", f"{when}{work.capitalize()}"),
+        dcc("data", dcc("text", writer.content(_STATES[when]))),
     )
 
 

@@ -17,7 +17,7 @@ from zlmreport.language import Words
 from zlmreport.measurement.approach import Approach
 from zlmreport.quantities.arrays import FloatArray
 from zlmreport_plugins.renderers.dcc.administrative import Writer, software
-from zlmreport_plugins.renderers.dcc.conditions import equipment, influences
+from zlmreport_plugins.renderers.dcc.conditions import equipment, influences, state
 from zlmreport_plugins.renderers.dcc.quantities import quantity, real, real_list, unit_of
 from zlmreport_plugins.renderers.dcc.xml import dcc, group
 
@@ -61,16 +61,27 @@ _CONFORMITY = {
 
 
 def measurement_results(certificate: Certificate, job: Job) -> ET.Element:
-    """Return the results by every standard of the job."""
+    """Return the results by every standard of the job: as found, where there are such, and as left."""
     writer = Writer(certificate.language)
-    return dcc(
-        "measurementResults",
-        *(_measurement_result(each, certificate, job, writer) for each in certificate.evaluations),
+    found = job.as_found
+    work = job.keys.as_found.work if job.keys.as_found else None
+    before = (
+        [
+            _measurement_result(each, certificate, found, state("before", work, writer), writer)
+            for each in certificate.evaluations_as_found
+        ]
+        if found
+        else []
     )
+    after = [
+        _measurement_result(each, certificate, job, state("after", work, writer), writer)
+        for each in certificate.evaluations
+    ]
+    return dcc("measurementResults", *before, *after)
 
 
 def _measurement_result(
-    evaluation: Evaluation, certificate: Certificate, job: Job, writer: Writer
+    evaluation: Evaluation, certificate: Certificate, job: Job, condition: ET.Element | None, writer: Writer
 ) -> ET.Element:
     name = _RESULTS.given(axis=job.axis.name, designation=evaluation.designation)
     return dcc(
@@ -82,7 +93,7 @@ def _measurement_result(
         ),
         dcc("usedSoftware", software(certificate, writer)),
         group("measuringEquipments", equipment(job, writer)),
-        group("influenceConditions", *influences(job, writer)),
+        group("influenceConditions", condition, *influences(job, writer)),
         dcc(
             "results",
             dcc(

@@ -1,0 +1,1 @@
+"""The live instruments that come with zlmreport."""

@@ -1,0 +1,15 @@
+"""Instrument ``nd28x``: HEIDENHAIN position displays."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from zlmreport.hookspecs import hookimpl
+from zlmreport.protocols import Instrument
+from zlmreport_plugins.instruments.nd28x.instrument import Nd28x
+
+
+@hookimpl
+def zlmreport_instruments() -> Iterable[Instrument]:
+    """Return the displays."""
+    return [Nd28x()]

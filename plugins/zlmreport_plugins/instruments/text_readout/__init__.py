@@ -1,0 +1,15 @@
+"""Instrument ``text-readout``: any readout that prints a number a line."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from zlmreport.hookspecs import hookimpl
+from zlmreport.protocols import Instrument
+from zlmreport_plugins.instruments.text_readout.instrument import TextReadout
+
+
+@hookimpl
+def zlmreport_instruments() -> Iterable[Instrument]:
+    """Return the readout."""
+    return [TextReadout()]

@@ -1,0 +1,147 @@
+"""What a µMD says of itself and of the air, one number a line, over and over.
+
+A line has no checksum, and a wrong rate or count would spoil every reading after it. So nothing is believed
+that was not said twice alike.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+
+from zlmreport.live.reading import NO_CONDITIONS
+from zlmreport.measurement.reading_units import CELSIUS, PERCENT
+from zlmreport_plugins.instruments.umd.frame import Code, Frame
+from zlmreport_plugins.instruments.umd.models import Model
+
+_ABSENT = -1
+#: From this firmware on a µMD2 sends the phase in 16 bits, unless the flag says 8.
+_FIRST_WITH_16_BITS, _FLAG_8_BITS = 261, 2
+#: How far two values in turn may differ, in the units of the channel: 1 K, 10 hPa, 5 %.
+_MAY_DIFFER: Mapping[int, int] = {
+    Code.TEMPERATURE_1: 100,
+    Code.TEMPERATURE_2: 100,
+    Code.PRESSURE: 1000,
+    Code.HUMIDITY: 50,
+}
+#: What was not said in so many turns, each time alike, is not said.
+_TURNS = 2
+
+
+@dataclass(frozen=True, slots=True)
+class Counting:
+    """How a display counts.
+
+    Attributes
+    ----------
+    rate
+        Samples a second, 1/s.
+    per_cycle
+        Counts per optical cycle.
+    phase_steps
+        Into how many parts the phase divides a count.
+    is_homodyne
+        Whether it counts the signals of a homodyne interferometer, which has no reference.
+    """
+
+    rate: float
+    per_cycle: int
+    phase_steps: int
+    is_homodyne: bool
+
+
+class LowSpeed:
+    """Listens to the low-speed channel.
+
+    Parameters
+    ----------
+    model
+        The display that should be talking.
+    temperatures
+        The names of what its two temperature sensors measure.
+    """
+
+    def __init__(self, model: Model, temperatures: tuple[str, str]) -> None:
+        self._model = model
+        self._names: Mapping[int, str] = {
+            Code.TEMPERATURE_1: temperatures[0],
+            Code.TEMPERATURE_2: temperatures[1],
+            Code.PRESSURE: "air_pressure",
+            Code.HUMIDITY: "relative_humidity",
+        }
+        self._said: dict[int, int] = {}
+        self._believed: dict[int, int] = {}
+        self._lines = 0
+        self.conditions: Mapping[str, float] = NO_CONDITIONS
+
+    def hear(self, frame: Frame) -> None:
+        """Take note of what a line says."""
+        self._lines += 1
+        code, data = frame.code, frame.data
+        if code == Code.NONE:
+            return
+        before = self._said.get(code)
+        self._said[code] = data
+        if before is None or abs(data - before) > _MAY_DIFFER.get(code, 0):
+            return
+        changed = self._believed.get(code) != data
+        self._believed[code] = data
+        if changed and code in self._names:
+            self.conditions = self._conditions()
+
+    @property
+    def turns(self) -> int:
+        """How often the channel has come round."""
+        return self._lines // self._model.slots
+
+    @property
+    def lacks(self) -> str:
+        """What no reading can be formed without and has not been said; empty if nothing is."""
+        if Code.SAMPLE_RATE not in self._believed:
+            return "its sample rate (code 8)"
+        if self._model.announces_counting and Code.COUNTING not in self._believed:
+            return "how it counts (code 20)"
+        return ""
+
+    @property
+    def is_complete(self) -> bool:
+        """Whether all has been said that there is: of flags none is sent by an older firmware."""
+        return not self.lacks and self.turns >= _TURNS
+
+    @property
+    def contradicts(self) -> bool:
+        """Whether it says what the display that it should be never says."""
+        return not self._model.announces_counting and Code.COUNTING in self._believed
+
+    def counting(self) -> Counting | None:
+        """Return how the display counts; None as long as not enough has been said."""
+        if not self.is_complete:
+            return None
+        said = self._believed
+        announced = said.get(Code.COUNTING, 1 << 8)
+        release = said.get(Code.FIRMWARE, 0) & 0xFFFF
+        is_new = self._model.identifier == "umd2" and release >= _FIRST_WITH_16_BITS
+        has_8_bits = said.get(Code.FLAGS, 0) & _FLAG_8_BITS
+        return Counting(
+            rate=said[Code.SAMPLE_RATE] / 100,
+            per_cycle=max(1, announced >> 8),
+            phase_steps=65_536 if is_new and not has_8_bits else 256,
+            is_homodyne=bool(announced & 0xFF),
+        )
+
+    def _conditions(self) -> Mapping[str, float]:
+        found = {}
+        for code, name in self._names.items():
+            said = self._believed.get(code, _ABSENT)
+            if said != _ABSENT:
+                found[name] = _SI[code](said)
+        return MappingProxyType(found)
+
+
+_SI: Mapping[int, Callable[[int], float]] = {
+    Code.TEMPERATURE_1: lambda said: CELSIUS.to_si(said / 100),
+    Code.TEMPERATURE_2: lambda said: CELSIUS.to_si(said / 100),
+    Code.PRESSURE: float,
+    Code.HUMIDITY: lambda said: PERCENT.to_si(said / 10),
+}

@@ -1,0 +1,198 @@
+"""The motion of a planned test, as a control is to carry it out: what part programs are written from."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from zlmreport.errors import InputError, Place
+from zlmreport.foresight.targets import in_users_unit
+from zlmreport.measurement.approach import Approach
+from zlmreport.measurement.axis import Axis
+from zlmreport.planning.methods import Method, path
+from zlmreport.planning.visits import visits
+from zlmreport.simulation.description import Plan
+
+_SECONDS_PER_MINUTE = 60.0
+#: Feed, mm/min or °/min, and dwell, s.
+_LEAST_RATE = 0.001
+
+
+@dataclass(frozen=True, slots=True)
+class Reading:
+    """A reading that is taken while the axis stands at a target.
+
+    Attributes
+    ----------
+    number
+        In the order of the test, from 1.
+    target
+        Number of the target, from 1.
+    approach
+        The direction in which the axis must come there.
+    run
+        Number of the run, from 1.
+    """
+
+    number: int
+    target: int
+    approach: Approach
+    run: int
+
+
+@dataclass(frozen=True, slots=True)
+class ProgramStop:
+    """A point at which the axis stops: to be read, or to turn round.
+
+    Attributes
+    ----------
+    position
+        mm or °.
+    reading
+        What is read there; None where the axis only turns round.
+    """
+
+    position: float
+    reading: Reading | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Motion:
+    """The motion of a planned test.
+
+    Attributes
+    ----------
+    number
+        Of the job.
+    axis
+        The axis under test.
+    method
+        The positioning method.
+    runs
+        How often each target is read in each direction.
+    targets
+        Target positions, rising, mm or °.
+    stops
+        Where the axis stops, in this order.
+    overrun
+        How far beyond a target it turns round, mm or °.
+    feed
+        Of all motion, mm/min or °/min.
+    dwell
+        Time at rest at a target, s.
+    place
+        Where the part program is asked for: for messages about what it cannot do.
+    """
+
+    number: str
+    axis: Axis
+    method: Method
+    runs: int
+    targets: tuple[float, ...]
+    stops: tuple[ProgramStop, ...]
+    overrun: float
+    feed: float
+    dwell: float
+    place: Place
+
+    def in_decimals(self, decimals: int) -> Motion:
+        """Return the motion as a control carries it out that takes so many digits after the point.
+
+        Turning points are rounded; a stop at which nothing is read and to which nothing moves is left out.
+
+        Raises
+        ------
+        InputError
+            If a target needs more digits, for then the control would go to another one than is evaluated;
+            or if a reading would not be approached from its stated side, for want of an overrun that the
+            control can tell from nothing.
+        """
+        for number, target in enumerate(self.targets, start=1):
+            if round(target, decimals) != target:
+                raise InputError.at(
+                    self.place,
+                    f"target {number}, {target:.12g} {self._unit}, has more than the {decimals} digits after "
+                    "the point that are programmed; state more in the program's key decimals, if the control "
+                    "takes them, or fewer in plan.targets.positions",
+                )
+        rounded = (replace(stop, position=round(stop.position, decimals) + 0.0) for stop in self.stops)
+        return replace(self, stops=tuple(self._from_their_sides(_moving(rounded), decimals)))
+
+    def _from_their_sides(self, stops: Iterable[ProgramStop], decimals: int) -> Iterator[ProgramStop]:
+        """Yield stops; refuse a reading that no motion in its direction leads to."""
+        before = None
+        for stop in stops:
+            step = 0.0 if before is None else stop.position - before
+            if stop.reading is not None and step * stop.reading.approach <= 0:
+                raise InputError.at(
+                    self.place,
+                    f"with {decimals} digits after the point, an overrun of {self.overrun:.12g} {self._unit} "
+                    "leaves no approach; state a larger plan.overrun",
+                )
+            yield stop
+            before = stop.position
+
+    @property
+    def _unit(self) -> str:
+        return self.axis.position_unit.symbol
+
+
+def _moving(stops: Iterable[ProgramStop]) -> Iterator[ProgramStop]:
+    """Yield stops without those that the axis has reached already and where nothing is read."""
+    before = None
+    for stop in stops:
+        if stop.reading is not None or stop.position != before:
+            yield stop
+        before = stop.position
+
+
+def motion_of(number: str, axis: Axis, plan: Plan, place: Place) -> Motion:
+    """Return the motion of a plan.
+
+    Parameters
+    ----------
+    number
+        Of the job.
+    axis
+        The axis under test.
+    plan
+        Targets, method, runs, overrun, feed and dwell, in SI.
+    place
+        Where the part program is asked for.
+
+    Raises
+    ------
+    InputError
+        If the feed or the dwell is too small for any control.
+    """
+    feed = axis.position_unit.from_si(plan.feed) * _SECONDS_PER_MINUTE
+    for key, value in (("measurement.feed", feed), ("measurement.dwell", plan.dwell)):
+        if value < _LEAST_RATE:
+            message = f"{key}: {value:.6g} is less than can be programmed; state {_LEAST_RATE:g} or more"
+            raise InputError.at(place, message)
+    stops = path(plan.method, plan.targets.tolist(), plan.runs, plan.overrun)
+    positions = in_users_unit(axis, np.array([stop.position for stop in stops]))
+    targets = in_users_unit(axis, plan.targets)
+    readings = (
+        Reading(count, visit.target + 1, visit.approach, visit.run)
+        for count, visit in enumerate(visits(stops), start=1)
+    )
+    return Motion(
+        number=number,
+        axis=axis,
+        method=plan.method,
+        runs=plan.runs,
+        targets=tuple(targets),
+        stops=tuple(
+            ProgramStop(position)
+            if stop.target is None
+            else ProgramStop(targets[stop.target], next(readings))
+            for stop, position in zip(stops, positions, strict=True)
+        ),
+        overrun=in_users_unit(axis, np.array([plan.overrun]))[0],
+        feed=feed,
+        dwell=plan.dwell,
+        place=place,
+    )

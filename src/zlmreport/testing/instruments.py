@@ -1,0 +1,245 @@
+"""What every live instrument must do, tried against its own emulator.
+
+The emulator is put on a socket of this computer, so no hardware is needed; a check takes some seconds.
+"""
+
+from __future__ import annotations
+
+import socket
+import threading
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from itertools import islice
+from typing import Any
+
+from zlmreport.emulation.axis import MovingAxis
+from zlmreport.emulation.channels import LocalSocket
+from zlmreport.emulation.emulator import Scene
+from zlmreport.emulation.faults import Planned, Trouble, Troubles
+from zlmreport.emulation.serve import serve
+from zlmreport.errors import AccessError, ZlmreportError
+from zlmreport.live.reading import LiveReading
+from zlmreport.protocols import Instrument
+from zlmreport.testing.expectations import (
+    expect,
+    expect_identifier,
+    expect_members,
+    expect_options,
+    expect_own_keys,
+    expect_words,
+    run_all,
+)
+
+_CORE_KEYS = frozenset({"plugin"})
+#: By how much emulated time is faster than that of the checks.
+_HASTE = 5.0
+#: How far the axis of the checks goes, m, and how long it rests, emulated s.
+_STEP, _DWELL = 0.01, 2.0
+#: No instrument that calibrates an axis resolves less, m.
+_COARSEST = 1e-6
+#: When something goes wrong, emulated s from the start: by then every instrument has begun.
+_TROUBLE_AT = 6.0
+#: How long a check watches, s, and how long an instrument may take to notice that it is alone.
+_WATCHED, _PATIENCE = 1.6, 20.0
+
+
+def is_named(instrument: Instrument) -> None:
+    """Check that it has an identifier that can be typed, and a title in every language."""
+    expect_members(instrument, Instrument)
+    expect_identifier(instrument.identifier, repr(instrument))
+    expect_words(instrument.title, f"{instrument.identifier}: title")
+
+
+def options_are_described(instrument: Instrument) -> None:
+    """Check that its keys are described, that a port is one of them, and that nothing else is required."""
+    expect_options(instrument.options, instrument.identifier)
+    expect_own_keys(instrument.options, _CORE_KEYS, instrument.identifier)
+    fields = instrument.options.model_fields
+    expect("port" in fields, f"{instrument.identifier}: there is no key 'port'")
+    required = sorted(name for name, field in fields.items() if field.is_required() and name != "port")
+    expect(not required, f"{instrument.identifier}: keys {', '.join(required)} need defaults")
+
+
+def follows_the_axis(instrument: Instrument) -> None:
+    """Check that readings go where the axis goes, and are sound, in order and stamped with their arrival."""
+    name = instrument.identifier
+    with _emulated(instrument) as port:
+        readings = _watched(instrument, port)
+    faulty = [reading for reading in readings if not reading.is_usable]
+    expect(readings, f"{name}: there were no readings")
+    expect(not faulty, f"{name}: nothing is wrong, and yet: {faulty[:1]}")
+    values = [reading.value for reading in readings]
+    span = max(values) - min(values)
+    expect(
+        abs(span - _STEP) < _COARSEST,
+        f"{name}: the axis goes {_STEP} m to and fro, the readings {span} m (SI is expected)",
+    )
+    times = [reading.time for reading in readings]
+    expect(times == sorted(times), f"{name}: times of arrival must not go back")
+    expect(abs(times[-1] - time.monotonic()) < _PATIENCE, f"{name}: time must be that of time.monotonic")
+
+
+def sign_turns_it_round(instrument: Instrument) -> None:
+    """Check that the sign, if there is such a key, is applied to the readings."""
+    if "sign" not in instrument.options.model_fields:
+        return
+    for sign, direction in (("+", 1), ("-", -1)):
+        with _emulated(instrument, MovingAxis(drift=_STEP)) as port:
+            readings = _watched(instrument, port, sign=sign)
+        moved = readings[-1].value - readings[0].value
+        expect(
+            moved * direction > 0,
+            f"{instrument.identifier}: the axis goes up, and with sign '{sign}' readings go by {moved} m",
+        )
+
+
+def no_wrong_reading_is_usable(instrument: Instrument) -> None:
+    """Check that whatever goes wrong, what is called usable is right until the zero is called lost."""
+    for trouble in ((Trouble.SKIPPED, Trouble.ERROR), (Trouble.LOST_BEAM,)):
+        with _emulated(instrument, MovingAxis(), *trouble) as port:
+            for reading in _watched(instrument, port):
+                if reading.loses_zero:
+                    break
+                if reading.is_usable:
+                    expect(
+                        abs(reading.value) < _COARSEST,
+                        f"{where}: the axis rests at 0, and {reading.value} m is called usable",
+                    )
+                else:
+                    expect(
+                        reading.message,
+                        f"{where}: a reading is void, and no message says why",
+                    )
+
+
+def notices_the_cable(instrument: Instrument) -> None:
+    """Check that readings end with an `AccessError` when the instrument is unplugged."""
+    with _emulated(instrument, None, Trouble.UNPLUGGED) as port:
+        _expect_end(instrument, port, "it was unplugged")
+
+
+def refuses_silence(instrument: Instrument) -> None:
+    """Check that a port at which nothing speaks ends with an `AccessError`."""
+    with socket.create_server(("127.0.0.1", 0)) as silent:
+        _expect_end(instrument, f"socket://127.0.0.1:{silent.getsockname()[1]}", "nothing speaks")
+
+
+def refuses_another_device(instrument: Instrument) -> None:
+    """Check that what another device sends ends with an `AccessError`."""
+    with _served(_Babble(), Troubles()) as port:
+        _expect_end(instrument, port, "another device speaks")
+
+
+def refuses_a_port_that_is_not_there(instrument: Instrument) -> None:
+    """Check that a port that is not there, and a word that is none, are refused."""
+    for port in ("/dev/there-is-no-such-port", "socket://127.0.0.1:1", "no-such-scheme://x"):
+        _expect_end(instrument, port, f"there is no port {port}")
+
+
+def _expect_end(instrument: Instrument, port: str, why: str) -> None:
+    where = f"{instrument.identifier}: {why}"
+    until = time.monotonic() + _PATIENCE
+    try:
+        with instrument.open(instrument.options.model_validate({"port": port})) as connection:
+            for reading in connection.readings():
+                late = time.monotonic() > until
+                expect(not late, f"{where}, and it still reads after {_PATIENCE:g} s: {reading}")
+    except ZlmreportError as error:
+        if "no-such-scheme" not in port:
+            expect(isinstance(error, AccessError), f"{where}: {error!r}; an AccessError is expected")
+        places = {problem.place.file for problem in error.problems}
+        expect(places == {port}, f"{where}: the message does not name the port: {error}")
+    except AssertionError:
+        raise
+    except Exception as error:
+        message = f"{where}: {error!r}; an AccessError with the port as its place is expected"
+        raise AssertionError(message) from error
+
+
+def _watched(instrument: Instrument, port: str, **keys: Any) -> list[LiveReading]:
+    """Return the readings of some time; the time to begin comes on top."""
+    options = instrument.options.model_validate({"port": port, **keys})
+    with instrument.open(options) as connection:
+        readings = connection.readings()
+        found = list(islice(readings, 1))
+        until = time.monotonic() + _WATCHED
+        for reading in readings:
+            found.append(reading)
+            if time.monotonic() > until:
+                return found
+    return found
+
+
+class _Babble:
+    """A device that sends text without an end."""
+
+    def unasked(self, _time: float) -> bytes:
+        return b"Good morning, I am a modem. \x00\xff"
+
+    def answer(self, _data: bytes, _time: float) -> bytes:
+        return b"What? OK? \x80"
+
+
+@contextmanager
+def _emulated(instrument: Instrument, axis: MovingAxis | None = None, *trouble: Trouble) -> Iterator[str]:
+    """Put its emulator on a socket; yield the port."""
+    troubles = Troubles([Planned(each, _TROUBLE_AT + after) for after, each in enumerate(trouble)])
+    moving = axis or MovingAxis((0.0, _STEP), feed=_STEP, dwell=_DWELL)
+    with _served(instrument.emulator(Scene(moving, troubles)), troubles) as port:
+        yield port
+
+
+@contextmanager
+def _served(emulator: Any, troubles: Troubles) -> Iterator[str]:
+    ended = threading.Event()
+    channel = LocalSocket()
+
+    def run() -> None:
+        with channel:
+            serve(
+                emulator,
+                channel,
+                troubles,
+                is_over=ended.is_set,
+                clock=lambda: _HASTE * time.monotonic(),
+            )
+
+    thread = threading.Thread(target=run)
+    thread.start()
+    try:
+        yield channel.address
+    finally:
+        ended.set()
+        thread.join()
+
+
+#: Every check of an instrument, each called with it.
+INSTRUMENT_CHECKS = (
+    is_named,
+    options_are_described,
+    follows_the_axis,
+    sign_turns_it_round,
+    no_wrong_reading_is_usable,
+    notices_the_cable,
+    refuses_silence,
+    refuses_another_device,
+    refuses_a_port_that_is_not_there,
+)
+
+
+def check_instrument(instrument: Instrument) -> None:
+    """Run every check on a live instrument.
+
+    Parameters
+    ----------
+    instrument
+        The object that the plugin's hook returns.
+
+    Raises
+    ------
+    AssertionError
+        With a line for every check that fails.
+    """
+    is_named(instrument)
+    run_all(INSTRUMENT_CHECKS, instrument)

@@ -1,0 +1,212 @@
+"""What every writer of part programs must do.
+
+The checks need an interpreter of its language: a function from the text of a program to the stops of the axis
+that runs it. So every reading is seen to be approached from its stated side, whatever the syntax.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from typing import Any, TypeAlias
+
+from zlmreport.errors import InputError
+from zlmreport.foresight.motion import Motion
+from zlmreport.measurement.axis import Axis, AxisKind
+from zlmreport.planning.methods import Method
+from zlmreport.protocols import PartProgram
+from zlmreport.testing.expectations import (
+    expect,
+    expect_identifier,
+    expect_members,
+    expect_options,
+    expect_own_keys,
+    expect_words,
+    run_all,
+)
+from zlmreport.testing.motions import NUMBER, PLACE, sample_motion
+
+#: From the text of a program to the stops: the position, mm or °, and the time at rest there, s.
+Interpreter: TypeAlias = Callable[[str], Sequence[tuple[float, float]]]
+
+_CORE_KEYS = frozenset({"program"})
+_SUFFIX = re.compile(r"\.[a-z0-9]+(\.[a-z0-9]+)*")
+_LONGEST_LINE = 200
+#: Names that would become commands if they were taken as they are.
+_HOSTILE = ("X) G0 X9999 (", "X\nG0 X9999\n", "X;G0 X9999", "MSG,%\rM3 S9999", "Ä" * 300)
+
+
+def is_named(program: PartProgram, _interpreter: Interpreter, _keys: Mapping[str, Any]) -> None:
+    """Check that it has an identifier that can be typed, a title in every language, and a file suffix."""
+    expect_members(program, PartProgram)
+    expect_identifier(program.identifier, repr(program))
+    expect_words(program.title, f"{program.identifier}: title")
+    expect(
+        _SUFFIX.fullmatch(program.suffix),
+        f"{program.identifier}: suffix {program.suffix!r} must be like '.ngc'",
+    )
+
+
+def options_are_described(program: PartProgram, _interpreter: Interpreter, _keys: Mapping[str, Any]) -> None:
+    """Check that its job keys are described, none is a key of the core, and all have defaults."""
+    expect_options(program.options, program.identifier)
+    expect_own_keys(program.options, _CORE_KEYS, program.identifier)
+    required = [key for key, field in program.options.model_fields.items() if field.is_required()]
+    expect(
+        not required,
+        f"{program.identifier}: job keys {', '.join(required)} need a default: --program has no keys",
+    )
+
+
+def leads_to_every_reading_from_its_side(
+    program: PartProgram, interpreter: Interpreter, keys: Mapping[str, Any]
+) -> None:
+    """Check by each method that the axis stops and rests as it was planned, turning points included."""
+    for method in Method:
+        motion = sample_motion(method)
+        run = list(interpreter(_written(program, motion, keys)))
+        planned = [(stop.position, motion.dwell if stop.reading else 0.0) for stop in motion.stops]
+        where = f"{program.identifier}, {method.value} method"
+        expect(len(run) == len(planned), f"{where}: {len(run)} stops; expected {len(planned)}")
+        for number, (is_at, should) in enumerate(zip(run, planned, strict=True), start=1):
+            expect(
+                _near(is_at, should),
+                f"{where}: stop {number} is at {is_at[0]:g} for {is_at[1]:g} s; expected {should[0]:g} for "
+                f"{should[1]:g} s",
+            )
+
+
+def is_plain_text(program: PartProgram, _interpreter: Interpreter, keys: Mapping[str, Any]) -> None:
+    """Check that the program is ASCII in lines that a control can hold, and ends with a line."""
+    text = _written(program, sample_motion(), keys)
+    where = program.identifier
+    expect(isinstance(text, str) and text, f"{where}: write must return the text of a program")
+    expect(text.isascii(), f"{where}: the program holds characters beyond ASCII")
+    expect(
+        all(line.isprintable() for line in text.splitlines()),
+        f"{where}: the program holds control characters",
+    )
+    expect(text.endswith("\n"), f"{where}: the last line has no end")
+    longest = max(len(line) for line in text.splitlines())
+    expect(longest <= _LONGEST_LINE, f"{where}: a line has {longest} characters; {_LONGEST_LINE} at most")
+
+
+def names_the_job(program: PartProgram, _interpreter: Interpreter, keys: Mapping[str, Any]) -> None:
+    """Check that the number of the job stands in the program."""
+    expect(
+        NUMBER in _written(program, sample_motion(), keys).upper(),
+        f"{program.identifier}: the program does not name the job, {NUMBER}",
+    )
+
+
+def writes_the_same_again(program: PartProgram, _interpreter: Interpreter, keys: Mapping[str, Any]) -> None:
+    """Check that the same motion gives the same program."""
+    first, second = (_written(program, sample_motion(Method.PENDULUM), keys) for _ in range(2))
+    expect(first == second, f"{program.identifier}: writing the same motion again gives another program")
+
+
+def takes_no_name_for_a_command(
+    program: PartProgram, interpreter: Interpreter, keys: Mapping[str, Any]
+) -> None:
+    """Check that a user's name of an axis changes nothing of what the program does, or is refused."""
+    motion = sample_motion()
+    plain = list(interpreter(_written(program, motion, keys)))
+    for name in _HOSTILE:
+        named = replace(motion, axis=replace(motion.axis, name=name))
+        try:
+            text = _written(
+                program, named, {**keys, "axis": "X"} if "axis" in program.options.model_fields else keys
+            )
+        except InputError:
+            continue
+        where = f"{program.identifier}: with an axis called {name[:20]!r}"
+        expect(text.isascii(), f"{where}, the program holds characters beyond ASCII")
+        try:
+            run = list(interpreter(text))
+        except Exception as error:
+            message = f"{where}, the program cannot be run: {error!r}"
+            raise AssertionError(message) from error
+        expect(run == plain, f"{where}, the program does something else")
+
+
+def refuses_what_it_cannot_program(
+    program: PartProgram, _interpreter: Interpreter, keys: Mapping[str, Any]
+) -> None:
+    """Check that a target of too many digits, or an overrun of too few, is refused where it is asked for."""
+    cases = {
+        "a target of eleven digits": sample_motion(targets=(0.0, 10.12345678901)),
+        "an overrun that rounds to nothing": sample_motion(Method.PENDULUM, overrun=1e-11),
+    }
+    for what, motion in cases.items():
+        try:
+            _written(program, motion, keys)
+        except InputError as error:
+            expect(
+                [problem.place for problem in error.problems] == [PLACE],
+                f"{program.identifier}: {what} is refused elsewhere than at motion.place: {error}",
+            )
+        else:
+            message = f"{program.identifier}: {what} is not refused (Motion.in_decimals does it)"
+            raise AssertionError(message)
+
+
+def writes_rotary_axes(program: PartProgram, interpreter: Interpreter, keys: Mapping[str, Any]) -> None:
+    """Check that an axis C is led over its angles, in degrees, or refused by a control that has none."""
+    motion = sample_motion(axis=Axis("C", AxisKind.ROTARY), targets=(0.0, 90.0, 180.0, 270.0))
+    try:
+        text = _written(program, motion, keys)
+    except InputError:
+        return
+    run = list(interpreter(text))
+    expect(
+        [position for position, _ in run] == [stop.position for stop in motion.stops],
+        f"{program.identifier}: an axis C in degrees is not led as planned: {run}",
+    )
+
+
+def _written(program: PartProgram, motion: Motion, keys: Mapping[str, Any]) -> str:
+    return program.write(motion, program.options.model_validate(dict(keys)))
+
+
+def _near(one: tuple[float, float], other: tuple[float, float]) -> bool:
+    """Return whether two stops agree: no control takes more digits than these."""
+    return all(abs(mine - its) < 5e-7 for mine, its in zip(one, other, strict=True))
+
+
+#: Every check of a writer of part programs, each called with the writer, an interpreter, and its job keys.
+PART_PROGRAM_CHECKS = (
+    is_named,
+    options_are_described,
+    leads_to_every_reading_from_its_side,
+    is_plain_text,
+    names_the_job,
+    writes_the_same_again,
+    takes_no_name_for_a_command,
+    refuses_what_it_cannot_program,
+    writes_rotary_axes,
+)
+
+
+def check_part_program(
+    program: PartProgram, interpreter: Interpreter, keys: Mapping[str, Any] | None = None
+) -> None:
+    """Run every check on a writer of part programs.
+
+    Parameters
+    ----------
+    program
+        The object that the plugin's hook returns.
+    interpreter
+        Runs a text of its language.
+    keys
+        Its job keys; none if they are not given.
+
+    Raises
+    ------
+    AssertionError
+        With a line for every check that fails.
+    """
+    keys = keys or {}
+    is_named(program, interpreter, keys)
+    run_all(PART_PROGRAM_CHECKS, program, interpreter, keys)

@@ -1,0 +1,84 @@
+"""``zlmreport emulate``: an instrument that is not there."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+from argparse import Namespace
+from itertools import islice
+from pathlib import Path
+
+import pytest
+
+from zlmreport.cli import main
+from zlmreport.cli.arguments import _FAULTS, parse
+from zlmreport.cli.emulate import axis_of
+from zlmreport.emulation.faults import Trouble
+from zlmreport.plugins import find_plugins
+
+
+def _options(*arguments: str) -> Namespace:
+    return parse(["emulate", "umd1", *arguments])[1]
+
+
+def test_every_fault_is_one_that_the_command_line_knows() -> None:
+    assert set(_FAULTS) == set(Trouble)
+
+
+def test_an_axis_is_described_in_millimetres_and_minutes() -> None:
+    axis = axis_of(
+        _options("--course=-5,10", "--feed", "6000", "--dwell", "2", "--noise", "3", "--drift", "60")
+    )
+    assert axis.course == (-0.005, 0.01)
+    assert (axis.feed, axis.dwell, axis.noise, axis.drift) == pytest.approx((0.1, 2.0, 3e-6, 1e-6))
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["no-such"], "no plugin provides instrument 'no-such'"),
+        (["umd1", "--fault", "lost-baem@3"], "did you mean 'lost-beam'?"),
+        (["umd1", "--fault", "lost-beam"], "does not say when"),
+        (["umd1", "--course", "0,x"], "'x' is no position"),
+        (["umd1", "--port", "70000"], "is no TCP port"),
+        (["umd1", "--feed", "0"], "--feed 0 makes no axis"),
+        (["umd1", "--dwell", "-1"], "--dwell -1 makes no axis"),
+        (["umd1", "--link", "a", "--port", "0"], "take one"),
+        ([], "INSTRUMENT"),
+    ],
+)
+def test_a_mistake_is_told_and_nothing_begins(
+    arguments: list[str], message: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["emulate", *arguments]) == 2
+    assert message in capsys.readouterr().err
+
+
+def test_a_link_that_is_taken_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["emulate", "umd1", "--link", str(tmp_path)]) == 3
+    assert "choose another" in capsys.readouterr().err
+
+
+def test_an_instrument_is_read_until_it_is_ended(tmp_path: Path) -> None:
+    link = tmp_path / "umd"
+    command = [sys.executable, "-m", "zlmreport", "emulate", "umd1", "--link", str(link), "--course", "25"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, encoding="utf-8") as emulation:
+        assert emulation.stdout
+        printed = [emulation.stdout.readline() for _ in range(3)]
+        umd = find_plugins().instrument("umd1")
+        with umd.open(umd.options.model_validate({"port": str(link)})) as connection:
+            readings = list(islice(connection.readings(), 10))
+        emulation.send_signal(signal.SIGTERM)
+        assert emulation.wait(10) == 0
+    assert printed[1] == f"port: {link}\n"
+    assert all(reading.is_usable for reading in readings)
+    assert not os.path.lexists(link)
+
+
+def test_an_instrument_that_is_unplugged_ends_the_command() -> None:
+    command = [sys.executable, "-m", "zlmreport", "emulate", "nd28x", "--port", "0", "--fault", "unplugged@0"]
+    done = subprocess.run(command, capture_output=True, encoding="utf-8", check=False, timeout=60)
+    assert done.returncode == 0
+    assert done.stdout.splitlines()[-1] == "unplugged"

@@ -1,0 +1,17 @@
+"""Every installed live instrument passes every check that an author runs, against its own emulator."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import pytest
+
+from zlmreport.plugins import find_plugins
+from zlmreport.protocols import Instrument
+from zlmreport.testing import INSTRUMENT_CHECKS
+
+
+@pytest.mark.parametrize("instrument", find_plugins().instruments, ids=lambda each: each.identifier)
+@pytest.mark.parametrize("check", INSTRUMENT_CHECKS)
+def test_conforms(check: Callable[[Instrument], None], instrument: Instrument) -> None:
+    check(instrument)

@@ -1,0 +1,72 @@
+"""On the path that a program leads the axis, every visit comes from its stated side."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import subprocess
+from itertools import pairwise
+from pathlib import Path
+
+import pytest
+
+from plugins.part_programs.controls import CONTROLS, linuxcnc
+from plugins.part_programs.planned import written
+from zlmreport.measurement.approach import Approach
+from zlmreport.planning.methods import Method
+from zlmreport.testing import sample_motion
+
+controls = pytest.mark.parametrize("control", CONTROLS)
+methods = pytest.mark.parametrize("method", Method)
+
+
+@methods
+@controls
+def test_readings_of_a_run_are_those_of_the_visit_list(control: str, method: Method) -> None:
+    motion = sample_motion(method, runs=3)
+    stops = CONTROLS[control](written(control, motion)).stops
+    came = [
+        (here[0], Approach.POSITIVE if here[0] > before[0] else Approach.NEGATIVE)
+        for before, here in pairwise(stops)
+        if here[1]
+    ]
+    readings = [(stop.position, stop.reading.approach) for stop in motion.stops if stop.reading]
+    assert came == readings
+
+
+@controls
+def test_axis_rests_at_every_reading_and_nowhere_else(control: str) -> None:
+    stops = CONTROLS[control](written(control)).stops
+    assert [rest for _, rest in stops if rest] == [3.5] * 16
+
+
+@controls
+def test_all_motion_has_the_feed_of_the_plan(control: str) -> None:
+    assert CONTROLS[control](written(control)).feed == 1500.0
+
+
+@methods
+def test_interpreter_of_linuxcnc_makes_the_same_moves(method: Method, tmp_path: Path) -> None:
+    """Run the program through LinuxCNC's own interpreter, where that is installed."""
+    rs274 = shutil.which("rs274")
+    if rs274 is None:
+        pytest.skip("LinuxCNC's stand-alone interpreter, rs274, is not installed")
+    text = written("linuxcnc", sample_motion(method))
+    (tmp_path / "test.ngc").write_text(text, encoding="ascii")
+    for name in ("variables", "tools"):
+        (tmp_path / name).touch()
+    done = subprocess.run(
+        [rs274, "-v", "variables", "-t", "tools", "-g", "test.ngc"],
+        cwd=tmp_path,
+        capture_output=True,
+        encoding="utf-8",
+        timeout=60,
+        check=True,
+    )
+    stops: list[tuple[float, float]] = []
+    for call, first in re.findall(r"(STRAIGHT_FEED|DWELL)\((-?[\d.]+)", done.stdout):
+        if call == "STRAIGHT_FEED":
+            stops.append((float(first), 0.0))
+        else:
+            stops[-1] = stops[-1][0], float(first)
+    assert stops == linuxcnc(text).stops

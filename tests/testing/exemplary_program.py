@@ -1,0 +1,38 @@
+"""A writer of part programs that does everything right, in three words; the tests of the kit make it sin."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from zlmreport.foresight.motion import Motion
+from zlmreport.foresight.program_text import ProgramOptions, heading
+from zlmreport.language import Words
+
+
+class ExemplaryProgram:
+    identifier = "exemplary-steps"
+    title = Words(en="Three words", de="Drei Wörter")
+    suffix = ".steps"
+    options: Any = ProgramOptions
+
+    def write(self, motion: Motion, options: Any) -> str:
+        lines = [f"SAY {text}" for text in heading(motion)]
+        for stop in motion.in_decimals(options.decimals).stops:
+            lines.append(f"GO {stop.position:.{options.decimals}f}")
+            if stop.reading:
+                lines.append(f"REST {motion.dwell:g}")
+        return "".join(f"{line}\n" for line in lines)
+
+
+def run_steps(text: str) -> list[tuple[float, float]]:
+    """Run a program of these words."""
+    stops: list[tuple[float, float]] = []
+    for line in text.splitlines():
+        word, _, rest = line.partition(" ")
+        if word == "GO":
+            stops.append((float(rest), 0.0))
+        elif word == "REST":
+            stops[-1] = stops[-1][0], float(rest)
+        else:
+            assert word == "SAY"
+    return stops

@@ -1,0 +1,133 @@
+"""Each check of a live instrument finds the sin it is there for; the installed ones pass them elsewhere."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import islice
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+from pydantic import Field
+
+from zlmreport.emulation.emulator import Emulator, Scene
+from zlmreport.emulation.faults import Trouble
+from zlmreport.errors import InputError, Place
+from zlmreport.job.options import Options
+from zlmreport.language import Words
+from zlmreport.live.connection import LiveConnection
+from zlmreport.live.options import PortOptions
+from zlmreport.live.port import Framing, Port
+from zlmreport.live.reading import Fault, LiveReading
+from zlmreport.live.streaming import streamed
+from zlmreport.testing import instruments
+
+
+class _Emulator:
+    """A gauge that says its position in nanometres, 100 times a second, and E while something is wrong."""
+
+    def __init__(self, scene: Scene) -> None:
+        self._scene = scene
+        self._sent = 0
+
+    def unasked(self, time: float) -> bytes:
+        lines = b""
+        while (self._sent + 1) / 100 <= time:
+            self._sent += 1
+            at = self._sent / 100
+            is_wrong = self._scene.troubles.has(Trouble.LOST_BEAM, at)
+            lines += b"E\n" if is_wrong else b"%d\n" % round(self._scene.axis.position(at) * 1e9)
+        return lines
+
+    def answer(self, data: bytes, time: float) -> bytes:  # noqa: ARG002
+        return b""
+
+
+class _Gauge:
+    """A sound instrument."""
+
+    identifier = "exemplary-gauge"
+    title = Words(en="An exemplary gauge", de="Ein beispielhafter Taster")
+    options: type[Options] = PortOptions
+    per_metre = 1e9
+    fault = Fault.BEAM_LOST
+    follows_sign = True
+
+    def open(self, options: PortOptions) -> Any:
+        port = Port(options.port, Framing(), options.timeout)
+        factor = options.factor if self.follows_sign else 1.0
+        decoder = SimpleNamespace(understood=0, feed=lambda data, now: self._readings(data, now, factor))
+        patience: Any = SimpleNamespace(hear=lambda *_: None, check=lambda *_: None)
+
+        def readings() -> Iterator[LiveReading]:
+            return streamed(port, decoder, patience, 0.05)
+
+        return LiveConnection(port, readings)
+
+    def emulator(self, scene: Scene) -> Emulator:
+        return _Emulator(scene)
+
+    def _readings(self, data: bytes, now: float, factor: float) -> list[LiveReading]:
+        found = []
+        for line in data.split(b"\n")[:-1]:
+            if line == b"E":
+                found.append(LiveReading(1.0, now, self.fault, message="lost" if self.fault else ""))
+            elif line.lstrip(b"-").isdigit():
+                found.append(LiveReading(int(line) / self.per_metre * factor, now))
+        return found
+
+
+class _RequiringOptions(PortOptions):
+    password: str = Field(description="Required.")
+
+
+class _Portless(Options):
+    """An instrument that nobody can plug in."""
+
+
+def _sin(**members: Any) -> Any:
+    return type("Sinful", (_Gauge,), members)()
+
+
+def _careless(_self: object, _options: PortOptions) -> Any:
+    raise InputError.at(Place("somewhere"), "no")
+
+
+@pytest.mark.parametrize(
+    "check", [instruments.is_named, instruments.options_are_described, instruments.follows_the_axis]
+)
+def test_a_sound_instrument_passes(check: Any) -> None:
+    check(_Gauge())
+
+
+@pytest.mark.parametrize(
+    ("check", "sinful", "sentence"),
+    [
+        (instruments.is_named, _sin(identifier="A Gauge"), "identifier 'A Gauge' must be lower-case"),
+        (instruments.options_are_described, _sin(options=_Portless), "there is no key 'port'"),
+        (instruments.options_are_described, _sin(options=_RequiringOptions), "keys password need defaults"),
+        (instruments.follows_the_axis, _sin(per_metre=1e6), r"SI is expected"),
+        (instruments.sign_turns_it_round, _sin(follows_sign=False), "with sign '-' readings go by"),
+        (instruments.no_wrong_reading_is_usable, _sin(fault=Fault(0)), "the axis rests at 0, and 1.0 m"),
+        (instruments.refuses_silence, _sin(open=_careless), "an AccessError is expected"),
+    ],
+)
+def test_a_sin_is_found(check: Any, sinful: Any, sentence: str) -> None:
+    with pytest.raises(AssertionError, match=sentence):
+        check(sinful)
+
+
+def test_an_instrument_that_waits_for_ever_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(instruments, "_PATIENCE", 0.2)
+    endless = SimpleNamespace(
+        __enter__=None, readings=lambda: islice(iter(lambda: LiveReading(0.0, 0.0), None), 10**9)
+    )
+
+    class _Open:
+        def __enter__(self) -> Any:
+            return endless
+
+        def __exit__(self, *_: object) -> None: ...
+
+    with pytest.raises(AssertionError, match="it still reads after"):
+        instruments.refuses_silence(_sin(open=lambda *_: _Open()))

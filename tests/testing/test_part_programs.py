@@ -1,0 +1,132 @@
+"""Each check of a writer of part programs passes the exemplary one, and finds the sin it is there for."""
+
+from __future__ import annotations
+
+import itertools
+import re
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+import pytest
+from pydantic import Field
+
+from testing.exemplary_program import ExemplaryProgram, run_steps
+from zlmreport.foresight.motion import Motion
+from zlmreport.foresight.program_text import ProgramOptions
+from zlmreport.job.options import Options
+from zlmreport.language import Words
+from zlmreport.measurement.axis import AxisKind
+from zlmreport.testing import PART_PROGRAM_CHECKS, check_part_program, part_programs
+
+COUNTER = itertools.count()
+
+
+def on_paper(change: Callable[[str], str]) -> Callable[..., str]:
+    return lambda _, motion, options: change(ExemplaryProgram().write(motion, options))
+
+
+def without_turning_points(text: str) -> str:
+    return re.sub(r"GO .*\n(?=GO)", "", text)
+
+
+def named(_self: object, motion: Motion, options: Any) -> str:
+    return f"SAY {motion.axis.name}\n{ExemplaryProgram().write(motion, options)}"
+
+
+def as_it_comes(_self: object, motion: Motion, _options: Any) -> str:
+    return "SAY KIT-7\n" + "".join(
+        f"GO {stop.position}\n" + ("REST 3.5\n" if stop.reading else "") for stop in motion.stops
+    )
+
+
+def in_millimetres(self: ExemplaryProgram, motion: Motion, options: Any) -> str:
+    turned = motion.axis.kind is AxisKind.ROTARY
+    stops = tuple(replace(stop, position=stop.position / (2 if turned else 1)) for stop in motion.stops)
+    return ExemplaryProgram.write(self, replace(motion, stops=stops), options)
+
+
+class Undescribed(ProgramOptions):
+    speed: float = 1.0
+
+
+class Greedy(Options):
+    program: str = Field("", description="Taken.")
+
+
+class Demanding(ProgramOptions):
+    speed: float = Field(description="Without a default.")
+
+
+SINS = [
+    (part_programs.is_named, {"identifier": "Steps!"}, "lower-case ASCII"),
+    (part_programs.is_named, {"title": Words(en="", de="Titel")}, "title says nothing in 'en'"),
+    (part_programs.is_named, {"suffix": "steps"}, "must be like '.ngc'"),
+    (part_programs.options_are_described, {"options": Undescribed}, "job key 'speed' needs a description"),
+    (part_programs.options_are_described, {"options": Greedy}, "job keys program belong to the core"),
+    (part_programs.options_are_described, {"options": Demanding}, "job keys speed need a default"),
+    (
+        part_programs.leads_to_every_reading_from_its_side,
+        {"write": on_paper(without_turning_points)},
+        "linear method: 17 stops; expected 21",
+    ),
+    (
+        part_programs.leads_to_every_reading_from_its_side,
+        {"write": on_paper(lambda text: text.replace("REST 3.5", "REST 3"))},
+        "stop 2 is at -20.5 for 3 s; expected -20.5 for 3.5 s",
+    ),
+    (part_programs.is_plain_text, {"write": lambda *_: b"GO 1\n"}, "must return the text of a program"),
+    (part_programs.is_plain_text, {"write": on_paper(lambda text: f"SAY ä\n{text}")}, "beyond ASCII"),
+    (
+        part_programs.is_plain_text,
+        {"write": on_paper(lambda text: f"SAY \x07\n{text}")},
+        "control characters",
+    ),
+    (part_programs.is_plain_text, {"write": on_paper(str.rstrip)}, "the last line has no end"),
+    (
+        part_programs.is_plain_text,
+        {"write": on_paper(lambda text: f"SAY {'a' * 300}\n{text}")},
+        "304 characters",
+    ),
+    (part_programs.names_the_job, {"write": on_paper(lambda text: text.replace("KIT-7", ""))}, "KIT-7"),
+    (
+        part_programs.writes_the_same_again,
+        {"write": on_paper(lambda text: f"SAY {next(COUNTER)}\n{text}")},
+        "again gives another program",
+    ),
+    (part_programs.takes_no_name_for_a_command, {"write": named}, "the program cannot be run"),
+    (part_programs.refuses_what_it_cannot_program, {"write": as_it_comes}, "eleven digits is not refused"),
+    (
+        part_programs.writes_rotary_axes,
+        {"write": in_millimetres},
+        "an axis C in degrees is not led as planned",
+    ),
+]
+
+
+@pytest.mark.parametrize("check", PART_PROGRAM_CHECKS)
+def test_exemplary_part_program_passes(check: Callable[..., None]) -> None:
+    check(ExemplaryProgram(), run_steps, {})
+
+
+@pytest.mark.parametrize(
+    ("check", "sin", "sentence"), SINS, ids=lambda value: getattr(value, "__name__", None)
+)
+def test_a_check_finds_its_sin(check: Callable[..., None], sin: dict[str, Any], sentence: str) -> None:
+    sinner = type("Sinner", (ExemplaryProgram,), sin)()
+    with pytest.raises(AssertionError) as failure:
+        check(sinner, run_steps, {})
+    assert sentence in str(failure.value)
+
+
+def test_every_check_has_a_sin() -> None:
+    assert {check for check, *_ in SINS} == set(PART_PROGRAM_CHECKS)
+
+
+def test_all_failures_are_reported_at_once() -> None:
+    quiet = on_paper(lambda text: text.replace("KIT-7", "").replace("REST", "SAY"))
+    sinner = type("Sinner", (ExemplaryProgram,), {"write": quiet})()
+    with pytest.raises(AssertionError) as failure:
+        check_part_program(sinner, run_steps)
+    checks = [line.partition(":")[0] for line in str(failure.value).splitlines()]
+    assert checks == ["leads_to_every_reading_from_its_side", "names_the_job"]
