@@ -11,6 +11,7 @@ import tempfile
 from pathlib import Path
 
 from PIL import Image
+from pypdf import PdfReader
 
 _ROOT = Path(__file__).parents[2]
 _PICTURES = _ROOT / "docs" / "images"
@@ -32,6 +33,14 @@ def make(name: str, pdf: Path, page: int) -> None:
             )
 
 
+def page_with(pdf: Path, text: str, after: int = 0) -> int:
+    """Return the number of the first page after another that has a text."""
+    pages = PdfReader(pdf).pages
+    return next(
+        number for number, page in enumerate(pages, 1) if number > after and text in page.extract_text()
+    )
+
+
 def certificate(job: Path, folder: Path) -> Path:
     """Return the PDF of a job."""
     subprocess.run([_ZLMREPORT, job, "--output", folder, "--format", "pdf", "--quiet"], check=True)  # noqa: S603 - of our own files
@@ -45,15 +54,16 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as folder:
         example = certificate(_ROOT / "configs" / "linear-axis" / "certificate.yaml", Path(folder, "example"))
         make("certificate-cover", example, 1)
-        make("certificate-results", example, 3)
-        make("certificate-graphs", example, 4)
+        make("certificate-results", example, page_with(example, "Results by ISO 230-2:2014", after=1))
+        make("certificate-graphs", example, page_with(example, "Figure 2"))
         first = Path(folder, "first")
         subprocess.run([_ZLMREPORT, "init", first], check=True, stdout=subprocess.DEVNULL)  # noqa: S603 - of our own files
         job = first / "job.yaml"
         make("tutorial-cover", certificate(job, first / "en"), 1)
         text = job.read_text(encoding="utf-8")
         job.write_text(text.replace("language: en ", "language: de "), encoding="utf-8")
-        make("tutorial-german", certificate(job, first / "de"), 3)
+        german = certificate(job, first / "de")
+        make("tutorial-german", german, page_with(german, "Ergebnisse nach ISO 230-2:2014", after=1))
 
 
 if __name__ == "__main__":

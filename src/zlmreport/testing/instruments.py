@@ -97,6 +97,7 @@ def sign_turns_it_round(instrument: Instrument) -> None:
 def no_wrong_reading_is_usable(instrument: Instrument) -> None:
     """Check that whatever goes wrong, what is called usable is right until the zero is called lost."""
     for trouble in ((Trouble.SKIPPED, Trouble.ERROR), (Trouble.LOST_BEAM,)):
+        where = f"{instrument.identifier}: {', '.join(trouble)}"
         with _emulated(instrument, MovingAxis(), *trouble) as port:
             for reading in _watched(instrument, port):
                 if reading.loses_zero:

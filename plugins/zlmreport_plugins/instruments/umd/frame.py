@@ -82,7 +82,7 @@ def frame_in(line: bytes) -> Frame | None:
         numbers = tuple(map(int, fields))
     except ValueError:
         return None
-    axes = (AxisCounts(*numbers[1:5]),)
+    axes: tuple[AxisCounts, ...] = (AxisCounts(*numbers[1:5]),)
     if len(numbers) > 8:
         axes += (AxisCounts(*numbers[8:12]), AxisCounts(*numbers[12:]))
     return Frame(numbers[0], axes, *numbers[5:8])

@@ -61,6 +61,17 @@ def software(certificate: Certificate, writer: Writer) -> ET.Element:
     return dcc("software", writer.named("name", name), dcc("release", f"v{release or '0'}"))
 
 
+def serial_number(value: str, writer: Writer) -> ET.Element:
+    """Return the identification by which a manufacturer tells one piece from another."""
+    return dcc(
+        "identification",
+        dcc("issuer", "manufacturer"),
+        dcc("value", value),
+        writer.named("name", _SERIAL),
+        refType="basic_serialNumber",
+    )
+
+
 def administrative_data(certificate: Certificate, job: Job) -> ET.Element:
     """Return the administrative data.
 
@@ -148,13 +159,7 @@ def _item(job: Job, writer: Writer) -> ET.Element:
         dcc("model", machine.model) if machine.model else None,
         dcc(
             "identifications",
-            dcc(
-                "identification",
-                dcc("issuer", "manufacturer"),
-                dcc("value", machine.serial),
-                writer.named("name", _SERIAL),
-                refType="basic_serialNumber",
-            ),
+            serial_number(machine.serial or "", writer),
             dcc(
                 "identification",
                 dcc("issuer", "other"),

@@ -7,7 +7,7 @@ from xml.etree import ElementTree as ET
 
 from zlmreport.job.job import Job
 from zlmreport.language import Words
-from zlmreport_plugins.renderers.dcc.administrative import Writer
+from zlmreport_plugins.renderers.dcc.administrative import Writer, serial_number
 from zlmreport_plugins.renderers.dcc.quantities import (
     DEGREE_CELSIUS,
     HECTOPASCAL,
@@ -57,7 +57,6 @@ _STATES = {
 }
 _REMARKS = Words(en="Remarks on the environment", de="Bemerkungen zur Umgebung")
 _CALIBRATION = Words(en="Calibration certificate: {number}", de="Kalibrierschein: {number}")
-_SERIAL = Words(en="Serial number", de="Seriennummer")
 
 
 def equipment(job: Job, writer: Writer) -> ET.Element | None:
@@ -73,18 +72,7 @@ def equipment(job: Job, writer: Writer) -> ET.Element | None:
         dcc("manufacturer", writer.named("name", instrument.manufacturer))
         if instrument.manufacturer
         else None,
-        dcc(
-            "identifications",
-            dcc(
-                "identification",
-                dcc("issuer", "manufacturer"),
-                dcc("value", instrument.serial),
-                writer.named("name", _SERIAL),
-                refType="basic_serialNumber",
-            ),
-        )
-        if instrument.serial
-        else None,
+        dcc("identifications", serial_number(instrument.serial, writer)) if instrument.serial else None,
     )
 
 
