@@ -22,8 +22,6 @@ class _Channel:
     def send(self, data: bytes) -> None:
         self.sent.append(data)
 
-    def close(self) -> None: ...
-
 
 class _Echo:
     """An instrument that says what time it is, and repeats what it is told."""

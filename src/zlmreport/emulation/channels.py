@@ -35,9 +35,6 @@ class Channel(Protocol):
     def send(self, data: bytes) -> None:
         """Send as much as the line takes; a serial line keeps nothing for a host that does not read."""
 
-    def close(self) -> None:
-        """Unplug it."""
-
 
 class PseudoTerminal:
     """A terminal that a program opens like a serial port.

@@ -95,6 +95,7 @@ def test_the_fault_stays_until_it_is_cleared() -> None:
     assert display.answer(spoken.PRINT, 10.0)[12:13] == b" "
 
 
+@pytest.mark.filterwarnings("default")  # of its own libraries
 def test_an_independent_driver_reads_the_emulated_display() -> None:
     """Runs where pymeasure and pyvisa-py are installed: they are no requirement of the project's tests."""
     heidenhain = pytest.importorskip("pymeasure.instruments.heidenhain")

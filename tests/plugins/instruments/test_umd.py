@@ -238,6 +238,23 @@ def test_a_display_that_begins_anew_has_another_zero() -> None:
     assert [each for each in readings if each.loses_zero]
 
 
+@pytest.mark.parametrize("axis", [2, 3])
+def test_further_axes_are_read_from_their_own_fields(axis: int) -> None:
+    resting, moving = b"%s 0 0 0", b"%s %s %s %s"
+    lines_of_three = b""
+    for line in _sent("umd2", 0.3, MovingAxis(drift=1e-3)).splitlines():
+        reference, *counts, sequence, code, data = line.split(b" ")
+        rests = resting % reference
+        moves = moving % tuple(counts)
+        further = (moves, rests) if axis == 2 else (rests, moves)
+        lines_of_three += b" ".join([reference, rests, sequence, code, data, *further]) + b"\r\n"
+    alone = _decoded("umd2", _sent("umd2", 0.3, MovingAxis(drift=1e-3)))
+    found = _decoded("umd2", lines_of_three, Setup(axis - 1, HALF_WAVE, SETUP.temperatures))
+    assert [each.value for each in found] == [each.value for each in alone]
+    assert {each.faults for each in found} == {Fault(0)}
+    assert found[-1].value > 0
+
+
 def test_the_sign_turns_the_readings_round() -> None:
     assert UmdOptions(port="COM3", sign="-", scale=0.5).factor == -0.5
 
