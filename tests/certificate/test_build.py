@@ -1,11 +1,18 @@
 """The whole document, as text: every sentence that a customer reads."""
 
 import os
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from certificate.documents import COMPLETE, certificate, text_of
+from zlmreport.certificate import results
+from zlmreport.certificate.document import Table
+from zlmreport.certificate.results import Evaluated
+from zlmreport.certificate.scribe import Scribe
+from zlmreport.language import Language, same
+from zlmreport.uncertainty.budget import NoBudget
 
 GOLDEN = Path(__file__).with_name("golden")
 ALL_STANDARDS = [
@@ -67,6 +74,20 @@ def test_single_readings_behind_the_graphs_can_be_left_out(tmp_path):
     hidden = [panel.readings for figure in certificate(tmp_path, keys).figures for panel in figure.panels]
     assert any(shown)
     assert not any(hidden)
+
+
+def test_a_standard_that_asks_for_nothing_has_no_table_of_requirements(tmp_path):
+    evaluation = certificate(tmp_path).evaluations[0]
+    scribe = Scribe.of(evaluation.measurements, Language.ENGLISH)
+    captions = [
+        [
+            block.caption
+            for block in results.section(Evaluated(each, (), NoBudget(same(""))), scribe).blocks
+            if isinstance(block, Table)
+        ]
+        for each in (evaluation, replace(evaluation, findings=()))
+    ]
+    assert [any(caption.startswith("Requirements") for caption in each) for each in captions] == [True, False]
 
 
 def test_a_rule_that_needs_an_uncertainty_decides_nothing_without_one(tmp_path):

@@ -106,6 +106,19 @@ def test_a_single_target_is_approached_from_its_overrun(method: Method) -> None:
     assert {visit.since_reversal for visit in listed} == {OVERRUN}
 
 
+@pytest.mark.parametrize("overrun", [0.0, -1.0, 1e-16])
+@pytest.mark.parametrize("method", Method)
+def test_overrun_that_leaves_no_approach_is_refused(method: Method, overrun: float) -> None:
+    with pytest.raises(ValueError, match="leaves no approach"):
+        path(method, TARGETS, 2, overrun)
+
+
+@pytest.mark.parametrize("targets", [(10.0, 10.0), (20.0, 10.0)])
+def test_targets_that_do_not_rise_are_refused(targets: tuple[float, ...]) -> None:
+    with pytest.raises(ValueError, match="must rise"):
+        path(Method.LINEAR, targets, 1, OVERRUN)
+
+
 def test_a_reading_where_nothing_has_moved_has_no_direction() -> None:
     with pytest.raises(ValueError, match="no direction of approach"):
         visits([Stop(1.0, 0, 1)])

@@ -89,7 +89,7 @@ def section(evaluated: Evaluated, scribe: Scribe) -> Section:
         *map(Graph, evaluated.figures),
         *conformity.blocks(evaluation, scribe),
         _positions(evaluation, scribe),
-        _requirements(evaluation, scribe),
+        *([_requirements(evaluation, scribe)] if evaluation.findings else []),
         _definitions(evaluation, scribe),
         *(Paragraph(scribe.say(note)) for note in evaluation.notes),
     ]

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
+from itertools import pairwise
 from types import MappingProxyType
 from typing import TypeAlias
 
@@ -54,7 +55,17 @@ def path(method: Method, targets: Sequence[float], runs: int, overrun: float) ->
     overrun
         How far beyond a target the axis turns round, so that the next approach has its direction: the
         approach length at the start, the loop at the end, m or rad.
+
+    Raises
+    ------
+    ValueError
+        If the targets do not rise, or the overrun is lost in the rounding of one: then a reading would not be
+        approached from its stated side.
     """
+    if any(later <= earlier for earlier, later in pairwise(targets)):
+        raise ValueError("target positions must rise")
+    if any(not target - overrun < target < target + overrun for target in targets):
+        raise ValueError(f"an overrun of {overrun:g} leaves no approach to the targets")
     return tuple(_PATHS[method](targets, runs, overrun))
 
 

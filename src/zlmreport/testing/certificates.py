@@ -145,6 +145,7 @@ def _blocks(evaluation: Evaluation, text: str) -> tuple[Block, ...]:
             ),
         ),
         Table(text, (Column(text),), (), dense=True),
+        Table(text, (Column(text), Column(text)), (RowGroup(()), RowGroup((), text))),
         Graph(_figure(evaluation, text)),
         Formulas(text, ((Symbol("D"), Symbol("max(x̄_{i}) − min(x̄_{i})"), text),)),
     )

@@ -73,6 +73,8 @@ def _name_headings(pdf: Any, table: Element) -> None:
     for part in _children(pdf, table):
         heads_of_group: list[Any] = []
         for row in _children(pdf, part) if part["S"] in {"/THead", "/TBody"} else ():
+            if row["S"] != "/TR":  # a body without rows holds a body of its own
+                continue
             cells = list(_placed(pdf, row))
             headings = [cell for cell, _ in cells if cell["S"] == "/TH"]
             heads_columns = len(headings) == len(cells)
