@@ -11,6 +11,7 @@ import pytest
 from certificate.documents import COMPLETE, certificate, lines_of
 from zlmreport.certificate import conformity
 from zlmreport.certificate.document import Graph, Table
+from zlmreport.certificate.rounding import written
 from zlmreport.certificate.scribe import Scribe
 from zlmreport.evaluation.decision import decided, decision_rule
 from zlmreport.evaluation.evaluation import Evaluation
@@ -45,7 +46,27 @@ def test_a_guarded_limit_is_printed_with_the_limit_up_to_which_it_is_accepted(ev
     first = rows(evaluation, "guard-band")[0].split(" | ")
 
     assert first[0] == "A"
-    assert (first[2], first[3]) == ("150", "147.00")
+    assert (first[2], first[3]) == ("150", "147.0")  # one decimal: that of U = 3.0 µm
+
+
+def test_an_amount_has_the_digits_that_it_has_in_the_table_of_results(evaluation):
+    scribe = Scribe.of(evaluation.measurements, Language.ENGLISH)
+    found = evaluation.parameter("A")
+    assert found is not None
+
+    assert rows(evaluation, "guard-band")[0].split(" | ")[1] == written(found, scribe)[0]
+
+
+def test_an_acceptance_limit_is_explained_where_one_is_drawn(evaluation):
+    scribe = Scribe.of(evaluation.measurements, Language.ENGLISH)
+    captions = {}
+    for rule in ("simple", "guard-band"):
+        graph, _ = conformity.blocks(decided(evaluation, decision_rule(rule)), scribe)
+        assert isinstance(graph, Graph)
+        captions[rule] = graph.figure.title.in_language(Language.ENGLISH)
+
+    assert "acceptance limit" in captions["guard-band"]
+    assert "acceptance limit" not in captions["simple"]
 
 
 def test_simple_acceptance_accepts_up_to_the_limit(evaluation):

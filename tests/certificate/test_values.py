@@ -7,8 +7,9 @@ from dataclasses import replace
 import pytest
 
 from plugins.standards.installed import STANDARDS
+from zlmreport.certificate.rounding import written, written_uncertainty
 from zlmreport.certificate.scribe import Scribe
-from zlmreport.certificate.values import Values, coverage_factor, written, written_uncertainty
+from zlmreport.certificate.values import Values, coverage_factor
 from zlmreport.evaluation.evaluate import evaluate
 from zlmreport.evaluation.evaluation import Evaluation, Parameter
 from zlmreport.job.options import Options

@@ -8,8 +8,9 @@ from typing import TypeAlias, cast
 
 from zlmreport.certificate import conformity
 from zlmreport.certificate.document import Align, Cell, Column, RowGroup, Symbol, Table
+from zlmreport.certificate.rounding import written
 from zlmreport.certificate.scribe import NOTHING, Scribe
-from zlmreport.certificate.values import limit, written
+from zlmreport.certificate.values import limit
 from zlmreport.evaluation.evaluation import Evaluation, Parameter
 from zlmreport.language import Words
 

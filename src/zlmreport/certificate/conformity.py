@@ -18,6 +18,7 @@ from zlmreport.certificate.document import (
     Table,
     Verdict,
 )
+from zlmreport.certificate.rounding import with_uncertainty
 from zlmreport.certificate.scribe import NOTHING, Scribe
 from zlmreport.evaluation.conformity import Conformity
 from zlmreport.evaluation.evaluation import Evaluation, Parameter
@@ -146,7 +147,7 @@ def _row(parameter: Parameter, scribe: Scribe) -> tuple[Cell, ...]:
     risk = None if decision is None else decision.risk
     return (
         Symbol(parameter.quantity.notation),
-        scribe.deviation(abs(parameter.value)),
+        _rounded(abs(parameter.value), parameter, scribe),
         scribe.number(scribe.deviation_unit.from_si(parameter.limit or 0.0)),
         NOTHING if accepted is None else _accepted(accepted, parameter, scribe),
         verdict(parameter, scribe),
@@ -157,7 +158,13 @@ def _row(parameter: Parameter, scribe: Scribe) -> tuple[Cell, ...]:
 def _accepted(limit: float, parameter: Parameter, scribe: Scribe) -> str:
     if limit == parameter.limit:
         return scribe.number(scribe.deviation_unit.from_si(limit))
-    return scribe.deviation(limit) if limit >= 0 else scribe.say(Words(en="none", de="keine"))
+    return _rounded(limit, parameter, scribe) if limit >= 0 else scribe.say(Words(en="none", de="keine"))
+
+
+def _rounded(value: float, parameter: Parameter, scribe: Scribe) -> str:
+    """Write a value (m or rad) with the decimals that the parameter has in every other table."""
+    expanded = parameter.expanded_uncertainty
+    return with_uncertainty(value, expanded, scribe)[0] if expanded else scribe.deviation(value)
 
 
 def _percent(risk: float, scribe: Scribe) -> str:

@@ -24,8 +24,9 @@ from zlmreport.certificate.document import (
     Table,
     Verdict,
 )
+from zlmreport.certificate.rounding import written_uncertainty
 from zlmreport.certificate.scribe import Scribe
-from zlmreport.certificate.values import Values, written_uncertainty
+from zlmreport.certificate.values import Values
 from zlmreport.evaluation.evaluation import Evaluation
 from zlmreport.evaluation.quantity import Group
 from zlmreport.evaluation.requirements import Basis, Finding

@@ -2,26 +2,21 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from zlmreport.certificate import conformity
 from zlmreport.certificate.document import Align, Cell, Column, Symbol
+from zlmreport.certificate.rounding import written
 from zlmreport.certificate.scribe import NOTHING, Scribe
 from zlmreport.evaluation.evaluation import Evaluation, Parameter
 from zlmreport.language import Words
 from zlmreport.quantities.formatting import fixed_number
-from zlmreport.quantities.uncertain import rounded_pair
 
 _VALUE = Words(en="Value", de="Wert")
 _LIMIT = Words(en="Limit", de="Grenzwert")
 _CONFORMITY = Words(en="Conformity", de="Konformität")
-#: Beyond the decimals of the readings: a mean of several says more than each of them.
-_MORE_DECIMALS = 1
 _DECIMALS_OF_K = 2
-#: An uncertainty that is none.
-_NONE = "0"
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,35 +73,6 @@ class Values:
         if self.has_limits:
             yield limit(parameter, self.scribe)
             yield conformity.verdict(parameter, self.scribe)
-
-
-def written(parameter: Parameter, scribe: Scribe) -> tuple[str, str]:
-    """Write a parameter and its U, without unit: rounded together to two significant digits of U at most.
-
-    A value of which no uncertainty is known has the decimals of the readings, one with an uncertainty no more
-    than one beyond these (ILAC-P14:09/2020; EA-4/02 M:2022).
-    """
-    expanded = parameter.expanded_uncertainty
-    if not expanded:
-        return scribe.deviation(parameter.printed_value), NOTHING if expanded is None else _NONE
-    return _pair(parameter.printed_value, expanded, scribe)
-
-
-def written_uncertainty(expanded: float, scribe: Scribe) -> str:
-    """Write an U (m or rad) by itself, without unit; NaN is nothing."""
-    if math.isnan(expanded):
-        return NOTHING
-    return _pair(0.0, expanded, scribe)[1] if expanded else _NONE
-
-
-def _pair(value: float, expanded: float, scribe: Scribe) -> tuple[str, str]:
-    unit = scribe.deviation_unit
-    return rounded_pair(
-        unit.from_si(value),
-        unit.from_si(expanded),
-        scribe.language.decimal_sign,
-        scribe.deviation_decimals + _MORE_DECIMALS,
-    )
 
 
 def coverage_factor(parameter: Parameter, scribe: Scribe) -> str:

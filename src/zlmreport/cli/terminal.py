@@ -12,8 +12,9 @@ from pathlib import Path
 
 from zlmreport.certificate.conformity import STATEMENTS
 from zlmreport.certificate.readings import missing_readings
+from zlmreport.certificate.rounding import written
 from zlmreport.certificate.scribe import Scribe
-from zlmreport.certificate.values import limit, written
+from zlmreport.certificate.values import limit
 from zlmreport.cli.messages import visible
 from zlmreport.cli.results import Result
 from zlmreport.evaluation.evaluation import Evaluation, Parameter

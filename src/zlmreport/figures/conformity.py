@@ -9,7 +9,11 @@ from zlmreport.language import Language, Words, same
 from zlmreport.quantities.formatting import fixed_number
 from zlmreport.quantities.notation import plain
 
-_TITLE = Words(
+_UNCERTAIN_TITLE = Words(
+    en="Axis {axis}: amounts in percent of their limits TL with their uncertainty ± U",
+    de="Achse {axis}: Beträge in Prozent ihrer Grenzwerte TL mit ihrer Unsicherheit ± U",
+)
+_GUARDED_TITLE = Words(
     en="Axis {axis}: amounts in percent of their limits TL with their uncertainty ± U; a line across a bar "
     "is the acceptance limit",
     de="Achse {axis}: Beträge in Prozent ihrer Grenzwerte TL mit ihrer Unsicherheit ± U; ein Strich über "
@@ -39,7 +43,9 @@ def conformity_graph(evaluation: Evaluation) -> Figure | None:
     bars = tuple(map(_bar, limited))
     graph = _GRAPH.given(axis=evaluation.measurements.axis.name)
     sentences = [graph, *(_sentence(each, bar) for each, bar in zip(limited, bars, strict=True))]
-    title = _TITLE if any(bar.uncertainty for bar in bars) else _BARE_TITLE
+    title = _UNCERTAIN_TITLE if any(bar.uncertainty for bar in bars) else _BARE_TITLE
+    if any(bar.accepted is not None for bar in bars):
+        title = _GUARDED_TITLE
     return Figure(
         key="conformity",
         title=title.given(axis=evaluation.measurements.axis.name),

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from zlmreport.certificate.document import Certificate
+from zlmreport.certificate.rounding import written
 from zlmreport.certificate.scribe import Scribe
-from zlmreport.certificate.values import written
 from zlmreport.quantities.notation import plain
 from zlmreport.verification.carrier import Carrier, guarded
 from zlmreport.verification.findings import Finding, Verdict

@@ -1,0 +1,44 @@
+"""Values and their uncertainties, rounded together: alike in every table of a document."""
+
+from __future__ import annotations
+
+import math
+
+from zlmreport.certificate.scribe import NOTHING, Scribe
+from zlmreport.evaluation.evaluation import Parameter
+from zlmreport.quantities.uncertain import rounded_pair
+
+#: Beyond the decimals of the readings: a mean of several says more than each of them.
+_MORE_DECIMALS = 1
+#: An uncertainty that is none.
+_NONE = "0"
+
+
+def written(parameter: Parameter, scribe: Scribe) -> tuple[str, str]:
+    """Write a parameter and its U, without unit: rounded together to two significant digits of U at most.
+
+    A value of which no uncertainty is known has the decimals of the readings, one with an uncertainty no more
+    than one beyond these (ILAC-P14:09/2020; EA-4/02 M:2022).
+    """
+    expanded = parameter.expanded_uncertainty
+    if not expanded:
+        return scribe.deviation(parameter.printed_value), NOTHING if expanded is None else _NONE
+    return with_uncertainty(parameter.printed_value, expanded, scribe)
+
+
+def written_uncertainty(expanded: float, scribe: Scribe) -> str:
+    """Write an U (m or rad) by itself, without unit; NaN is nothing."""
+    if math.isnan(expanded):
+        return NOTHING
+    return with_uncertainty(0.0, expanded, scribe)[1] if expanded else _NONE
+
+
+def with_uncertainty(value: float, expanded: float, scribe: Scribe) -> tuple[str, str]:
+    """Write a value and an U that is not zero (m or rad), without unit, rounded together."""
+    unit = scribe.deviation_unit
+    return rounded_pair(
+        unit.from_si(value),
+        unit.from_si(expanded),
+        scribe.language.decimal_sign,
+        scribe.deviation_decimals + _MORE_DECIMALS,
+    )
