@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from zlmreport.measurement.conditions import STATE_OF_AIR
 from zlmreport.model.design import Design
 from zlmreport.physics.refractive_index import index_change
 from zlmreport.quantities.arrays import FloatArray
 
-LOGS = ("air_temperature", "air_pressure", "relative_humidity")
+LOGS = STATE_OF_AIR
 
 
 def logged_index_change(design: Design) -> FloatArray:

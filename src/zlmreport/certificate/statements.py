@@ -10,7 +10,7 @@ from zlmreport.certificate.scribe import Scribe
 from zlmreport.job.model import JobKeys
 from zlmreport.language import Words, same
 
-_ONLY_THIS_ITEM = Words(
+ONLY_THIS_ITEM = Words(
     en="The results relate only to the item calibrated, in its condition at the time of the measurement.",
     de="Die Ergebnisse gelten nur für den kalibrierten Gegenstand in seinem Zustand zur Zeit der Messung.",
 )
@@ -74,6 +74,6 @@ def paragraphs(keys: JobKeys, scribe: Scribe) -> Iterator[Block]:
         yield Paragraph(scribe.say(_SIMPLIFIED.given(reference=same(f" ({reference})") if reference else "")))
     if keys.instrument and keys.instrument.certificate:
         yield Paragraph(scribe.say(_TRACEABLE.given(certificate=keys.instrument.certificate)))
-    yield Paragraph(scribe.say(_ONLY_THIS_ITEM))
+    yield Paragraph(scribe.say(ONLY_THIS_ITEM))
     if keys.certificate.kind == "certificate":
         yield Paragraph(scribe.say(_ONLY_IN_FULL))

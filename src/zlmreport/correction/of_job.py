@@ -11,13 +11,12 @@ from zlmreport.errors import InputError, Problem
 from zlmreport.job.correction_keys import AirKeys, DeadPathKeys, MaterialKeys
 from zlmreport.job.job import Job
 from zlmreport.measurement.axis import AxisKind
-from zlmreport.measurement.conditions import CONDITIONS
+from zlmreport.measurement.conditions import CONDITIONS, STATE_OF_AIR
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.physics.refractive_index import STANDARD_HUMIDITY, STANDARD_PRESSURE, refractive_index
 from zlmreport.physics.temperature import REFERENCE_TEMPERATURE
 from zlmreport.quantities.arrays import FloatArray
 
-_AIR = ("air_temperature", "air_pressure", "relative_humidity")
 _NANOMETRE = 1e-9
 _PER_KELVIN = 1e-6  # of µm/(m·K)
 
@@ -63,7 +62,7 @@ def air_conditions(job: Job, measurements: MeasurementSet) -> list[FloatArray]:
         If one of them is known neither from the readings nor from the job.
     """
     problems: list[Problem] = []
-    found = _conditions(_AIR, "corrections.air", job, measurements, problems)
+    found = _conditions(STATE_OF_AIR, "corrections.air", job, measurements, problems)
     if found is None:
         raise InputError(problems)
     return found
@@ -71,7 +70,7 @@ def air_conditions(job: Job, measurements: MeasurementSet) -> list[FloatArray]:
 
 def _air(keys: AirKeys, job: Job, measurements: MeasurementSet, problems: list[Problem]) -> Air | None:
     wavelength = keys.wavelength * _NANOMETRE
-    conditions = _conditions(_AIR, "corrections.air", job, measurements, problems)
+    conditions = _conditions(STATE_OF_AIR, "corrections.air", job, measurements, problems)
     if conditions is None:
         return None
     temperature, pressure, humidity = conditions

@@ -5,8 +5,8 @@ from __future__ import annotations
 from zlmreport.evaluation.evaluation import Evaluation, Parameter
 from zlmreport.figures import alternatives
 from zlmreport.figures.figure import Bar, Figure, Level, Panel, Role
-from zlmreport.language import Language, Words, same
-from zlmreport.quantities.formatting import fixed_number
+from zlmreport.language import Words, same
+from zlmreport.model import wording
 from zlmreport.quantities.notation import plain
 
 _UNCERTAIN_TITLE = Words(
@@ -66,7 +66,7 @@ def _bar(parameter: Parameter) -> Bar:
     return Bar(
         label=same(plain(parameter.quantity.notation)),
         y=percent,
-        value=_percent(percent),
+        value=wording.number(percent, 1),
         uncertainty=100.0 * (parameter.expanded_uncertainty or 0.0) / limit,
         accepted=None if accepted in (None, limit) else max(0.0, 100.0 * accepted / limit),
     )
@@ -75,14 +75,7 @@ def _bar(parameter: Parameter) -> Bar:
 def _sentence(parameter: Parameter, bar: Bar) -> Words:
     words = _BAR.given(symbol=plain(parameter.quantity.notation), percent=bar.value)
     if bar.uncertainty:
-        words = _UNCERTAIN.given(bar=words, uncertainty=_percent(bar.uncertainty))
+        words = _UNCERTAIN.given(bar=words, uncertainty=wording.number(bar.uncertainty, 1))
     if bar.accepted is not None:
-        words = _ACCEPTED.given(bar=words, accepted=_percent(bar.accepted))
+        words = _ACCEPTED.given(bar=words, accepted=wording.number(bar.accepted, 1))
     return _SENTENCE.given(bar=words)
-
-
-def _percent(value: float) -> Words:
-    return Words(
-        en=fixed_number(value, 1, Language.ENGLISH.decimal_sign),
-        de=fixed_number(value, 1, Language.GERMAN.decimal_sign),
-    )

@@ -52,6 +52,9 @@ CONDITION_NAMES: Mapping[str, Words] = MappingProxyType(
     }
 )
 
+#: What the refractive index of air follows from.
+STATE_OF_AIR = ("air_temperature", "air_pressure", "relative_humidity")
+
 _TEMPERATURE = ConditionKind(TEMPERATURE_UNITS, CELSIUS, -50.0, 150.0)
 _PRESSURE = ConditionKind(PRESSURE_UNITS, HECTOPASCAL, 0.0, 1200.0)
 _HUMIDITY = ConditionKind(RATIO_UNITS, PERCENT, 0.0, 100.0)

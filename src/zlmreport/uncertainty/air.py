@@ -9,7 +9,7 @@ import numpy as np
 from zlmreport.correction.of_job import air_conditions
 from zlmreport.job.job import Job
 from zlmreport.language import Words
-from zlmreport.measurement.conditions import CONDITION_NAMES, CONDITIONS
+from zlmreport.measurement.conditions import CONDITION_NAMES, CONDITIONS, STATE_OF_AIR
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.physics.refractive_index import refractive_index
 from zlmreport.uncertainty import wording
@@ -47,7 +47,7 @@ def air_contributions(job: Job, measurements: MeasurementSet, length: float) -> 
     if corrections is None or corrections.air is None:
         return
     conditions = [float(np.mean(each)) for each in air_conditions(job, measurements)]
-    for place, name in enumerate(("air_temperature", "air_pressure", "relative_humidity")):
+    for place, name in enumerate(STATE_OF_AIR):
         stated = getattr(job.keys.uncertainty, name)
         if stated is not None:
             unit = CONDITIONS[name].unit

@@ -9,6 +9,7 @@ from xml.etree import ElementTree as ET
 from zlmreport.certificate.document import Certificate
 from zlmreport.certificate.identity import lines as address_lines
 from zlmreport.certificate.place import place_of_work
+from zlmreport.certificate.statements import ONLY_THIS_ITEM
 from zlmreport.errors import InputError, Problem
 from zlmreport.job.job import Job
 from zlmreport.job.model import Customer, Laboratory
@@ -26,10 +27,6 @@ _AXIS = Words(en="Axis {axis}", de="Achse {axis}")
 _AXIS_OF = Words(en="Axis {axis} of {machine}", de="Achse {axis} von {machine}")
 _AXIS_NAME = Words(en="Axis", de="Achse")
 _SERIAL = Words(en="Serial number", de="Seriennummer")
-_ONLY_THE_ITEM = Words(
-    en="The results relate only to the item calibrated, in its condition at the time of the measurement.",
-    de="Die Ergebnisse gelten nur für den kalibrierten Gegenstand in seinem Zustand zur Zeit der Messung.",
-)
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,7 +92,7 @@ def administrative_data(certificate: Certificate, job: Job) -> ET.Element:
         dcc("calibrationLaboratory", _contact("contact", keys.laboratory, writer, keys.laboratory.country)),
         _persons(job, writer),
         _contact("customer", keys.customer, writer),
-        dcc("statements", dcc("statement", dcc("declaration", writer.content(_ONLY_THE_ITEM)))),
+        dcc("statements", dcc("statement", dcc("declaration", writer.content(ONLY_THIS_ITEM)))),
     )
 
 

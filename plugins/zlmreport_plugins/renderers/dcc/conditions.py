@@ -7,6 +7,7 @@ from xml.etree import ElementTree as ET
 
 from zlmreport.job.job import Job
 from zlmreport.language import Words
+from zlmreport.measurement.conditions import CONDITION_NAMES
 from zlmreport_plugins.renderers.dcc.administrative import Writer, serial_number
 from zlmreport_plugins.renderers.dcc.quantities import (
     DEGREE_CELSIUS,
@@ -18,36 +19,20 @@ from zlmreport_plugins.renderers.dcc.quantities import (
 )
 from zlmreport_plugins.renderers.dcc.xml import dcc
 
-#: Conditions that a job may state: their names, units, and the DCC's word for their kind.
+#: Conditions that a job may state: their units, and the DCC's word for their kind.
 _CONDITIONS = {
-    "air_temperature": (
-        Words(en="Air temperature", de="Lufttemperatur"),
-        DEGREE_CELSIUS,
-        "basic_temperature",
-    ),
-    "material_temperature": (
-        Words(en="Material temperature", de="Werkstofftemperatur"),
-        DEGREE_CELSIUS,
-        "basic_temperature",
-    ),
-    "axis_temperature": (
-        Words(en="Temperature of the machine's scale", de="Temperatur des Maßstabs der Maschine"),
-        DEGREE_CELSIUS,
-        "basic_temperature",
-    ),
-    "air_pressure": (Words(en="Air pressure", de="Luftdruck"), HECTOPASCAL, ""),
-    "relative_humidity": (
-        Words(en="Relative humidity", de="Relative Luftfeuchte"),
-        PERCENT,
-        "basic_humidityRelative",
-    ),
-    "expansion_coefficient": (
-        Words(
-            en="Expansion coefficient used for correction",
-            de="Zur Korrektur benutzter Ausdehnungskoeffizient",
-        ),
-        MICROMETRE_PER_METRE_KELVIN,
-        "",
+    "air_temperature": (DEGREE_CELSIUS, "basic_temperature"),
+    "material_temperature": (DEGREE_CELSIUS, "basic_temperature"),
+    "axis_temperature": (DEGREE_CELSIUS, "basic_temperature"),
+    "air_pressure": (HECTOPASCAL, ""),
+    "relative_humidity": (PERCENT, "basic_humidityRelative"),
+    "expansion_coefficient": (MICROMETRE_PER_METRE_KELVIN, ""),
+}
+_NAMES = {
+    **CONDITION_NAMES,
+    "expansion_coefficient": Words(
+        en="Expansion coefficient used for correction",
+        de="Zur Korrektur benutzter Ausdehnungskoeffizient",
     ),
 }
 _STATE = Words(en="State of the axis", de="Zustand der Achse")
@@ -103,7 +88,8 @@ def influences(job: Job, writer: Writer) -> Iterator[ET.Element]:
     environment = job.keys.environment
     if environment is None:
         return
-    for key, (name, unit, kind) in _CONDITIONS.items():
+    for key, (unit, kind) in _CONDITIONS.items():
+        name = _NAMES[key]
         value = getattr(environment, key)
         if value is None:
             continue
