@@ -15,9 +15,7 @@ from zlmreport.cli import arguments
 
 def text() -> str:
     """Return a section for each command."""
-    parsers = [arguments._main_job()]  # noqa: SLF001 - what --help prints is made there
-    parsers.extend(make(command) for command, make in arguments._PARSERS.items())  # noqa: SLF001 - likewise
-    return "\n\n".join(part for parser in parsers for part in _section(parser))
+    return "\n\n".join(part for parser in arguments.parsers() for part in _section(parser))
 
 
 def _section(parser: argparse.ArgumentParser) -> Iterator[str]:

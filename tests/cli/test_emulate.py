@@ -13,7 +13,8 @@ from pathlib import Path
 import pytest
 
 from zlmreport.cli import main
-from zlmreport.cli.arguments import _FAULTS, parse
+from zlmreport.cli.arguments import parse
+from zlmreport.cli.arguments.values import FAULTS
 from zlmreport.cli.emulate import axis_of
 from zlmreport.emulation.faults import Trouble
 from zlmreport.plugins import find_plugins
@@ -24,7 +25,7 @@ def _options(*arguments: str) -> Namespace:
 
 
 def test_every_fault_is_one_that_the_command_line_knows() -> None:
-    assert set(_FAULTS) == set(Trouble)
+    assert set(FAULTS) == set(Trouble)
 
 
 def test_an_axis_is_described_in_millimetres_and_minutes() -> None:

@@ -13,7 +13,7 @@ from environments import ROOT
 from pdf_conformance import complaints
 from signing.keys import PASSWORD, pkcs12_file
 from zlmreport.cli import main
-from zlmreport.cli.arguments import SIGN_PASSWORD
+from zlmreport.cli.arguments.main_job import SIGN_PASSWORD
 from zlmreport.signing.state import Integrity, signature_state
 
 JOB = ROOT / "configs" / "german" / "messbericht.yaml"

@@ -8,7 +8,7 @@ from argparse import Namespace
 from contextlib import AbstractContextManager, nullcontext
 from getpass import getpass
 
-from zlmreport.cli.arguments import SIGN_PASSWORD
+from zlmreport.cli.arguments.main_job import SIGN_PASSWORD
 from zlmreport.errors import InputError, Place
 from zlmreport.job.job import Job
 from zlmreport.pipeline import PDF

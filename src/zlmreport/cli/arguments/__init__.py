@@ -1,0 +1,90 @@
+"""The commands with their options, and what is said of an option or a command that there is not."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from types import MappingProxyType
+
+from zlmreport.cli.arguments import jobs, model, tests_to_come
+from zlmreport.cli.arguments.main_job import main_job
+from zlmreport.cli.arguments.parser import CommandParser
+from zlmreport.errors import InputError, Place, did_you_mean
+
+#: The job's own name, for it has no word of its own on the command line.
+MAIN_JOB = "report"
+
+#: Each command: what it does, in a line, and what makes its parser.
+_COMMANDS: Mapping[str, tuple[str, Callable[[str], CommandParser]]] = MappingProxyType(
+    {
+        "check": ("validate jobs, their data and the tests; write nothing", jobs.check),
+        "emulate": (
+            "put an instrument that is not there on a line, to try capture without hardware",
+            tests_to_come.emulate,
+        ),
+        "init": ("write a commented job with sample data that runs as it is", jobs.init),
+        "model": ("fit a job's error model, find what it lacks, add it, watch the error fall", model.model),
+        "plan": (
+            "choose targets and their sequence, and say what such a test will not see",
+            tests_to_come.plan,
+        ),
+        "plugins": ("list the plugins found, and why one failed to load", jobs.plugins),
+        "schema": ("print the JSON Schema of the job file, for editors", jobs.schema),
+        "simulate": (
+            "write simulated readings of a described axis, and a job for them",
+            tests_to_come.simulate,
+        ),
+        "surface": ("fit the deviation over a plane, from lines that were measured in it", model.surface),
+        "verify": (
+            "evaluate a certificate again from what it carries, and say whether it holds",
+            jobs.verify,
+        ),
+    }
+)
+
+
+def parsers() -> tuple[CommandParser, ...]:
+    """Return the parser of the main job, and then of every command."""
+    return _main_parser(), *(make(command) for command, (_, make) in _COMMANDS.items())
+
+
+def parse(arguments: Sequence[str]) -> tuple[str, argparse.Namespace]:
+    """Return the command with its options.
+
+    Raises
+    ------
+    InputError
+        If there is no such command or option, with the nearest that there is.
+    SystemExit
+        After ``--help`` and ``--version`` have been printed.
+    """
+    command, *rest = arguments or [""]
+    if command in _COMMANDS:
+        _, make = _COMMANDS[command]
+        parser = make(command)
+        options = parser.parse_strictly(rest)
+        if command == "model":
+            model.demand_model_action(options, parser)
+        return command, options
+    options = _main_parser().parse_strictly(arguments)
+    for job in options.jobs:
+        _refuse_mistaken_command(job)
+    return MAIN_JOB, options
+
+
+def _main_parser() -> CommandParser:
+    return main_job({command: summary for command, (summary, _) in _COMMANDS.items()})
+
+
+def _refuse_mistaken_command(job: Path) -> None:
+    """Take a word that is no file for a command that there is not."""
+    word = str(job)
+    if job.suffix or job.name != word or job.exists():
+        return
+    if word in _COMMANDS:
+        raise InputError.at(Place("zlmreport"), f"the command comes first: zlmreport {word} …")
+    raise InputError.at(
+        Place("zlmreport"),
+        f"{word!r} is neither a file nor a command; {did_you_mean(word, list(_COMMANDS))}",
+    )

@@ -1,0 +1,105 @@
+"""The commands of a test that is still to be done, and of one that never will be."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from zlmreport.cli.arguments.parser import CommandParser
+from zlmreport.cli.arguments.values import FAULTS, course, fault, port, position
+
+
+def plan(command: str) -> CommandParser:
+    """Return the parser of ``zlmreport plan``."""
+    parser = CommandParser(
+        f"zlmreport {command}",
+        "Plan the test of a job before anything is measured: target positions with random fractions, the\n"
+        "sequence of its positioning method, and what such a test will see of each installed effect.\n"
+        "The readings that the job names need not exist. Numbers come from its key plan.",
+        "examples:\n  zlmreport plan x-axis.yaml\n"
+        "  zlmreport plan x-axis.yaml --output plan --program linuxcnc",
+    )
+    parser.add_argument("job", metavar="JOB.yaml", type=Path, help="job file")
+    parser.add_argument(
+        "-o",
+        "--output",
+        metavar="DIR",
+        type=Path,
+        help="write the targets, a form for the readings, a picture of the sequence and part programs into "
+        "this folder",
+    )
+    parser.add_argument(
+        "--program",
+        metavar="P,P",
+        help="with --output: part programs, parted by commas, instead of the job's: linuxcnc,fanuc",
+    )
+    parser.add_argument("--json", action="store_true", help="print the plan as JSON (zlmreport/plan/1)")
+    return parser
+
+
+def emulate(command: str) -> CommandParser:
+    """Return the parser of ``zlmreport emulate``."""
+    parser = CommandParser(
+        f"zlmreport {command}",
+        "Put an instrument that is not there on a pseudo-terminal, or on a TCP port of this computer. It\n"
+        "watches an axis that goes from position to position, and speaks as the real instrument does.\n"
+        "It runs until Ctrl-C; 'zlmreport plugins' lists the instruments.",
+        "examples:\n"
+        "  zlmreport emulate umd1\n"
+        "  zlmreport emulate umd1 --link interferometer --course 0,100,200,100,0 --fault lost-beam@30\n"
+        "  zlmreport emulate ids3010 --port 9090",
+    )
+    parser.add_argument("instrument", metavar="INSTRUMENT", help="umd1, nd28x, ids3010 or another")
+    parser.add_argument(
+        "--link", metavar="PATH", type=Path, help="a name for the pseudo-terminal that stays the same"
+    )
+    parser.add_argument(
+        "--port", metavar="N", type=port, help="a TCP port instead of a pseudo-terminal; 0 for any free one"
+    )
+    parser.add_argument(
+        "--course",
+        metavar="P,P",
+        type=course,
+        default=(0.0, 100.0, 200.0, 100.0),
+        help="positions that the axis goes to in turn, over and over, mm (--course=-5,0 for one that begins "
+        "with a negative); 0,100,200,100 without it",
+    )
+    for name, metavar, without, meaning in (
+        ("dwell", "S", 5.0, "how long the axis rests at each position, s"),
+        ("feed", "F", 3000.0, "how fast it goes, mm/min"),
+        ("noise", "U", 0.05, "standard deviation of what shakes it, micrometres"),
+        ("drift", "V", 0.0, "by how much everything moves away, micrometres a minute"),
+    ):
+        parser.add_argument(
+            f"--{name}",
+            metavar=metavar,
+            type=position,
+            default=without,
+            help=f"{meaning}; {without:g} without it",
+        )
+    parser.add_argument(
+        "--fault",
+        metavar="KIND@S",
+        type=fault,
+        action="append",
+        default=[],
+        help=f"what goes wrong, and how many seconds after the start: {', '.join(FAULTS)}; may be given "
+        "several times. An instrument shows only what its protocol can say",
+    )
+    return parser
+
+
+def simulate(command: str) -> CommandParser:
+    """Return the parser of ``zlmreport simulate``."""
+    parser = CommandParser(
+        f"zlmreport {command}",
+        "Write simulated readings of an axis: its effects, noise, conditions and the plan of its test\n"
+        "are described in a file. A job that evaluates them is written beside, unless it is there.",
+        "example:\n  zlmreport simulate configs/hidden-effect/simulation.yaml --output trial",
+    )
+    parser.add_argument(
+        "specification", metavar="SPEC.yaml", type=Path, help="simulation file (zlmreport/simulation/1)"
+    )
+    parser.add_argument(
+        "-o", "--output", metavar="DIR", type=Path, help="folder of the files, instead of the simulation's"
+    )
+    return parser

@@ -1,0 +1,1 @@
+"""A fleet's certificates: which are due, making them, and what became of each."""
