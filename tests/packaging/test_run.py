@@ -126,6 +126,18 @@ def test_no_environment_is_made_over_an_error(machine: Machine) -> None:
     assert not machine.environment.exists()
 
 
+def test_tests_go_on_without_the_programs_that_some_of_them_need(machine: Machine) -> None:
+    machine.install("python3", _PYTHON.replace("echo libpango-1.0-0", ":"))
+    machine.install("id", "echo 1000")
+    (machine.environment / "bin").mkdir(parents=True)
+    machine.install("python", "exit 0")
+    (machine.bin / "python").rename(machine.environment / "bin" / "python")
+    done = machine.run("tests")
+    assert done.returncode == 0
+    assert "tests that need chromium will be skipped" in done.stderr
+    assert machine.calls("python")[-1].startswith("python -m pytest")
+
+
 @pytest.mark.parametrize(
     ("arguments", "code"), [(["--help"], 0), (["-h"], 0), ([], 2), (["certificates"], 2)]
 )
