@@ -49,6 +49,10 @@ class ZlmreportError(Exception):
         self.problems: tuple[Problem, ...] = tuple(problems)
         super().__init__("\n".join(map(str, self.problems)))
 
+    def __reduce__(self) -> tuple[type[ZlmreportError], tuple[tuple[Problem, ...]]]:
+        """Let the error reach another process as it is."""
+        return type(self), (self.problems,)
+
     @classmethod
     def at(cls, place: Place, message: str) -> ZlmreportError:
         """Return the error for a single problem."""

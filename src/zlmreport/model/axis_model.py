@@ -32,6 +32,10 @@ class ModelError(Exception):
         self.sentences = tuple(sentences)
         super().__init__("; ".join(self.sentences))
 
+    def __reduce__(self) -> tuple[type[ModelError], tuple[tuple[str, ...]]]:
+        """Let the error reach another process as it is."""
+        return type(self), (self.sentences,)
+
 
 @dataclass(frozen=True, slots=True)
 class Term:

@@ -1,0 +1,25 @@
+"""Errors reach whoever can mend them, from another process, too."""
+
+from __future__ import annotations
+
+import pickle
+
+import pytest
+
+from zlmreport.errors import AccessError, InputError, Place, Problem, ZlmreportError
+from zlmreport.model.axis_model import ModelError
+
+
+@pytest.mark.parametrize("kind", [InputError, AccessError])
+def test_an_error_comes_out_of_another_process_as_it_went_in(kind: type[ZlmreportError]) -> None:
+    error = kind([Problem(Place("job.yaml", 3, 5), "wrong"), Problem(Place("x.csv"), "missing")])
+    there = pickle.loads(pickle.dumps(error))
+    assert type(there) is kind
+    assert there.problems == error.problems
+    assert str(there) == str(error)
+
+
+def test_what_a_model_cannot_carry_comes_out_of_another_process_as_it_went_in() -> None:
+    there = pickle.loads(pickle.dumps(ModelError(["no reading", "no run"])))
+    assert there.sentences == ("no reading", "no run")
+    assert str(there) == "no reading; no run"
