@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import builtins
+import os
 import socket
-from typing import Any
+import termios
+from typing import Any, Literal
 
 import pytest
 
@@ -121,6 +123,28 @@ def test_nonsense_is_shown() -> None:
         patience.hear(b"\xff\x00garbage", 11.5)
         with pytest.raises(AccessError, match=r"no lines of a µMD1: '\\xff\\x00garbage'; look whether"):
             patience.check(12.0)
+
+
+def test_an_instrument_that_was_understood_gets_longer_on_a_bad_line() -> None:
+    with Port("loop://", Framing(), 1.0) as port:
+        patience = _patience(port)
+        patience.understand(10.0)
+        for now in range(11, 20):
+            patience.hear(b"garbage", float(now))
+            patience.check(float(now))
+        patience.hear(b"garbage", 20.0)
+        with pytest.raises(AccessError, match="what arrives are no lines"):
+            patience.check(20.0)
+
+
+@pytest.mark.parametrize(("parity", "checked"), [("E", termios.INPCK), ("O", termios.INPCK), ("N", 0)])
+def test_parity_is_checked_where_there_is_one(parity: Literal["N", "E", "O"], checked: int) -> None:
+    with PseudoTerminal() as terminal, Port(terminal.address, Framing(bits=7, parity=parity), 1.0):
+        descriptor = os.open(terminal.address, os.O_RDWR | os.O_NOCTTY)
+        flags = termios.tcgetattr(descriptor)[0]
+        os.close(descriptor)
+    # neither IGNPAR nor PARMRK: a byte of wrong parity arrives as NUL
+    assert flags & (termios.INPCK | termios.IGNPAR | termios.PARMRK) == checked
 
 
 def test_a_message_shows_the_beginning_of_long_nonsense() -> None:

@@ -1,12 +1,13 @@
-"""``zlmreport simulate``: readings of an axis that never was."""
+"""``zlmreport simulate``: readings of an axis that never was, or the axis itself to be read."""
 
 from __future__ import annotations
 
 from argparse import Namespace
 
-from zlmreport import pipeline
+from zlmreport.cli.simulate_files import remarks, written
+from zlmreport.cli.simulate_live import run_live
 from zlmreport.cli.terminal import shown_path
-from zlmreport.job.simulation import SimulationFile, load_simulation
+from zlmreport.job.simulation import load_simulation
 from zlmreport.pipeline import Document
 from zlmreport.plugins import find_plugins
 from zlmreport.simulation.interpret import description_of
@@ -15,29 +16,22 @@ from zlmreport.simulation.writing import job_text, readings_table
 
 
 def run(options: Namespace) -> int:
-    """Write the readings anew, and the job unless it is there: somebody may have worked on it."""
+    """Write the readings anew, and the job unless it is there; or emulate the machine and its instrument."""
+    if options.emulate is not None:
+        return run_live(options)
     registry = find_plugins(files=options.plugin)
     file = load_simulation(options.specification, registry)
     measurements = simulate(description_of(file, registry.effect)).measurements
     folder = options.output or options.specification.parent
     readings = folder / (file.keys.output.readings or f"{options.specification.stem}.csv")
     job = folder / file.keys.output.job
-    is_new = not job.exists()
-    documents = [Document(readings, readings_table(measurements, _remarks(file)).encode())]
-    if is_new:
-        documents.append(Document(job, job_text(file, folder, readings.name).encode()))
-    for path in pipeline.write(documents):
-        print(shown_path(path))
-    if not is_new:
-        print(f"{shown_path(job)} is there already and was left as it is")
+    head = remarks(file, "Simulated readings, not measurements.")
+    print(
+        *written(
+            Document(readings, readings_table(measurements, head).encode()),
+            Document(job, job_text(file, folder, readings.name).encode()),
+        ),
+        sep="\n",
+    )
     print(f"next: zlmreport {shown_path(job)}")
     return 0
-
-
-def _remarks(file: SimulationFile) -> tuple[str, ...]:
-    """Return what the head of the readings says of their origin."""
-    origin = f"sha256 {file.source.sha256[:16]}…, seed {file.keys.seed}"
-    return (
-        "Simulated readings, not measurements.",
-        f"Source: zlmreport simulate {file.source.name} ({origin})",
-    )

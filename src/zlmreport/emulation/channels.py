@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import fcntl
 import os
 import select
 import socket
+import struct
+import termios
 import tty
 from pathlib import Path
 from types import TracebackType
@@ -12,7 +15,10 @@ from typing import Protocol, Self
 
 from zlmreport.errors import AccessError, Place
 
+#: As much as a line holds at least.
 _CHUNK = 4096
+#: So many times in turn less must wait than was sent.
+_CERTAIN = 3
 
 
 class Channel(Protocol):
@@ -22,9 +28,12 @@ class Channel(Protocol):
     ----------
     address
         As a job names it: a path, or ``socket://host:number``.
+    is_read
+        Whether a host has ever read from it, spoken on it, or called.
     """
 
     address: str
+    is_read: bool
 
     def wait(self, seconds: float) -> None:
         """Wait until something arrives, but no longer."""
@@ -56,6 +65,8 @@ class PseudoTerminal:
         os.set_blocking(self._ours, False)
         name = os.ttyname(self._theirs)
         self._link = link
+        self._sent = self._unread = self._behind = 0
+        self.is_read = False
         if link is not None:
             try:
                 link.symlink_to(name)
@@ -83,15 +94,20 @@ class PseudoTerminal:
     def receive(self) -> bytes:
         """Return what has arrived."""
         try:
-            return os.read(self._ours, _CHUNK)
+            data = os.read(self._ours, _CHUNK)
         except BlockingIOError:
             return b""
+        self.is_read = True
+        return data
 
     def send(self, data: bytes) -> None:
         """Send as much as the line takes."""
+        self._notice_reader()
         try:
             while data:
-                data = data[os.write(self._ours, data) :]
+                sent = os.write(self._ours, data)
+                self._sent += sent
+                data = data[sent:]
         except BlockingIOError:
             return
 
@@ -102,6 +118,22 @@ class PseudoTerminal:
         self._hang_up()
         if self._link is not None:
             self._link.unlink(missing_ok=True)
+
+    def _notice_reader(self) -> None:
+        """Notice whether somebody reads: what nobody reads stays in the line.
+
+        It gets less, or from the beginning it is less than was sent, and not only for the moment in which it
+        is still on its way.
+        """
+        unread = self._waiting()
+        self._behind = self._behind + 1 if unread < self._sent < _CHUNK else 0
+        self.is_read |= unread < self._unread or self._behind >= _CERTAIN
+        self._unread = unread
+
+    def _waiting(self) -> int:
+        """Return how many bytes wait for a host."""
+        (count,) = struct.unpack("i", fcntl.ioctl(self._theirs, termios.FIONREAD, bytes(4)))
+        return int(count)
 
     def _hang_up(self) -> None:
         os.close(self._ours)
@@ -132,6 +164,7 @@ class LocalSocket:
             ) from error
         self._listening.settimeout(0)
         self._host: socket.socket | None = None
+        self.is_read = False
         self.address = f"socket://127.0.0.1:{self._listening.getsockname()[1]}"
 
     def __enter__(self) -> Self:
@@ -153,6 +186,7 @@ class LocalSocket:
             except BlockingIOError:
                 return
             self._host.settimeout(0)
+            self.is_read = True
 
     def receive(self) -> bytes:
         """Return what has arrived; a host that has gone makes room for the next."""

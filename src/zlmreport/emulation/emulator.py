@@ -2,11 +2,30 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from types import MappingProxyType
 from typing import Protocol
 
 from zlmreport.emulation.axis import EmulatedAxis, MovingAxis
 from zlmreport.emulation.faults import Troubles
+from zlmreport.physics.refractive_index import STANDARD_HUMIDITY, STANDARD_PRESSURE
+from zlmreport.physics.temperature import REFERENCE_TEMPERATURE
+
+#: The conditions of a room that is as it should be, SI.
+STANDARD_CONDITIONS: Mapping[str, float] = MappingProxyType(
+    {
+        "air_temperature": REFERENCE_TEMPERATURE,
+        "air_pressure": STANDARD_PRESSURE,
+        "relative_humidity": STANDARD_HUMIDITY,
+        "axis_temperature": REFERENCE_TEMPERATURE,
+    }
+)
+
+
+def standard_conditions(_time: float) -> Mapping[str, float]:
+    """Return `STANDARD_CONDITIONS`, at any time."""
+    return STANDARD_CONDITIONS
 
 
 @dataclass(frozen=True, slots=True)
@@ -19,10 +38,19 @@ class Scene:
         The axis that it measures.
     troubles
         What goes wrong, and when. Whether the line is unplugged or garbled is no matter of the instrument.
+    conditions
+        Returns the conditions at a time in s from the start, SI, by the names of
+        `zlmreport.measurement.conditions`: what the instrument's own sensors measure, and the air that its
+        beam passes. What is not among them is as in `STANDARD_CONDITIONS`.
     """
 
     axis: EmulatedAxis = field(default_factory=MovingAxis)
     troubles: Troubles = field(default_factory=Troubles)
+    conditions: Callable[[float], Mapping[str, float]] = standard_conditions
+
+    def condition(self, name: str, time: float) -> float:
+        """Return a condition at a time in s from the start, SI."""
+        return self.conditions(time).get(name, STANDARD_CONDITIONS[name])
 
 
 class Emulator(Protocol):

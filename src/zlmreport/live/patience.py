@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from zlmreport.live.port import Port, shown
 
+#: Nonsense from an instrument that was understood before comes from a bad line: it gets so many times longer.
+_BAD_LINE = 5
+
 
 class Patience:
     """Watches what arrives, and ends the wait with a message that says what to look at.
@@ -13,7 +16,7 @@ class Patience:
     port
         Where the instrument is.
     timeout
-        How long it may be silent or send what is not understood, s.
+        How long it may be silent, or send what is not understood before anything was, s.
     expected
         What should come: ``lines of a µMD1``.
     advice
@@ -46,13 +49,14 @@ class Patience:
 
     def check(self, now: float) -> None:
         """Raise an `AccessError` if the instrument has had its time."""
-        if now - self._understood_at < self._timeout:
-            return
         seconds = f"{self._timeout:g} s"
-        if now - self._heard_at >= self._timeout or not self._nonsense:
+        if now - max(self._heard_at, self._understood_at) >= self._timeout:
             happened = "has stopped sending" if self._has_understood else "sends nothing"
             self._port.fail(
                 f"the instrument {happened}: {self._expected} should have come within {seconds}; "
                 "look at its cable, its power and its settings for the interface"
             )
+        longest = self._timeout * (_BAD_LINE if self._has_understood else 1)
+        if now - self._understood_at < longest:
+            return
         self._port.fail(f"what arrives are no {self._expected}: {shown(self._nonsense)}; {self._advice}")

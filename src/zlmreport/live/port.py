@@ -75,6 +75,7 @@ class Port:
                 write_timeout=timeout,
                 **_alone(name),
             )
+            _let_parity_count(self._port, framing)
         except ValueError as error:
             raise InputError.at(
                 self.place, f"is no port ({error}); write /dev/ttyUSB0, COM3 or socket://host:number"
@@ -159,6 +160,20 @@ def _pyserial(place: Place) -> ModuleType:
 def _alone(name: str) -> dict[str, bool]:
     """Return what keeps other programs away from a port while it is open, where there is such a thing."""
     return {"exclusive": True} if os.name == "posix" and "://" not in name else {}
+
+
+def _let_parity_count(port: Any, framing: Framing) -> None:
+    """Let a byte of wrong parity arrive as NUL, which no instrument sends; pyserial would hand it over."""
+    if framing.parity == "N" or os.name != "posix" or not hasattr(port, "fd"):
+        return
+    import termios  # noqa: PLC0415 - there is none on other systems
+
+    try:
+        settings = termios.tcgetattr(port.fd)
+        settings[0] = settings[0] & ~(termios.IGNPAR | termios.PARMRK) | termios.INPCK
+        termios.tcsetattr(port.fd, termios.TCSANOW, settings)
+    except termios.error as error:
+        raise OSError(*error.args) from error
 
 
 def _why_not_opened(name: str, error: OSError) -> str:

@@ -54,9 +54,7 @@ def simulate(description: Description) -> Simulation:
         If a searched parameter of an effect has no value.
     """
     design = design_of(description)
-    systematic = np.zeros(len(design.position))
-    for each in description.effects:
-        systematic += deviation_by(each.effect, design, each.fixed)
+    systematic = deviation_by_all(description, design)
     return Simulation(observed(description, design, systematic), design, read_only_floats(systematic))
 
 
@@ -70,6 +68,20 @@ def design_of(description: Description) -> Design:
         for name, course in description.conditions.items()
     }
     return replace(design, conditions=conditions)
+
+
+def deviation_by_all(description: Description, design: Design) -> FloatArray:
+    """Return the deviation that all effects of a description make, shape (N,), m or rad.
+
+    Raises
+    ------
+    ValueError
+        If a searched parameter of an effect has no value.
+    """
+    systematic = np.zeros(len(design.position))
+    for each in description.effects:
+        systematic += deviation_by(each.effect, design, each.fixed)
+    return systematic
 
 
 def deviation_by(effect: Effect, design: Design, values: Mapping[str, float]) -> FloatArray:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -16,10 +16,13 @@ from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.conditions import CONDITIONS
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.quantities.arrays import FloatArray
+from zlmreport.simulation.description import Plan
 
 #: Digits after the decimal point: of positions in mm or °, of deviations in µm or ″, of times in s.
 POSITION_DIGITS, _DEVIATION_DIGITS, _TIME_DIGITS = 4, 3, 1
 _CONDITION_DIGITS = 4
+#: More digits of mm or ° than anybody types, and fewer than a double rounds at.
+_MEANT_DIGITS = 9
 _USUAL_MODEL = ("offset", "scale-error", "backlash")
 _PLAIN = re.compile(r"[A-Za-z]([A-Za-z0-9._-]*[A-Za-z0-9])?")
 _DIRECTIONS = {Approach.POSITIVE: "+", Approach.NEGATIVE: "-"}
@@ -81,10 +84,43 @@ def job_text(file: SimulationFile, folder: Path, readings: str) -> str:
     readings
         Name of the file with the readings, beside the job.
     """
-    return "\n".join(_job_lines(file, folder, readings)) + "\n"
+    source = {"plugin": "laser-csv", "file": readings}
+    return "\n".join([*_job_lines(file, folder, source), _OUTPUT]) + "\n"
 
 
-def _job_lines(file: SimulationFile, folder: Path, readings: str) -> Iterator[str]:
+def live_job_text(file: SimulationFile, folder: Path, plan: Plan, source: Mapping[str, Any]) -> str:
+    """Return a job that captures the readings of an emulated machine from an instrument, and models them.
+
+    Parameters
+    ----------
+    file
+        The simulation.
+    folder
+        Where the job will stand: tables of the axis are named from there.
+    plan
+        What the machine carries out.
+    source
+        The keys of the job's source.
+    """
+    unit = file.axis.position_unit
+    targets = unit.from_si(plan.targets).round(_MEANT_DIGITS).tolist()
+    lines = [
+        *_job_lines(file, folder, source, dwell=file.keys.dwell),
+        "plan:",
+        f"  targets: {_flow({'positions': targets})}",
+        f"  runs: {plan.runs}",
+        f"  overrun: {_flow(file.keys.overrun)} # {unit.symbol}",
+        _OUTPUT,
+    ]
+    return "\n".join(lines) + "\n"
+
+
+_OUTPUT = "output: {directory: out, formats: [pdf, json]}"
+
+
+def _job_lines(
+    file: SimulationFile, folder: Path, source: Mapping[str, Any], dwell: float | None = None
+) -> Iterator[str]:
     keys = file.keys
     effects = keys.model.effects if keys.model else _USUAL_MODEL
     axis = {
@@ -100,19 +136,20 @@ def _job_lines(file: SimulationFile, folder: Path, readings: str) -> Iterator[st
     yield "measurement:"
     yield f"  method: {keys.method}"
     yield f"  feed: {_flow(keys.feed)} # {file.axis.position_unit.symbol}/min"
-    yield f"  source: {{plugin: laser-csv, file: {_flow(readings)}}}"
+    if dwell is not None:
+        yield f"  dwell: {_flow(dwell)} # s"
+    yield f"  source: {_flow(source)}"
     yield "  remarks: Simulated readings, not measurements."
     yield "evaluate:"
     yield "  - iso230-2:2014"
     yield "model:"
     yield "  effects:"
     yield from (f"    - {_flow(effect)}" for effect in effects)
-    yield "output: {directory: out, formats: [pdf, json]}"
 
 
 def _flow(value: Any) -> str:
     """Write a value in one line of YAML; a text that is no plain word stands in quotes."""
-    if isinstance(value, dict):
+    if isinstance(value, Mapping):
         return f"{{{', '.join(f'{key}: {_flow(item)}' for key, item in value.items())}}}"
     if isinstance(value, list | tuple):
         return f"[{', '.join(map(_flow, value))}]"

@@ -31,7 +31,7 @@ class Client:
 
     def __init__(self, port: Port, timeout: float) -> None:
         self._port = port
-        self._wait = timeout / 2
+        self._wait = timeout / 4
         self._number = 0
         self._namespace = _NAMESPACES[0]
         self._has_ecu = True

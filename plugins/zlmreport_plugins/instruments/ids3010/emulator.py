@@ -8,6 +8,7 @@ from typing import Any
 
 from zlmreport.emulation.emulator import Scene
 from zlmreport.emulation.faults import Trouble
+from zlmreport.measurement.reading_units import CELSIUS, HECTOPASCAL, PERCENT, Scale
 
 _PER_METRE = 1e12
 #: How long it takes to begin to measure, s; a real one takes longer.
@@ -31,9 +32,9 @@ class Ids3010Emulator:
             f"{_NAMESPACE}system.resetError": lambda _: [0],
             f"{_NAMESPACE}displacement.getAxesDisplacement": self._displacements,
             f"{_NAMESPACE}displacement.getAbsolutePosition": self._absolute,
-            f"{_ECU}getTemperatureInDegrees": lambda _: [0, 20.0],
-            f"{_ECU}getPressureInHPa": lambda _: [0, 1013.25],
-            f"{_ECU}getHumidityInPercent": lambda _: [0, 50.0],
+            f"{_ECU}getTemperatureInDegrees": self._sensor("air_temperature", CELSIUS),
+            f"{_ECU}getPressureInHPa": self._sensor("air_pressure", HECTOPASCAL),
+            f"{_ECU}getHumidityInPercent": self._sensor("relative_humidity", PERCENT),
             f"{_ECU}getRefractiveIndex": lambda _: [0, 1.000271],
         }
 
@@ -89,6 +90,10 @@ class Ids3010Emulator:
 
     def _absolute(self, time: float) -> list[Any]:
         return [self._warning(time), round(self._scene.axis.position(time) * _PER_METRE)]
+
+    def _sensor(self, condition: str, unit: Scale) -> Callable[[float], list[Any]]:
+        """Return what asks a sensor of the environmental unit."""
+        return lambda time: [0, round(unit.from_si(self._scene.condition(condition, time)), 3)]
 
     def _warning(self, time: float) -> int:
         return 1 if self._scene.troubles.has(Trouble.ERROR, time) else 0

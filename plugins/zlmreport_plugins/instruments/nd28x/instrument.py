@@ -22,6 +22,8 @@ from zlmreport_plugins.instruments.nd28x import dialogue
 from zlmreport_plugins.instruments.nd28x.dialogue import PrintedUnit
 from zlmreport_plugins.instruments.nd28x.emulator import Nd28xEmulator
 
+#: Bits on the line of a question and its answer: 7 and 42 characters at most, of 11 bits each.
+_BITS = 49 * 11
 _UNITS = {PrintedUnit.MILLIMETRE: MILLIMETRE, PrintedUnit.INCH: INCH}
 
 
@@ -73,7 +75,7 @@ class Nd28x:
 
 def _reading(port: Port, options: Nd28xOptions, patience: Patience) -> LiveReading:
     """Ask for a reading."""
-    wait = options.timeout / 4
+    wait = options.timeout / 8 + _BITS / options.baud_rate
     position = ask(port, dialogue.CURRENT_POSITION, dialogue.position_in, wait)
     now = time.monotonic()
     printed = ask(port, dialogue.PRINT, dialogue.printed_in, wait)

@@ -4,10 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+
+import numpy as np
 
 from zlmreport.emulation.emulator import Scene
 from zlmreport.emulation.faults import Trouble
+from zlmreport.measurement.conditions import STATE_OF_AIR
+from zlmreport.measurement.reading_units import CELSIUS, HECTOPASCAL, PERCENT, Scale
+from zlmreport.physics.refractive_index import index_change
 from zlmreport_plugins.instruments.umd.frame import Code
 from zlmreport_plugins.instruments.umd.models import Model
 
@@ -30,6 +35,8 @@ class _Manner:
         Into how many parts PHASE divides a count; 1 for a display that sends none.
     says
         Of the low-speed channel, by slot: code and number.
+    sensors
+        The same of its sensors: code, what the sensor measures, its unit, and how much finer the number is.
     greeting
         What it sends first.
     """
@@ -40,6 +47,7 @@ class _Manner:
     counts: int
     phase_steps: int
     says: Mapping[int, tuple[int, int]]
+    sensors: Mapping[int, tuple[int, str, Scale, int]] = field(default_factory=dict)
     greeting: bytes = b""
 
 
@@ -62,10 +70,12 @@ _MANNERS: Mapping[str, _Manner] = {
         says={
             1: (Code.FIRMWARE, 5704),
             2: (Code.SAMPLE_RATE, 61_035),
-            3: (Code.TEMPERATURE_1, 2000),
-            4: (Code.TEMPERATURE_2, 2000),
-            5: (Code.PRESSURE, 101_325),
-            6: (Code.HUMIDITY, 500),
+        },
+        sensors={
+            3: (Code.TEMPERATURE_1, "air_temperature", CELSIUS, 100),
+            4: (Code.TEMPERATURE_2, "axis_temperature", CELSIUS, 100),
+            5: (Code.PRESSURE, "air_pressure", HECTOPASCAL, 100),
+            6: (Code.HUMIDITY, "relative_humidity", PERCENT, 10),
         },
     ),
     "umd2": _Manner(
@@ -85,7 +95,7 @@ _MANNERS: Mapping[str, _Manner] = {
 
 
 class UmdEmulator:
-    """A display that watches an axis.
+    """A display that watches an axis through the air between: where the axis is at 0 there is none.
 
     Parameters
     ----------
@@ -94,7 +104,7 @@ class UmdEmulator:
     scene
         The axis, and what goes wrong.
     length
-        Displacement for an optical cycle, m.
+        Displacement for an optical cycle in standard air, m.
     """
 
     def __init__(self, model: Model, scene: Scene, length: float) -> None:
@@ -102,7 +112,8 @@ class UmdEmulator:
         self._manner = _MANNERS[model.identifier]
         self._scene = scene
         self._length = length
-        self._start = scene.axis.position(0.0)
+        self._per_standard_air = self._air(0.0)
+        self._start = scene.axis.position(0.0) * self._per_standard_air
         self._sequence = 0
         self._lost = 0
         self._count = 0
@@ -128,7 +139,11 @@ class UmdEmulator:
     def _line(self, at: float) -> bytes:
         """Return the line of the next sample."""
         manner = self._manner
-        exact = (self._scene.axis.position(at) - self._start) / self._length * manner.counts
+        slot = self._sequence % self._model.slots
+        if slot == 0:
+            self._per_standard_air = self._air(at)
+        optical = self._scene.axis.position(at) * self._per_standard_air
+        exact = (optical - self._start) / self._length * manner.counts
         troubles = self._scene.troubles
         is_broken = bool(manner.reference) and troubles.has(Trouble.LOST_BEAM, at)
         # A phase is what a count lacks upwards; a display without phases shows the nearest count.
@@ -145,10 +160,22 @@ class UmdEmulator:
         self._count = count
         if troubles.has(Trouble.ERROR, at) and self._model.identifier == "umd1":
             phase = 0x200
-        code, data = manner.says.get(self._sequence % self._model.slots, (0, 0))
+        code, data = self._says(slot, at)
         velocity = step if manner.reference else 0
         fields = (reference, measured, count + self._lost, velocity, phase, self._sequence, code, data)
         return b"%d %d %d %d %d %d %d %d\r\n" % fields
+
+    def _says(self, slot: int, at: float) -> tuple[int, int]:
+        """Return what the low-speed channel says."""
+        if slot not in self._manner.sensors:
+            return self._manner.says.get(slot, (0, 0))
+        code, condition, unit, parts = self._manner.sensors[slot]
+        return code, round(unit.from_si(self._scene.condition(condition, at)) * parts)
+
+    def _air(self, at: float) -> float:
+        """Return how many cycles the air makes of a length for each that standard air makes."""
+        state = (np.array(self._scene.condition(name, at)) for name in STATE_OF_AIR)
+        return 1 + float(index_change(*state))
 
     def _cycles_of_reference(self) -> int:
         before = math.floor(self._counter_of_reference)

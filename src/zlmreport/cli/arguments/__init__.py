@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from types import MappingProxyType
 
-from zlmreport.cli.arguments import jobs, model, tests_to_come
+from zlmreport.cli.arguments import capture, fleet, jobs, model, tests_to_come, workbench
 from zlmreport.cli.arguments.main_job import main_job
 from zlmreport.cli.arguments.parser import CommandParser
 from zlmreport.errors import InputError, Place, did_you_mean
@@ -18,11 +18,14 @@ MAIN_JOB = "report"
 #: Each command: what it does, in a line, and what makes its parser.
 _COMMANDS: Mapping[str, tuple[str, Callable[[str], CommandParser]]] = MappingProxyType(
     {
+        "capture": ("take the readings live, from the instrument that a job names", capture.capture),
         "check": ("validate jobs, their data and the tests; write nothing", jobs.check),
         "emulate": (
-            "put an instrument that is not there on a line, to try capture without hardware",
+            "put an instrument that is not there on a line, to try capture",
             tests_to_come.emulate,
         ),
+        "fleet": ("make the certificates of many machines that are due, every night", fleet.fleet),
+        "fleet report": ("write the overview of a fleet: who fails, who drifts", fleet.fleet_report),
         "init": ("write a commented job with sample data that runs as it is", jobs.init),
         "model": ("fit a job's error model, find what it lacks, add it, watch the error fall", model.model),
         "plan": (
@@ -39,6 +42,10 @@ _COMMANDS: Mapping[str, tuple[str, Callable[[str], CommandParser]]] = MappingPro
         "verify": (
             "evaluate a certificate again from what it carries, and say whether it holds",
             jobs.verify,
+        ),
+        "workbench": (
+            "work on a job's error model with a mouse, on a page in the browser",
+            workbench.workbench,
         ),
     }
 )
@@ -59,7 +66,8 @@ def parse(arguments: Sequence[str]) -> tuple[str, argparse.Namespace]:
     SystemExit
         After ``--help`` and ``--version`` have been printed.
     """
-    command, *rest = arguments or [""]
+    words = 2 if " ".join(arguments[:2]) in _COMMANDS else 1
+    command, rest = " ".join(arguments[:words]), arguments[words:]
     if command in _COMMANDS:
         _, make = _COMMANDS[command]
         parser = make(command)

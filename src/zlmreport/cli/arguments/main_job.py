@@ -48,7 +48,7 @@ def main_job(commands: Mapping[str, str]) -> CommandParser:
 
 
 def _description(commands: Mapping[str, str]) -> str:
-    listed = "\n".join(f"  {name:9} {summary}" for name, summary in commands.items())
+    listed = "\n".join(f"  {name:12} {summary}" for name, summary in commands.items())
     return (
         "Read the measurements that a job names, evaluate them by its standards, and write\n"
         f"the certificate.\n\nother commands:\n{listed}\n"

@@ -5,7 +5,15 @@ from __future__ import annotations
 from pathlib import Path
 
 from zlmreport.cli.arguments.parser import CommandParser
-from zlmreport.cli.arguments.values import FAULTS, course, fault, port, position
+from zlmreport.cli.arguments.values import (
+    FAULTS,
+    POINT_FAULTS,
+    course,
+    fault,
+    point_fault,
+    port,
+    position,
+)
 
 
 def plan(command: str) -> CommandParser:
@@ -14,7 +22,8 @@ def plan(command: str) -> CommandParser:
         f"zlmreport {command}",
         "Plan the test of a job before anything is measured: target positions with random fractions, the\n"
         "sequence of its positioning method, and what such a test will see of each installed effect.\n"
-        "The readings that the job names need not exist. Numbers come from its key plan.",
+        "The readings that the job names need not exist. Numbers come from its key plan.\n"
+        "For a job with a step gauge: the path of the probe over it, by its key step_gauge.path.",
         "examples:\n  zlmreport plan x-axis.yaml\n"
         "  zlmreport plan x-axis.yaml --output plan --program linuxcnc",
     )
@@ -24,15 +33,20 @@ def plan(command: str) -> CommandParser:
         "--output",
         metavar="DIR",
         type=Path,
-        help="write the targets, a form for the readings, a picture of the sequence and part programs into "
-        "this folder",
+        help="write the targets, a form for the readings, a picture of the sequence or of the path, and "
+        "programs into this folder",
     )
     parser.add_argument(
         "--program",
         metavar="P,P",
-        help="with --output: part programs, parted by commas, instead of the job's: linuxcnc,fanuc",
+        help="with --output: part programs, parted by commas, instead of the job's: linuxcnc,fanuc; for a "
+        "step gauge probing programs: dmis,ippdme",
     )
-    parser.add_argument("--json", action="store_true", help="print the plan as JSON (zlmreport/plan/1)")
+    parser.add_argument(
+        "--json",
+        action="store_true",
+        help="print the plan as JSON (zlmreport/plan/1, zlmreport/probing-path/1)",
+    )
     return parser
 
 
@@ -46,15 +60,11 @@ def emulate(command: str) -> CommandParser:
         "examples:\n"
         "  zlmreport emulate umd1\n"
         "  zlmreport emulate umd1 --link interferometer --course 0,100,200,100,0 --fault lost-beam@30\n"
-        "  zlmreport emulate ids3010 --port 9090",
+        "  zlmreport emulate ids3010 --port 9090\n"
+        "  zlmreport emulate ippdme --job gauge.yaml --scale-error 5",
     )
-    parser.add_argument("instrument", metavar="INSTRUMENT", help="umd1, nd28x, ids3010 or another")
-    parser.add_argument(
-        "--link", metavar="PATH", type=Path, help="a name for the pseudo-terminal that stays the same"
-    )
-    parser.add_argument(
-        "--port", metavar="N", type=port, help="a TCP port instead of a pseudo-terminal; 0 for any free one"
-    )
+    parser.add_argument("instrument", metavar="INSTRUMENT", help="umd1, nd28x, ids3010, ippdme or another")
+    _add_line(parser)
     parser.add_argument(
         "--course",
         metavar="P,P",
@@ -76,6 +86,45 @@ def emulate(command: str) -> CommandParser:
             default=without,
             help=f"{meaning}; {without:g} without it",
         )
+    _add_machine(parser)
+    return parser
+
+
+def _add_machine(parser: CommandParser) -> None:
+    """Add the options of an emulated coordinate measuring machine."""
+    parser.add_argument(
+        "--job",
+        metavar="JOB.yaml",
+        type=Path,
+        help="ippdme: the job whose step gauge lies on the machine, where its initial points say; the TCP "
+        "port is 1294 without --port",
+    )
+    parser.add_argument(
+        "--scale-error",
+        metavar="E",
+        type=position,
+        default=0.0,
+        help="ippdme: error of the machine along the gauge, micrometres a metre; 0 without it",
+    )
+    parser.add_argument(
+        "--point-fault",
+        metavar="KIND@N",
+        type=point_fault,
+        action="append",
+        default=[],
+        help=f"ippdme: what goes wrong at the N-th measuring move: {', '.join(POINT_FAULTS)}; may be given "
+        "several times",
+    )
+
+
+def _add_line(parser: CommandParser) -> None:
+    """Add the options of an emulated instrument's line."""
+    parser.add_argument(
+        "--link", metavar="PATH", type=Path, help="a name for the pseudo-terminal that stays the same"
+    )
+    parser.add_argument(
+        "--port", metavar="N", type=port, help="a TCP port instead of a pseudo-terminal; 0 for any free one"
+    )
     parser.add_argument(
         "--fault",
         metavar="KIND@S",
@@ -85,7 +134,6 @@ def emulate(command: str) -> CommandParser:
         help=f"what goes wrong, and how many seconds after the start: {', '.join(FAULTS)}; may be given "
         "several times. An instrument shows only what its protocol can say",
     )
-    return parser
 
 
 def simulate(command: str) -> CommandParser:
@@ -93,13 +141,28 @@ def simulate(command: str) -> CommandParser:
     parser = CommandParser(
         f"zlmreport {command}",
         "Write simulated readings of an axis: its effects, noise, conditions and the plan of its test\n"
-        "are described in a file. A job that evaluates them is written beside, unless it is there.",
-        "example:\n  zlmreport simulate configs/hidden-effect/simulation.yaml --output trial",
+        "are described in a file. A job that evaluates them is written beside, unless it is there.\n"
+        "With --emulate nothing is read: the axis carries out its plan before an emulated instrument, for\n"
+        "'zlmreport capture' to follow, until Ctrl-C. What the axis really does is written beside.",
+        "examples:\n"
+        "  zlmreport simulate configs/hidden-effect/simulation.yaml --output trial\n"
+        "  zlmreport simulate configs/hidden-effect/simulation.yaml --output trial --emulate umd1 --link umd",
     )
     parser.add_argument(
         "specification", metavar="SPEC.yaml", type=Path, help="simulation file (zlmreport/simulation/1)"
     )
     parser.add_argument(
         "-o", "--output", metavar="DIR", type=Path, help="folder of the files, instead of the simulation's"
+    )
+    parser.add_argument(
+        "--emulate", metavar="INSTRUMENT", help="let this instrument watch the axis: umd1, nd28x or another"
+    )
+    _add_line(parser)
+    parser.add_argument(
+        "--start",
+        metavar="S",
+        type=position,
+        default=10.0,
+        help="with --emulate: how long the axis rests once somebody reads the port, s; 10 without it",
     )
     return parser

@@ -9,6 +9,7 @@ from zlmreport.errors import did_you_mean
 
 #: As `zlmreport.emulation.faults` knows them; a test holds the two together.
 FAULTS = ("lost-beam", "skipped", "error", "garbled", "unplugged")
+POINT_FAULTS = ("no-touch", "no-surface", "collision", "emergency-stop", "lost-connection")
 
 
 def fault(text: str) -> tuple[str, float]:
@@ -23,6 +24,16 @@ def fault(text: str) -> tuple[str, float]:
     if not (math.isfinite(start) and start >= 0):
         raise argparse.ArgumentTypeError(f"{text!r} does not say when; write seconds, such as {kind}@30")
     return kind, start
+
+
+def point_fault(text: str) -> tuple[str, int]:
+    """Read a fault of a coordinate measuring machine and the measuring move at which it happens."""
+    kind, _, number = text.partition("@")
+    if kind not in POINT_FAULTS:
+        raise argparse.ArgumentTypeError(f"{kind!r} is no fault; {did_you_mean(kind, POINT_FAULTS)}")
+    if not (number.isascii() and number.isdigit() and int(number)):
+        raise argparse.ArgumentTypeError(f"{text!r} does not say at which move; write such as {kind}@7")
+    return kind, int(number)
 
 
 def course(text: str) -> tuple[float, ...]:

@@ -1,0 +1,308 @@
+"""What happens while an axis is followed: each event is a fact that is written down, or shown, or both."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TypeAlias
+
+from zlmreport.capture.visit_list import ListedVisit
+from zlmreport.measurement.approach import Approach
+
+
+@dataclass(frozen=True, slots=True)
+class Mean:
+    """The mean of the readings over the later half of the dwell.
+
+    Attributes
+    ----------
+    value
+        By the instrument's own zero, m or rad.
+    range
+        Largest − smallest over the whole dwell, m or rad.
+    count
+        How many readings were averaged.
+    skipped
+        How many among them did not arrive or were not understood.
+    time
+        Of the last, s, by the clock of the readings.
+    duration
+        From the first to the last, s.
+    conditions
+        Beside the last, SI, under the names of `zlmreport.measurement.conditions`.
+    """
+
+    value: float
+    range: float
+    count: int
+    skipped: int
+    time: float
+    duration: float
+    conditions: Mapping[str, float]
+
+
+@dataclass(frozen=True, slots=True)
+class DatumTaken:
+    """The reading at the datum: the axis is known to stand at a position there, m or rad."""
+
+    position: float
+    mean: Mean
+
+
+@dataclass(frozen=True, slots=True)
+class MovedBeforeDatum:
+    """The axis moved before the reading at the datum was taken: nobody knows where it stands now.
+
+    Attributes
+    ----------
+    position
+        Where the axis is to stand for the datum, m or rad.
+    """
+
+    position: float
+
+
+@dataclass(frozen=True, slots=True)
+class DatumHolds:
+    """After an interruption, the axis read the same again at a target that was read before.
+
+    Attributes
+    ----------
+    visit
+        The earlier one.
+    difference
+        Now − then, m or rad.
+    """
+
+    visit: ListedVisit
+    difference: float
+
+
+@dataclass(frozen=True, slots=True)
+class DatumMoved:
+    """After an interruption, the axis did not read the same: the datum is another one.
+
+    Attributes
+    ----------
+    visit
+        The earlier one.
+    difference
+        Now − then, m or rad.
+    void
+        The visits that are no longer valid to take: the rest of the part.
+    """
+
+    visit: ListedVisit
+    difference: float
+    void: tuple[ListedVisit, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class NotChecked:
+    """After an interruption, the axis stands at a target that was not read before from this side."""
+
+    target: int
+    approach: Approach
+
+
+@dataclass(frozen=True, slots=True)
+class Moving:
+    """The axis is on its way to the visit that is next."""
+
+    visit: ListedVisit
+
+
+@dataclass(frozen=True, slots=True)
+class Settling:
+    """The axis is inside the tolerance of the visit that is next, and a reading may be taken."""
+
+    visit: ListedVisit
+
+
+@dataclass(frozen=True, slots=True)
+class Recorded:
+    """A reading was taken.
+
+    Attributes
+    ----------
+    visit
+        The visit.
+    attempt
+        At its part of the test, from 1.
+    position
+        Actual position, m or rad: the mean, seen from the datum.
+    mean
+        What it was made of.
+    """
+
+    visit: ListedVisit
+    attempt: int
+    position: float
+    mean: Mean
+
+    @property
+    def deviation(self) -> float:
+        """Actual − target, m or rad."""
+        return self.position - self.visit.position
+
+
+@dataclass(frozen=True, slots=True)
+class Passed:
+    """The axis was at a target and left again, and nothing was taken; it may still come back.
+
+    Attributes
+    ----------
+    visit
+        The visit.
+    seconds
+        How long it was inside the tolerance.
+    """
+
+    visit: ListedVisit
+    seconds: float
+
+
+@dataclass(frozen=True, slots=True)
+class Missed:
+    """A visit that will not be: the axis stands still at a later one."""
+
+    visit: ListedVisit
+    attempt: int
+
+
+@dataclass(frozen=True, slots=True)
+class Repeated:
+    """The axis stands still at the visit that was read last: the reading stays as it is."""
+
+    visit: ListedVisit
+
+
+@dataclass(frozen=True, slots=True)
+class WrongDirection:
+    """The axis came to the target that is next from the other side.
+
+    Attributes
+    ----------
+    visit
+        The visit.
+    approach
+        How it came; None if it is not known, because no motion was seen.
+    """
+
+    visit: ListedVisit
+    approach: Approach | None
+
+
+@dataclass(frozen=True, slots=True)
+class NotNext:
+    """The axis stands still at a target, having come from a side, where nothing is to be read now.
+
+    Attributes
+    ----------
+    target
+        Its number, from 1.
+    approach
+        How the axis came there.
+    visit
+        The visit that is next.
+    """
+
+    target: int
+    approach: Approach
+    visit: ListedVisit
+
+
+@dataclass(frozen=True, slots=True)
+class Elsewhere:
+    """The axis stands still at a position, m or rad, that is no target: a pause, or a wrong datum."""
+
+    position: float
+
+
+@dataclass(frozen=True, slots=True)
+class ZeroLost:
+    """The instrument lost its zero: no later reading compares with an earlier one.
+
+    Attributes
+    ----------
+    message
+        What happened, for the operator.
+    void
+        The visits that can no longer be taken: the rest of the part. What was taken stays.
+    """
+
+    message: str
+    void: tuple[ListedVisit, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class TrackLost:
+    """No sound reading came for so long that a visit may have gone unseen, s."""
+
+    silence: float
+
+
+@dataclass(frozen=True, slots=True)
+class TooSlow:
+    """Readings come so seldom that the axis could turn round, or move and stand again, between two.
+
+    Attributes
+    ----------
+    spacing
+        Between readings, s.
+    largest
+        What it may be, s.
+    """
+
+    spacing: float
+    largest: float
+
+
+@dataclass(frozen=True, slots=True)
+class Finished:
+    """The last visit was taken, or missed for good."""
+
+
+@dataclass(frozen=True, slots=True)
+class Interrupted:
+    """The capture ended before the test was over: the user ended it, or the instrument was gone."""
+
+    reason: str
+
+
+@dataclass(frozen=True, slots=True)
+class Resumed:
+    """The capture goes on after a time in which nobody watched the instrument."""
+
+
+@dataclass(frozen=True, slots=True)
+class Ended:
+    """The user closed the test: what was not taken is missing."""
+
+
+Event: TypeAlias = (
+    DatumTaken
+    | MovedBeforeDatum
+    | DatumHolds
+    | DatumMoved
+    | NotChecked
+    | Moving
+    | Settling
+    | Recorded
+    | Passed
+    | Missed
+    | Repeated
+    | WrongDirection
+    | NotNext
+    | Elsewhere
+    | ZeroLost
+    | TrackLost
+    | TooSlow
+    | Finished
+    | Interrupted
+    | Resumed
+    | Ended
+)
+
+#: After these nothing is taken any more until an operator has seen to it.
+HALTING = (MovedBeforeDatum, DatumMoved, ZeroLost, TrackLost, TooSlow, Finished)

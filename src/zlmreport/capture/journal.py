@@ -1,0 +1,188 @@
+"""Writing a journal: each record is on the disk before anything else happens."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+from collections.abc import Iterator
+from pathlib import Path
+from types import TracebackType
+from typing import Self
+
+from zlmreport.capture.events import Event
+from zlmreport.capture.header import Header
+from zlmreport.capture.history import History, read_history, sealed
+from zlmreport.capture.progress import Progress
+from zlmreport.capture.records import Record, to_record
+from zlmreport.errors import AccessError, Place
+
+
+class Journal:
+    """A journal that is open for records; only one capture can have it.
+
+    Make one by `begun` or `continued`, and leave it as a context manager.
+
+    Attributes
+    ----------
+    header
+        Its first line.
+    progress
+        How far the capture has come, by what is in it.
+    elapsed
+        Of its last record, s from the start of the capture.
+    """
+
+    def __init__(self, path: Path, handle: int, header: Header, last_sum: str) -> None:
+        self.header = header
+        self.progress = Progress.begin(header.visits, header.datum)
+        self.elapsed = 0.0
+        self._place = Place(str(path))
+        self._handle = handle
+        self._sum = last_sum
+
+    @classmethod
+    def begun(cls, path: Path, header: Header) -> Self:
+        """Begin a journal.
+
+        Raises
+        ------
+        AccessError
+            If there is one of this name that holds a capture, or it cannot be written.
+        """
+        with _closed_on_error(_opened(path)) as handle:
+            demand_nothing_captured(path)
+            os.ftruncate(handle, 0)
+            journal = cls(path, handle, header, "")
+            journal._write(header.to_record())
+            _keep_name(path)
+            return journal
+
+    @classmethod
+    def continued(cls, path: Path) -> Self:
+        """Go on with a journal; what was torn off at its end is cut away.
+
+        Raises
+        ------
+        AccessError
+            If there is none, it is damaged or being written, or it cannot be written.
+        """
+        read_history(path)  # before it is opened, which would make one
+        with _closed_on_error(_opened(path)) as handle:
+            history = read_history(path)
+            if history is None:
+                raise AccessError.at(
+                    Place(str(path)),
+                    "holds nothing yet: not even its first line is whole; leave --resume out",
+                )
+            os.ftruncate(handle, history.sound)
+            os.fsync(handle)
+            journal = cls(path, handle, history.header, history.last_sum)
+            journal.progress = history.progress
+            journal.elapsed = history.entries[-1].elapsed if history.entries else 0.0
+            return journal
+
+    def __enter__(self) -> Self:
+        """Return the journal."""
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        """Close it, and let others have it."""
+        os.close(self._handle)
+
+    def append(self, event: Event, elapsed: float) -> None:
+        """Write an event; when this returns, a power cut cannot take it away.
+
+        Parameters
+        ----------
+        event
+            What happened.
+        elapsed
+            When, s from the start of the capture; a clock that was set back does not let time go back.
+
+        Raises
+        ------
+        AccessError
+            If it cannot be written.
+        """
+        self.elapsed = max(self.elapsed, elapsed)
+        self._write({"elapsed": round(self.elapsed, 4), **to_record(event)})
+        self.progress = self.progress.after(event)
+
+    def _write(self, record: Record) -> None:
+        line, self._sum = sealed(record, self._sum)
+        try:
+            while line:
+                line = line[os.write(self._handle, line) :]
+            os.fsync(self._handle)
+        except OSError as error:
+            raise AccessError.at(
+                self._place,
+                f"cannot be written: {error.strerror or error}; what happened last is not in it: see to the "
+                "disk, then go on with --resume",
+            ) from error
+
+
+def demand_nothing_captured(path: Path) -> None:
+    """Refuse to begin a journal where there is one with readings in it, or a file of somebody else.
+
+    Raises
+    ------
+    AccessError
+        At the journal, with how to go on.
+    """
+    if not path.exists() or (path.is_file() and not path.stat().st_size):
+        return
+    history = read_history(path)
+    if history is not None and history.has_readings:
+        raise AccessError.at(Place(str(path)), _is_there(history))
+
+
+@contextlib.contextmanager
+def _closed_on_error(handle: int) -> Iterator[int]:
+    try:
+        yield handle
+    except BaseException:
+        os.close(handle)
+        raise
+
+
+def _opened(path: Path) -> int:
+    """Open a journal, make it if there is none, and keep others from writing it."""
+    import fcntl  # noqa: PLC0415 - not on every system, and not for reading
+
+    place = Place(str(path))
+    try:
+        handle = os.open(path, os.O_RDWR | os.O_CREAT | os.O_APPEND, 0o666)
+    except OSError as error:
+        raise AccessError.at(place, f"cannot be written: {error.strerror or error}") from error
+    try:
+        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError as error:
+        os.close(handle)
+        raise AccessError.at(
+            place, "is being written by another capture; end that first, or name another journal"
+        ) from error
+    return handle
+
+
+def _keep_name(path: Path) -> None:
+    """Push the name of a new file to the disk, too."""
+    with contextlib.suppress(OSError):  # some file systems have no such thing
+        folder = os.open(path.parent, os.O_RDONLY)
+        try:
+            os.fsync(folder)
+        finally:
+            os.close(folder)
+
+
+def _is_there(history: History) -> str:
+    progress = history.progress
+    number = history.header.number
+    if progress.is_over:
+        return f"holds the finished capture of {number}; name another journal for a new one"
+    return (
+        f"holds a capture of {number} that is not finished: {progress.taken} of {len(progress.visits)} "
+        "visits; go on with --resume, or name another journal"
+    )

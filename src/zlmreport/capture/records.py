@@ -1,0 +1,158 @@
+"""Events as records of a journal, and back."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Callable, Mapping, Sequence
+from types import MappingProxyType
+from typing import Any, TypeAlias
+
+from zlmreport.capture.events import (
+    DatumHolds,
+    DatumMoved,
+    DatumTaken,
+    Elsewhere,
+    Ended,
+    Event,
+    Finished,
+    Interrupted,
+    Mean,
+    Missed,
+    MovedBeforeDatum,
+    Moving,
+    NotChecked,
+    NotNext,
+    Passed,
+    Recorded,
+    Repeated,
+    Resumed,
+    Settling,
+    TooSlow,
+    TrackLost,
+    WrongDirection,
+    ZeroLost,
+)
+from zlmreport.capture.visit_list import ListedVisit
+from zlmreport.measurement.approach import Approach
+
+Record: TypeAlias = dict[str, Any]
+
+#: Events of the moment: shown, and not kept.
+MOMENTARY = (Moving, Settling)
+
+_KINDS: Mapping[str, type] = MappingProxyType(
+    {
+        "datum": DatumTaken,
+        "moved-before-datum": MovedBeforeDatum,
+        "datum-holds": DatumHolds,
+        "datum-moved": DatumMoved,
+        "not-checked": NotChecked,
+        "reading": Recorded,
+        "passed": Passed,
+        "missed": Missed,
+        "repeated": Repeated,
+        "wrong-direction": WrongDirection,
+        "not-next": NotNext,
+        "elsewhere": Elsewhere,
+        "zero-lost": ZeroLost,
+        "track-lost": TrackLost,
+        "too-slow": TooSlow,
+        "finished": Finished,
+        "interrupted": Interrupted,
+        "resumed": Resumed,
+        "ended": Ended,
+    }
+)
+_NAMES = {kind: name for name, kind in _KINDS.items()}
+
+
+def to_record(event: Event) -> Record:
+    """Return the keys of an event: visits by their numbers, the mean's values beside the others, SI."""
+    record: Record = {"record": _NAMES[type(event)]}
+    for name in fields(type(event)):
+        value = getattr(event, name)
+        if isinstance(value, Mean):
+            record |= {each: _plain(getattr(value, each)) for each in fields(Mean)}
+        else:
+            record[name] = _plain(value)
+    if isinstance(event, Recorded):
+        record["deviation"] = event.deviation
+    return record
+
+
+def from_record(record: Mapping[str, Any], visits: Sequence[ListedVisit]) -> Event:
+    """Return the event of a record; raise KeyError, TypeError, ValueError or IndexError for any other."""
+    kind = _KINDS[record["record"]]
+    event: Event = kind(**{name: _READERS[name](record, visits) for name in fields(kind)})
+    return event
+
+
+def fields(kind: type) -> tuple[str, ...]:
+    """Return the names of a dataclass's fields."""
+    return tuple(each.name for each in dataclasses.fields(kind))
+
+
+def finite(value: Any) -> float:
+    """Return a number; raise TypeError or ValueError for anything else."""
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        raise TypeError(f"{value!r} is no number")
+    if not math.isfinite(value):
+        raise ValueError(f"{value!r} is not finite")
+    return float(value)
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, ListedVisit):
+        return value.number
+    if isinstance(value, tuple):
+        return [_plain(each) for each in value]
+    if isinstance(value, Mapping):
+        return {name: each for name, each in value.items() if math.isfinite(each)}
+    return int(value) if isinstance(value, Approach) else value
+
+
+def _visit(number: Any, visits: Sequence[ListedVisit]) -> ListedVisit:
+    if number not in range(1, len(visits) + 1):
+        raise ValueError(f"there is no visit {number!r}")
+    return visits[int(number) - 1]
+
+
+def _mean(record: Mapping[str, Any]) -> Mean:
+    conditions = {str(name): finite(value) for name, value in dict(record["conditions"]).items()}
+    return Mean(
+        value=finite(record["value"]),
+        range=finite(record["range"]),
+        count=int(record["count"]),
+        skipped=int(record["skipped"]),
+        time=finite(record["time"]),
+        duration=finite(record["duration"]),
+        conditions=MappingProxyType(conditions),
+    )
+
+
+_Reader: TypeAlias = Callable[[Mapping[str, Any], Sequence[ListedVisit]], Any]
+
+
+def _number(name: str) -> _Reader:
+    return lambda record, _visits: finite(record[name])
+
+
+_READERS: Mapping[str, _Reader] = MappingProxyType(
+    {
+        "visit": lambda record, visits: _visit(record["visit"], visits),
+        "void": lambda record, visits: tuple(_visit(number, visits) for number in record["void"]),
+        "mean": lambda record, _visits: _mean(record),
+        "approach": lambda record, _visits: (
+            None if record["approach"] is None else Approach(record["approach"])
+        ),
+        "target": lambda record, _visits: int(record["target"]),
+        "attempt": lambda record, _visits: int(record["attempt"]),
+        "message": lambda record, _visits: str(record["message"]),
+        "reason": lambda record, _visits: str(record["reason"]),
+        **{
+            name: _number(name)
+            for name in ("position", "difference", "seconds", "silence", "spacing", "largest")
+        },
+    }
+)

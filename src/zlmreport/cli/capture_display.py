@@ -1,0 +1,162 @@
+"""Where an operator watches a capture: a terminal, a file of lines, or another program."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import sys
+import textwrap
+from typing import Protocol
+
+from zlmreport.capture.events import Event, Recorded, TooSlow
+from zlmreport.capture.follower import Follower
+from zlmreport.capture.of_job import Assignment
+from zlmreport.capture.progress import Progress
+from zlmreport.capture.records import MOMENTARY, to_record
+from zlmreport.cli.capture_lines import Scribe, duration, halted, line_on, what_to_do
+from zlmreport.cli.capture_panel import panel
+from zlmreport.cli.messages import visible
+from zlmreport.cli.terminal import Colour
+from zlmreport.errors import AccessError, Place
+from zlmreport.job.job import Job
+from zlmreport.live.reading import LiveReading
+
+#: How often the present moment is shown, s: nobody reads it more often.
+_BEAT = 0.1
+_BELL = "\a"
+_CLEAR_BELOW, _UP = "\x1b[J", "\x1b[{}A"
+
+
+class Display(Protocol):
+    """Shows a capture to somebody."""
+
+    def wait(self) -> None:
+        """Say whose test it is, while the instrument is awaited."""
+
+    def begin(self, follower: Follower) -> None:
+        """Say what is to be done before readings are taken."""
+
+    def tell(self, event: Event) -> None:
+        """Say what has happened."""
+
+    def show(self, follower: Follower, reading: LiveReading) -> None:
+        """Show the present moment."""
+
+    def see_to(self, event: Event | None, progress: Progress) -> None:
+        """Let the operator see to what has happened; raise `AccessError` if there is none."""
+
+    def leave(self, message: str) -> None:
+        """Say at last how the capture goes on."""
+
+
+def is_watched() -> bool:
+    """Tell whether somebody sits at a terminal whose cursor can be moved."""
+    return sys.stdin.isatty() and sys.stdout.isatty() and os.environ.get("TERM", "dumb") != "dumb"
+
+
+class PlainLines:
+    """Prints a line for what happens; nothing moves, and nobody is asked."""
+
+    def __init__(self, job: Job, assignment: Assignment) -> None:
+        self._job = job
+        self._assignment = assignment
+        self._scribe = Scribe(job.axis)
+
+    def wait(self) -> None:
+        """Say whose test it is, while the instrument is awaited."""
+        number, axis = (visible(text) for text in (self._job.keys.certificate.number, self._job.axis.name))
+        visits, method = len(self._assignment.visits), self._assignment.plan.method
+        rest = duration(self._assignment.remaining_time(0))
+        self._line(f"{Colour.BOLD.of(number)}  axis {axis}, {method}, {visits} visits, {rest}")
+
+    def begin(self, follower: Follower) -> None:
+        """Say what is to be done."""
+        for number, step in enumerate(what_to_do(follower.progress, self._scribe), start=1):
+            self._line(f"{number}. {step}")
+
+    def tell(self, event: Event) -> None:
+        """Print a line on an event."""
+        line = line_on(event, len(self._assignment.visits), self._scribe)
+        if line:
+            self._line(visible(line))
+
+    def show(self, follower: Follower, reading: LiveReading) -> None:
+        """Show nothing: a file has no present moment."""
+
+    def see_to(self, event: Event | None, progress: Progress) -> None:
+        """Raise `AccessError` with what is to be seen to."""
+        steps = ", then ".join(what_to_do(progress, self._scribe, event))
+        raise AccessError.at(Place("zlmreport capture"), f"{halted(event, self._scribe)}; {steps}")
+
+    def leave(self, message: str) -> None:
+        """Print how the capture goes on."""
+        self._line(message)
+
+    def _line(self, line: str) -> None:
+        print(line, flush=True)
+
+
+class JsonLines(PlainLines):
+    """Prints what happens as the journal has it, for another program."""
+
+    def wait(self) -> None:
+        """Print nothing."""
+
+    def begin(self, follower: Follower) -> None:
+        """Print nothing."""
+
+    def tell(self, event: Event) -> None:
+        """Print an event."""
+        if not isinstance(event, MOMENTARY):
+            self._line(json.dumps(to_record(event), ensure_ascii=False))
+
+    def leave(self, message: str) -> None:
+        """Print nothing: the journal is left as it is after any other end."""
+
+
+class LiveDisplay(PlainLines):
+    """Prints the same lines, and below them shows the present moment; a bell says that a reading is taken."""
+
+    def __init__(self, job: Job, assignment: Assignment) -> None:
+        super().__init__(job, assignment)
+        self._shown = 0
+        self._due = 0.0
+
+    def tell(self, event: Event) -> None:
+        """Print a line on an event, and ring for a reading."""
+        super().tell(event)
+        if isinstance(event, Recorded):
+            print(_BELL, end="", flush=True)
+
+    def show(self, follower: Follower, reading: LiveReading) -> None:
+        """Show the present moment, ten times a second at most."""
+        if reading.time < self._due:
+            return
+        self._due = reading.time + _BEAT
+        width = shutil.get_terminal_size().columns - 1
+        shown = [visible(line)[:width] for line in panel(reading, follower, self._assignment, self._scribe)]
+        print(self._back(), *(f"{line}\n" for line in shown), sep="", end="", flush=True)
+        self._shown = len(shown)
+
+    def see_to(self, event: Event | None, progress: Progress) -> None:
+        """Print what is wrong, and what to do, and wait until the operator has done it."""
+        if isinstance(event, TooSlow):  # nothing that is done at the machine helps
+            super().see_to(event, progress)
+        width = shutil.get_terminal_size().columns - 1
+        for line in textwrap.wrap(visible(halted(event, self._scribe)), width):
+            self._line(Colour.RED.of(line))
+        self._line(f"First {what_to_do(progress, self._scribe, event)[0]}.")
+        try:
+            input("Press Enter when that is done, Ctrl-C to stop: ")
+        except EOFError as error:
+            raise KeyboardInterrupt from error
+
+    def _line(self, line: str) -> None:
+        print(self._back() + line, flush=True)
+        self._shown = 0
+        self._due = 0.0
+
+    def _back(self) -> str:
+        """Return what takes the cursor to where the present moment is shown, and wipes that away."""
+        return (_UP.format(self._shown) if self._shown else "") + "\r" + _CLEAR_BELOW

@@ -1,0 +1,176 @@
+"""What an operator reads while a test is captured: a line for what happened, and what to do next."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from zlmreport.capture.events import (
+    DatumHolds,
+    DatumMoved,
+    DatumTaken,
+    Elsewhere,
+    Event,
+    Missed,
+    MovedBeforeDatum,
+    NotChecked,
+    NotNext,
+    Passed,
+    Recorded,
+    Repeated,
+    TooSlow,
+    TrackLost,
+    WrongDirection,
+    ZeroLost,
+)
+from zlmreport.capture.progress import Progress
+from zlmreport.capture.visit_list import ListedVisit
+from zlmreport.measurement.approach import Approach
+from zlmreport.measurement.axis import Axis
+from zlmreport.quantities.formatting import MINUS, fixed_number
+
+#: Where an axis comes from, by its direction.
+SIDES = {Approach.POSITIVE: "from below", Approach.NEGATIVE: "from above"}
+_SECONDS_A_MINUTE, _MINUTES_AN_HOUR = 60, 60
+
+
+@dataclass(frozen=True, slots=True)
+class Scribe:
+    """Writes positions and deviations of an axis as the terminal shows them."""
+
+    axis: Axis
+
+    def position(self, value: float, decimals: int = 3) -> str:
+        """Write a position in mm or °."""
+        unit = self.axis.position_unit
+        return f"{fixed_number(unit.from_si(value), decimals)} {unit.symbol}"
+
+    def deviation(self, value: float) -> str:
+        """Write a deviation in µm or ″, with its sign."""
+        number = self.fine(value)
+        return number if number.startswith(MINUS) else f"+{number}"
+
+    def fine(self, value: float) -> str:
+        """Write a small length in µm or ″."""
+        unit = self.axis.deviation_unit
+        return f"{fixed_number(unit.from_si(value), 2)} {unit.symbol}"
+
+    def visit(self, visit: ListedVisit) -> str:
+        """Name a visit: ``run 2 ↑  150.000 mm``."""
+        return f"run {visit.run} {visit.approach.arrow} {self.position(visit.position):>12}"
+
+
+def line_on(event: Event, visits: int, scribe: Scribe) -> str:
+    """Return what an operator reads of an event; nothing for those that only a display shows."""
+    match event:
+        case DatumTaken(position=position):
+            return f"datum    the reading is taken for {scribe.position(position)}"
+        case DatumHolds(visit=visit, difference=difference):
+            return f"datum    holds: {scribe.deviation(difference)} against visit {visit.number}"
+        case NotChecked(target=target, approach=approach):
+            return f"datum    target {target} {approach.arrow} was not read before: nothing is taken"
+        case Recorded(visit=visit, mean=mean):
+            number = f"{visit.number:>{len(str(visits))}}/{visits}"
+            deviation = scribe.deviation(event.deviation)
+            return f"{number:8} {scribe.visit(visit)}  {deviation:>12}  range {scribe.fine(mean.range)}"
+        case _:
+            return _out_of_order(event, scribe)
+
+
+def _out_of_order(event: Event, scribe: Scribe) -> str:
+    line = ""
+    match event:
+        case Passed(visit=visit, seconds=seconds):
+            line = f"passed   {scribe.visit(visit)}: nothing taken, it was there for {seconds:.1f} s"
+        case Missed(visit=visit):
+            line = f"MISSED   {scribe.visit(visit)}: the axis stands at a later one"
+        case Repeated(visit=visit):
+            line = f"again    {scribe.visit(visit)}: its reading stays as it is"
+        case WrongDirection(visit=visit, approach=approach):
+            came = f"it came {SIDES[approach]}" if approach else "no motion towards it was seen"
+            line = f"WRONG    {scribe.visit(visit)}: {came}; let it come {SIDES[visit.approach]}"
+        case NotNext(target=target, approach=approach, visit=visit):
+            line = f"OTHER    target {target} {approach.arrow} is not next; next is {scribe.visit(visit)}"
+        case Elsewhere(position=position):
+            line = f"no target at {scribe.position(position)}, where it stands; is the datum right?"
+    return line
+
+
+def halted(event: Event | None, scribe: Scribe) -> str:
+    """Return why nothing more is taken, and what that means for what was."""
+    match event:
+        case ZeroLost(message=message, void=void):
+            return f"{message or 'the instrument lost its zero'}. {_void(void, scribe)}"
+        case MovedBeforeDatum(position=position):
+            return (
+                f"the axis moved before the reading at {scribe.position(position)} was taken for its datum, "
+                "and where it stands now is not known: stop the program"
+            )
+        case DatumMoved(visit=visit, difference=difference, void=void):
+            moved = (
+                f"the datum has moved by {scribe.deviation(difference)} since visit {visit.number} was read"
+            )
+            return f"{moved}. {_void(void, scribe)}"
+        case TrackLost(silence=silence):
+            return (
+                f"no sound reading came for {silence:.1f} s, and a visit may have gone unseen: look at the "
+                "instrument and its line"
+            )
+        case TooSlow(spacing=spacing, largest=largest):
+            return (
+                f"readings come every {spacing:.2g} s, and more than {largest:.2g} s apart the axis could "
+                "turn round unseen: let the instrument send more often (its key rate), or state a larger "
+                "plan.overrun, a lower measurement.feed or a longer measurement.source.dwell"
+            )
+        case _:
+            return "the readings ended"
+
+
+def _void(void: Sequence[ListedVisit], scribe: Scribe) -> str:
+    first, last = void[0], void[-1]
+    visits = f"visits {first.number} to {last.number} are" if len(void) > 1 else f"visit {first.number} is"
+    return (
+        f"The datum is gone: {visits} void, from {scribe.position(first.position)} {first.approach.arrow} of "
+        f"run {first.run} on. What was taken before stays"
+    )
+
+
+def what_to_do(progress: Progress, scribe: Scribe, event: Event | None = None) -> list[str]:
+    """Return what an operator does, step by step, before the capture goes on.
+
+    Parameters
+    ----------
+    progress
+        How far it has come.
+    scribe
+        Writes positions.
+    event
+        What stopped it; None if nothing did.
+    """
+    visit = progress.next
+    attempt = f", attempt {progress.attempt}" if progress.attempt > 1 else ""
+    begin = "go on with" if progress.taken else "start"
+    where = f"{scribe.position(visit.position)} {SIDES[visit.approach]}, run {visit.run}{attempt}"
+    steps = [f"{begin} the program at visit {visit.number}: {where}"]
+    if progress.zero is None and progress.datum is not None:
+        steps.insert(0, f"let the axis stand still at {scribe.position(progress.datum)}, for the datum")
+    elif progress.must_check:
+        last = max((read.visit for read in progress.read.values()), key=lambda visit: visit.number)
+        back = f"{scribe.position(last.position)} {SIDES[last.approach]}"
+        steps.insert(0, f"let the axis come once more to {back}, to check the datum")
+    elif isinstance(event, ZeroLost | DatumMoved):
+        steps.insert(0, "set the instrument's zero as it was when the capture began")
+    return steps
+
+
+def duration(seconds: float) -> str:
+    """Write how long something takes.
+
+    >>> duration(42), duration(150), duration(5000)
+    ('less than a minute', 'about 2 min', 'about 1 h 23 min')
+    """
+    minutes = round(seconds / _SECONDS_A_MINUTE)
+    if minutes < 1:
+        return "less than a minute"
+    hours, minutes = divmod(minutes, _MINUTES_AN_HOUR)
+    return f"about {hours} h {minutes} min" if hours else f"about {minutes} min"

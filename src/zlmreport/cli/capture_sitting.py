@@ -1,0 +1,128 @@
+"""Capturing from a port: sitting by sitting, with an operator who sees to what goes wrong in between."""
+
+from __future__ import annotations
+
+import datetime as dt
+import time
+from collections.abc import Callable, Iterator
+from functools import partial
+from itertools import chain
+from pathlib import Path
+
+from zlmreport.capture.events import Event, Interrupted, Resumed
+from zlmreport.capture.follower import Follower
+from zlmreport.capture.history import read_history
+from zlmreport.capture.journal import Journal, demand_nothing_captured
+from zlmreport.capture.of_job import Assignment, demand_same_test, header_of, instrument_of
+from zlmreport.capture.session import captured
+from zlmreport.cli.capture_display import Display
+from zlmreport.cli.terminal import shown_path
+from zlmreport.errors import AccessError, Place
+from zlmreport.job.job import Job
+from zlmreport.live.reading import LiveReading
+from zlmreport.plugins import Registry
+from zlmreport.protocols import Connection
+
+
+def capture(  # noqa: PLR0913 - whom, what, with what, shown where, and how to go on
+    job: Job, assignment: Assignment, registry: Registry, display: Display, path: Path, *, resume: bool
+) -> None:
+    """Capture the test of a job to its end.
+
+    Parameters
+    ----------
+    job
+        The job.
+    assignment
+        What it asks to be captured.
+    registry
+        The plugins: one is the instrument.
+    display
+        Shows what happens, and may have an operator who sees to something.
+    path
+        The job file, for the command that goes on.
+    resume
+        Whether to go on with a journal.
+
+    Raises
+    ------
+    AccessError
+        If the instrument or the journal fails, or there is no operator to see to something; with how to go
+        on.
+    """
+    if resume:
+        demand_own_journal(job, assignment)
+    else:
+        demand_nothing_captured(assignment.options.journal)
+    choice = instrument_of(job)
+    with registry.instrument(choice.identifier).open(choice.options) as connection:
+        display.wait()
+        readings = connection.readings()
+        readings = chain([next(readings)], readings)  # an instrument that is not there leaves no journal
+        go_on = f"zlmreport capture {shown_path(path)} --resume"
+        with _journal(job, assignment, resume=resume) as journal:
+            try:
+                _sittings(readings, connection, assignment, journal, display)
+            except KeyboardInterrupt:
+                journal.append(Interrupted("ended by the user"), _elapsed_now(journal))
+                display.leave(f"ended; go on with: {go_on}")
+                raise
+            except AccessError as error:
+                problem = error.problems[0]
+                journal.append(Interrupted(problem.message), _elapsed_now(journal))
+                raise AccessError.at(problem.place, f"{problem.message}; go on with: {go_on}") from error
+
+
+def demand_own_journal(job: Job, assignment: Assignment) -> None:
+    """Refuse to go on with a journal of another job, or with a capture that is over."""
+    path = assignment.options.journal
+    history = read_history(path)
+    if history is None:
+        return
+    demand_same_test(history, job, assignment, Place(str(path)))
+    if history.progress.is_over:
+        raise AccessError.at(Place(str(path)), "the capture is finished: there is nothing to go on with")
+
+
+def _journal(job: Job, assignment: Assignment, *, resume: bool) -> Journal:
+    path = assignment.options.journal
+    if not resume:
+        return Journal.begun(path, header_of(job, assignment, dt.datetime.now(dt.UTC)))
+    journal = Journal.continued(path)
+    journal.append(Resumed(), _elapsed_now(journal))
+    return journal
+
+
+def _sittings(
+    readings: Iterator[LiveReading],
+    connection: Connection,
+    assignment: Assignment,
+    journal: Journal,
+    display: Display,
+) -> None:
+    """Follow the axis until the test is over; between two sittings the operator sees to what went wrong."""
+    while not journal.progress.is_over:
+        follower = Follower(journal.progress, assignment.settings)
+        display.begin(follower)
+        show = partial(display.show, follower)
+        event: Event | None = None
+        for event in captured(readings, follower, journal, _clock(journal), show=show):
+            display.tell(event)
+        if journal.progress.is_over:
+            return
+        display.see_to(event, journal.progress.after(Resumed()))
+        journal.append(Resumed(), _elapsed_now(journal))
+        readings = connection.readings()
+
+
+def _clock(journal: Journal) -> Callable[[float], float]:
+    """Return the way from the time of a reading to s from the start of the capture.
+
+    Within a sitting it is the steady clock of the readings that counts: the clock of the computer may be set.
+    """
+    offset = _elapsed_now(journal) - time.monotonic()
+    return lambda moment: moment + offset
+
+
+def _elapsed_now(journal: Journal) -> float:
+    return max(journal.elapsed, (dt.datetime.now(dt.UTC) - journal.header.started).total_seconds())

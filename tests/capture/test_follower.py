@@ -1,0 +1,458 @@
+"""When a reading is taken, and what is said of everything else that an axis does."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from itertools import chain
+
+import pytest
+
+from capture.moves import MM, SETTINGS, UM, Axis, following, happened, kinds, listed, planned
+from zlmreport.capture.events import (
+    DatumMoved,
+    DatumTaken,
+    Missed,
+    MovedBeforeDatum,
+    Passed,
+    Recorded,
+    Resumed,
+    TooSlow,
+    TrackLost,
+    WrongDirection,
+    ZeroLost,
+)
+from zlmreport.capture.follower import Follower, follow
+from zlmreport.capture.progress import Progress
+from zlmreport.live.reading import Fault
+from zlmreport.measurement.approach import Approach
+from zlmreport.planning.methods import Method
+
+BEAM_LOST = {"faults": Fault.BEAM_LOST, "message": "the beam is broken", "value": float("nan")}
+UNREADABLE = {"faults": Fault.UNREADABLE, "value": float("nan")}
+
+
+def test_a_whole_test_is_taken_in_the_order_of_its_visits() -> None:
+    axis, follower = Axis(), following(listed(runs=2))
+    events = happened(
+        chain(
+            axis.stand(),
+            *(
+                chain(axis.go(0, 100, 200), axis.turn(205), axis.go(200, 100, 0), axis.turn(-5))
+                for _ in range(2)
+            ),
+        ),
+        follower,
+    )
+    assert kinds(events) == [*(f"visit {number}" for number in range(1, 13)), "Finished"]
+
+
+@pytest.mark.parametrize("method", [Method.PENDULUM, Method.QUASI_PILGRIM, Method.UNIDIRECTIONAL])
+def test_every_method_is_taken_whole(method: Method) -> None:
+
+    from zlmreport.planning.methods import path
+
+    plan, axis = planned(method, runs=2), Axis()
+    stops = path(method, plan.targets.tolist(), plan.runs, plan.overrun)
+    moves = (
+        axis.turn(stop.position / MM) if stop.target is None else axis.go(stop.position / MM)
+        for stop in stops
+    )
+    visits = listed(method, runs=2)
+    events = happened(chain(axis.stand(), *moves), following(visits))
+    assert kinds(events) == [*(f"visit {visit.number}" for visit in visits), "Finished"]
+
+
+def test_a_reading_is_the_mean_over_half_the_dwell_and_its_deviation_that_of_the_axis() -> None:
+    axis, follower = Axis(error={0: 0.004}), following(listed())
+    (taken,) = happened(chain(axis.stand(), axis.go(0, stay=1.5)), follower)
+    assert isinstance(taken, Recorded)
+    assert taken.deviation == pytest.approx(4 * UM, abs=1e-12)
+    assert taken.mean.duration == pytest.approx(SETTINGS.dwell / 2, abs=axis.step)
+    assert taken.mean.count == pytest.approx(51, abs=1)
+
+
+def test_a_target_passed_without_standstill_takes_nothing() -> None:
+    axis = Axis()
+    events = happened(chain(axis.stand(), axis.go(60)), following(listed()))
+    assert kinds(events) == ["Passed", "Elsewhere"]
+
+
+def test_a_standstill_shorter_than_the_dwell_takes_nothing() -> None:
+    axis = Axis()
+    (event,) = happened(chain(axis.stand(), axis.go(0, stay=0.9), axis.turn(50)), following(listed()))
+    assert isinstance(event, Passed)
+    assert event.seconds == pytest.approx(0.93, abs=0.03)
+
+
+def test_readings_that_swing_more_than_the_stability_range_take_nothing() -> None:
+    axis = Axis()
+    swinging = (
+        replace(reading, value=reading.value + (1.1 * UM if number % 10 == 0 else 0))
+        for number, reading in enumerate(axis.go(0))
+    )
+    assert kinds(happened(chain(axis.stand(), swinging), following(listed()))) == []
+
+
+def test_readings_that_swing_within_the_stability_range_are_taken() -> None:
+    axis = Axis()
+    swinging = (
+        replace(reading, value=reading.value + (0.9 * UM if number % 10 == 0 else 0))
+        for number, reading in enumerate(axis.go(0))
+    )
+    assert kinds(happened(chain(axis.stand(), swinging), following(listed()))) == ["visit 1"]
+
+
+def test_a_standstill_outside_the_tolerance_takes_nothing() -> None:
+    axis = Axis(error={0: 1.01})
+    assert kinds(happened(chain(axis.stand(), axis.go(0)), following(listed()))) == ["Elsewhere"]
+
+
+def test_a_standstill_of_which_one_reading_is_outside_the_tolerance_takes_nothing() -> None:
+    axis = Axis(error={0: -0.9999})
+    beyond = (
+        replace(reading, value=-1.0002 * MM) if number == 550 else reading
+        for number, reading in enumerate(chain(axis.stand(), axis.go(0, stay=2)))
+    )
+    assert kinds(happened(beyond, following(listed()))) == ["visit 1"]
+
+
+def test_the_same_standstill_is_not_read_twice() -> None:
+    axis = Axis()
+    assert kinds(happened(chain(axis.stand(), axis.go(0, stay=30)), following(listed()))) == ["visit 1"]
+
+
+def test_motion_of_less_than_ten_times_the_stability_range_is_no_new_visit() -> None:
+    axis = Axis()
+    events = happened(
+        chain(axis.stand(), axis.go(0), axis.go(-0.009), axis.go(0)), following(listed(Method.PENDULUM))
+    )
+    assert kinds(events) == ["visit 1"]
+
+
+def test_a_visit_that_is_read_again_keeps_its_reading() -> None:
+    axis = Axis()
+    events = happened(chain(axis.stand(), axis.go(0), axis.turn(-5), axis.go(0)), following(listed()))
+    assert kinds(events) == ["visit 1", "Repeated"]
+
+
+def test_a_pendulum_that_comes_back_to_its_last_visit_has_missed_none() -> None:
+    axis = Axis()
+    events = happened(
+        chain(axis.stand(), axis.go(0), axis.turn(5), axis.go(0), axis.turn(5), axis.go(0)),
+        following(listed(Method.PENDULUM, runs=2)),
+    )
+    assert kinds(events) == ["visit 1", "visit 2", "Repeated"]
+
+
+def test_a_missed_visit_is_named_at_the_next_stop_and_nothing_is_renumbered() -> None:
+    axis = Axis()
+    events = happened(
+        chain(axis.stand(), axis.go(0), axis.go(100, stay=0.5), axis.go(200)), following(listed())
+    )
+    assert kinds(events) == ["visit 1", "Passed", "Missed", "visit 3"]
+
+
+def test_several_visits_that_were_passed_are_all_missed() -> None:
+    axis = Axis()
+    targets = (0, 50, 100, 150, 200)
+    events = happened(chain(axis.stand(), axis.go(0), axis.go(200)), following(listed(targets=targets)))
+    assert [event.visit.number for event in events if isinstance(event, Missed)] == [2, 3, 4]
+    assert kinds(events)[-1] == "visit 5"
+
+
+def test_the_first_visit_can_be_missed() -> None:
+    axis = Axis()
+    events = happened(chain(axis.stand(), axis.go(100)), following(listed()))
+    assert kinds(events) == ["Passed", "Missed", "visit 2"]
+
+
+def test_two_missed_visits_of_a_pendulum_shift_no_run() -> None:
+    axis, visits = Axis(), listed(Method.PENDULUM, runs=3)
+    events = happened(
+        chain(
+            axis.stand(),
+            axis.go(0),
+            axis.turn(5),
+            axis.go(0),
+            axis.turn(-5),
+            axis.go(0, stay=0.5),  # run 2
+            axis.turn(5),
+            axis.go(0, stay=0.5),
+            axis.turn(-5),
+            axis.go(0),  # run 3
+        ),
+        following(visits),
+    )
+    assert kinds(events) == ["visit 1", "visit 2", "Passed", "Passed", "Missed", "Missed", "visit 5"]
+    assert visits[4].run == 3
+
+
+def test_a_visit_that_was_passed_is_taken_when_the_axis_comes_back() -> None:
+    axis = Axis()
+    events = happened(
+        chain(axis.stand(), axis.go(0), axis.go(120, stay=0.5), axis.turn(95), axis.go(100)),
+        following(listed()),
+    )
+    assert kinds(events) == ["visit 1", "Passed", "visit 2"]
+
+
+def test_a_target_that_is_approached_from_the_wrong_side_is_not_taken() -> None:
+    axis = Axis()
+    events = happened(chain(axis.stand(), axis.go(0), axis.turn(105), axis.go(100)), following(listed()))
+    assert kinds(events) == ["visit 1", "Passed", "WrongDirection"]
+
+
+def test_after_a_wrong_direction_the_right_one_is_taken() -> None:
+    axis = Axis(position=5.0)
+    events = happened(chain(axis.stand(), axis.go(0), axis.turn(-5), axis.go(0)), following(listed()))
+    (wrong, taken) = events
+    assert isinstance(wrong, WrongDirection)
+    assert wrong.approach is Approach.NEGATIVE
+    assert kinds([taken]) == ["visit 1"]
+
+
+def test_an_overshoot_of_less_than_ten_times_the_stability_range_turns_no_direction() -> None:
+    axis = Axis()
+    events = happened(chain(axis.stand(), axis.go(0.008, stay=0.05), axis.go(0)), following(listed()))
+    assert kinds(events) == ["visit 1"]
+
+
+def test_a_larger_overshoot_is_an_approach_from_the_other_side() -> None:
+    axis = Axis()
+    events = happened(chain(axis.stand(), axis.go(0.05, stay=0.05), axis.go(0)), following(listed()))
+    assert kinds(events) == ["WrongDirection"]
+
+
+def test_an_axis_that_stands_at_the_target_from_the_beginning_has_no_direction() -> None:
+    axis = Axis(position=0.0)
+    (event,) = happened(axis.stand(), following(listed()))
+    assert event == WrongDirection(listed()[0], None)
+
+
+def test_a_stop_far_from_what_is_next_is_named_and_not_taken() -> None:
+    axis = Axis(position=205.0)
+    events = happened(chain(axis.stand(), axis.go(200)), following(listed()))
+    assert kinds(events) == ["NotNext"]
+
+
+def test_a_pause_between_targets_is_no_visit() -> None:
+    axis = Axis()
+    events = happened(chain(axis.stand(), axis.go(0, 40, 100)), following(listed()))
+    assert kinds(events) == ["visit 1", "Elsewhere", "visit 2"]
+
+
+def test_an_axis_that_moves_before_its_datum_is_taken_ends_it() -> None:
+    axis, follower = Axis(), following(listed(), datum=-5 * MM)
+    events = happened(chain(axis.turn(0), axis.go(0, stay=2)), follower)
+    assert events == [MovedBeforeDatum(-5 * MM)]
+    assert follower.progress.zero is None
+
+
+def test_a_motion_that_a_bad_line_hides_before_the_datum_is_seen_all_the_same() -> None:
+    axis, follower = Axis(), following(listed(), datum=-5 * MM)
+    before, after = list(axis.stand(0.5)), list(axis.go(0, stay=2))
+    hidden = [replace(reading, **UNREADABLE) for reading in after[:-150]]
+    events = happened(chain(before, hidden, after[-150:]), follower)
+    assert events == [MovedBeforeDatum(-5 * MM)]
+
+
+def test_the_datum_is_taken_where_the_axis_stands_first() -> None:
+    axis, follower = Axis(), following(listed(), datum=-5 * MM)
+    shifted = (
+        replace(reading, value=reading.value + 7.0) for reading in chain(axis.stand(), axis.go(0, stay=2))
+    )
+    datum, taken = happened(shifted, follower)
+    assert isinstance(datum, DatumTaken)
+    assert isinstance(taken, Recorded)
+    assert taken.position == pytest.approx(0.0, abs=1e-12)
+    assert taken.mean.value == pytest.approx(7.0)
+
+
+def test_a_lost_zero_voids_the_rest_of_the_run_and_keeps_what_was_taken() -> None:
+    axis, follower = Axis(), following(listed(runs=2))
+    events = happened(
+        chain(axis.stand(), axis.go(0, 100), axis.stand(0.01, **BEAM_LOST), axis.go(200)), follower
+    )
+    assert kinds(events) == ["visit 1", "visit 2", "ZeroLost"]
+    assert follower.is_halted
+    lost = events[-1]
+    assert isinstance(lost, ZeroLost)
+    assert [visit.number for visit in lost.void] == [3, 4, 5, 6]
+    assert lost.message == "the beam is broken"
+
+
+def test_after_a_lost_zero_the_run_is_taken_again_as_another_attempt() -> None:
+    axis, first = Axis(), following(listed(runs=2), datum=-5 * MM)
+    happened(chain(axis.stand(), axis.go(0, 100), axis.stand(0.01, **BEAM_LOST)), first)
+    axis = Axis(time=500.0)
+    second = Follower(first.progress.after(Resumed()), SETTINGS)
+    events = happened(chain(axis.stand(), axis.go(0)), second)
+    assert kinds(events) == ["DatumTaken", "visit 1"]
+    assert events[1].attempt == 2
+
+
+def test_a_zero_that_is_lost_between_two_runs_repeats_none() -> None:
+    axis, follower = Axis(), following(listed(Method.UNIDIRECTIONAL, runs=2))
+    happened(chain(axis.stand(), axis.go(0, 100, 200), axis.stand(0.01, **BEAM_LOST)), follower)
+    assert (follower.progress.next.number, follower.progress.attempt) == (4, 1)
+
+
+def test_a_pendulum_whose_zero_is_lost_begins_again_as_a_whole() -> None:
+    axis, follower = Axis(), following(listed(Method.PENDULUM))
+    happened(
+        chain(
+            axis.stand(), axis.go(0), axis.turn(5), axis.go(0), axis.turn(95), axis.stand(0.01, **BEAM_LOST)
+        ),
+        follower,
+    )
+    assert (follower.progress.next.number, follower.progress.attempt) == (1, 2)
+
+
+def test_unreadable_lines_in_a_window_do_not_end_it() -> None:
+    axis = Axis()
+    events = happened(
+        chain(axis.stand(), axis.go(0, stay=0.7), axis.stand(0.05, **UNREADABLE), axis.stand(0.3)),
+        following(listed()),
+    )
+    assert kinds(events) == ["visit 1"]
+    assert events[0].mean.skipped == 5
+
+
+def test_an_error_of_the_instrument_in_a_window_begins_it_anew() -> None:
+    axis = Axis()
+    events = happened(
+        chain(
+            axis.stand(),
+            axis.go(0, stay=0.7),
+            axis.stand(0.01, faults=Fault.DEVICE_ERROR, value=float("nan")),
+            axis.stand(0.9),
+        ),
+        following(listed()),
+    )
+    assert kinds(events) == []
+
+
+def test_a_gap_in_a_window_begins_it_anew_and_the_visit_is_taken_all_the_same() -> None:
+    axis, follower = Axis(), following(listed())
+    early = happened(chain(axis.stand(), axis.go(0, stay=0.7)), follower)
+    axis.unseen(0.5)
+    assert kinds(early + happened(axis.stand(0.9), follower)) == []
+    assert kinds(happened(axis.stand(0.2), follower)) == ["visit 1"]
+
+
+def test_a_direction_that_nobody_saw_is_not_guessed() -> None:
+    axis, follower = Axis(), following(listed(Method.PENDULUM))
+    happened(chain(axis.stand(), axis.go(-3, stay=0.02)), follower)
+    axis.unseen(0.2, position=0.0)  # over the target and back, or straight to it
+    (event,) = happened(axis.stand(), follower)
+    assert event == WrongDirection(listed(Method.PENDULUM)[0], None)
+
+
+def test_a_reversal_that_nobody_saw_takes_no_reading_for_that_before_it() -> None:
+    axis, follower = Axis(), following(listed(Method.PENDULUM))
+    swinging = (
+        replace(reading, value=reading.value + (2 * UM if number % 2 else 0))
+        for number, reading in enumerate(axis.go(0, stay=2.9))
+    )
+    assert kinds(happened(chain(axis.stand(), swinging), follower)) == []
+    axis.unseen(0.3)  # its time at the target is over: it may have turned round
+    assert "visit 1" not in kinds(happened(axis.stand(), follower))
+
+
+def test_dropped_readings_count_for_the_time_that_they_took() -> None:
+    axis, follower = Axis(), following(listed(Method.PENDULUM))
+    happened(chain(axis.stand(), axis.go(-3, stay=0.02)), follower)
+    axis.position = 0.0
+    (event,) = happened(chain(axis.stand(0.01, skipped=30), axis.stand()), follower)
+    assert event == WrongDirection(listed(Method.PENDULUM)[0], None)
+
+
+def test_a_silence_in_which_a_visit_may_have_gone_unseen_ends_the_sitting() -> None:
+    axis, follower = Axis(), following(listed())
+    happened(chain(axis.stand(), axis.go(0)), follower)
+    axis.unseen(3.0)
+    (event,) = happened(axis.stand(), follower)
+    assert isinstance(event, TrackLost)
+    assert follower.is_halted
+
+
+def test_readings_that_come_too_seldom_to_see_a_reversal_are_refused() -> None:
+    axis, follower = Axis(step=0.5), following(listed())
+    (event,) = happened(axis.stand(10), follower)
+    assert isinstance(event, TooSlow)
+    assert event.spacing == pytest.approx(0.5)
+
+
+def test_a_single_damaged_reading_is_no_motion() -> None:
+    axis, follower = Axis(), following(listed(Method.PENDULUM))
+    events = happened(chain(axis.stand(), axis.go(0), axis.stand(0.01, value=0.9), axis.stand(2)), follower)
+    assert kinds(events) == ["visit 1"]
+
+
+def test_a_single_damaged_reading_is_in_no_mean() -> None:
+    axis, follower = Axis(), following(listed())
+    (taken,) = happened(
+        chain(axis.stand(), axis.go(0, stay=0.5), axis.stand(0.01, value=50 * UM), axis.stand(2)), follower
+    )
+    assert isinstance(taken, Recorded)
+    assert taken.position == 0.0
+
+
+def test_conditions_are_those_beside_the_reading() -> None:
+    axis, follower = Axis(), following(listed())
+    warm = (replace(each, conditions={"air_temperature": 293.65}) for each in axis.go(0))
+    (taken,) = happened(chain(axis.stand(), warm), follower)
+    assert taken.mean.conditions == {"air_temperature": 293.65}
+
+
+def _interrupted(moved_by: float = 0.0) -> tuple[Axis, Follower]:
+    """Return an axis and a follower that was interrupted after two visits."""
+    axis, first = Axis(), following(listed())
+    happened(chain(axis.stand(), axis.go(0, 100)), first)
+    axis.time += 1000
+    axis.error = dict.fromkeys((0, 100, 200), moved_by)
+    return axis, Follower(first.progress.after(Resumed()), SETTINGS)
+
+
+def test_after_an_interruption_the_datum_is_held_against_an_earlier_reading() -> None:
+    axis, follower = _interrupted(moved_by=0.003)
+    events = happened(chain(axis.turn(95), axis.go(100, 200)), follower)
+    assert kinds(events) == ["DatumHolds", "visit 3"]
+    assert events[0].difference == pytest.approx(3 * UM, abs=1e-12)
+
+
+def test_after_an_interruption_nothing_is_taken_before_the_datum_is_checked() -> None:
+    axis, follower = _interrupted()
+    assert kinds(happened(axis.go(200), follower)) == ["NotChecked"]
+
+
+def test_the_visit_that_checks_the_datum_is_not_taken_for_a_later_one() -> None:
+    axis, first = Axis(), following(listed(Method.PENDULUM, runs=2))
+    happened(chain(axis.stand(), axis.go(0), axis.turn(5), axis.go(0)), first)
+    axis.time += 1000
+    second = Follower(first.progress.after(Resumed()), SETTINGS)
+    events = happened(chain(axis.turn(5), axis.go(0), axis.turn(-5), axis.go(0)), second)
+    assert kinds(events) == ["DatumHolds", "visit 3"]
+
+
+def test_a_datum_that_has_moved_voids_the_rest_of_the_run() -> None:
+    axis, follower = _interrupted(moved_by=0.011)
+    (event,) = happened(chain(axis.turn(95), axis.go(100, 200)), follower)
+    assert isinstance(event, DatumMoved)
+    assert [visit.number for visit in event.void] == [3, 4, 5, 6]
+    assert follower.progress.attempt == 2
+
+
+def test_in_a_later_run_the_check_is_a_visit_itself() -> None:
+    axis, first = Axis(), following(listed(Method.UNIDIRECTIONAL, runs=2))
+    happened(chain(axis.stand(), axis.go(0, 100, 200)), first)
+    axis.time += 1000
+    second = Follower(first.progress.after(Resumed()), SETTINGS)
+    assert kinds(happened(chain(axis.turn(-5), axis.go(0)), second)) == ["DatumHolds", "visit 4"]
+
+
+def test_following_ends_when_the_test_is_over() -> None:
+    axis, visits = Axis(), listed(Method.UNIDIRECTIONAL)
+    readings = chain(axis.stand(), axis.go(0, 100, 200), iter(axis.reading, None))
+    *_, last = follow(readings, Progress.begin(visits, None), SETTINGS)
+    assert type(last).__name__ == "Finished"
