@@ -13,10 +13,17 @@ from pydantic import Field
 
 from zlmreport.job.options import JobPath
 from zlmreport.job.part import JobPart
-from zlmreport.job.types import Finite, NotNegative, Positive
+from zlmreport.job.plan_keys import ProgramKeys
+from zlmreport.job.types import Finite, NotNegative, Positive, Text
 
 #: Number of a block, from 1 at the beginning of the gauge.
 Block = Annotated[int, Field(ge=1, le=10_000)]
+
+
+class ProbingProgramKeys(ProgramKeys):
+    """A probing program; the plugin's own keys may follow."""
+
+    program: Text = Field(description="Identifier of an installed writer of probing programs.")
 
 
 class ProbingPathKeys(JobPart):
@@ -39,18 +46,36 @@ class ProbingPathKeys(JobPart):
         description="How far below the top of the blocks their faces are probed, mm. Without it at half "
         "their height.",
     )
+    search: Positive = Field(
+        4.0, description="How far behind the place of a face the probe goes before the face is missed, mm."
+    )
+    stylus_allowance: NotNegative = Field(
+        0.5, description="What must stay free between the tip and all that it does not measure, mm."
+    )
+    lead_in: Positive | None = Field(
+        None,
+        description="How far before the first face a horizontal path comes into the line of the gauge, "
+        "before it goes round the side, mm. Without it, it comes from the side.",
+        examples=[20],
+    )
+    speed: Positive = Field(30.0, description="Of moves between the faces, mm/s.")
+    measuring_speed: Positive = Field(3.0, description="Of measuring moves, mm/s.")
     cycles: int = Field(5, ge=1, le=100, description="How often each face is probed.")
     safe_position: tuple[Finite, Finite, Finite] | None = Field(
         None,
         description="Where the path begins and ends: x, y, z of the tip's centre, mm.",
         examples=[[0, 0, 400]],
     )
-    working_volume: (
-        tuple[tuple[Finite, Finite], tuple[Finite, Finite], tuple[Finite, Finite]] | None
-    ) = Field(
+    working_volume: tuple[tuple[Finite, Finite], tuple[Finite, Finite], tuple[Finite, Finite]] | None = Field(
         None,
         description="First and last position in x, y and z that the tip's centre can reach, mm.",
         examples=[[[0, 500], [0, 700], [0, 450]]],
+    )
+    programs: list[ProbingProgramKeys] = Field(
+        default_factory=list,
+        description="Probing programs that are written beside the plan; a bare identifier stands for "
+        "{program: …}.",
+        examples=[["dmis"]],
     )
 
 
@@ -84,14 +109,22 @@ class StepGaugeKeys(JobPart):
         description="Whether the machine has taken the tip's radius into account: true, if coordinates are "
         "those of the surface.",
     )
+    effective_radius: Positive | None = Field(
+        None,
+        description="Effective radius of the tip in the probing direction, as calibrated, mm. Without it, it "
+        "is determined from the gauge's own blocks, and takes the mean reversal with it.",
+        examples=[1.9985],
+    )
+    effective_radius_uncertainty: NotNegative = Field(
+        0.0, description="Standard uncertainty of effective_radius, micrometres.", examples=[0.2]
+    )
+    probing_uncertainty: NotNegative = Field(
+        0.0,
+        description="Standard uncertainty of a single touch by the probe's own repeatability, micrometres.",
+        examples=[0.3],
+    )
     gauge_temperature: Finite | None = Field(
         None, description="Temperature of the gauge during the test, °C.", examples=[20.3]
-    )
-    gauge_temperature_uncertainty: NotNegative = Field(
-        0.1, description="Its standard uncertainty, K."
-    )
-    scale_temperature_uncertainty: NotNegative = Field(
-        0.1, description="Standard uncertainty of environment.axis_temperature, K."
     )
     compensate: Literal["nothing", "gauge", "gauge-and-scale"] = Field(
         "nothing",
@@ -111,11 +144,23 @@ def contradictions(keys: StepGaugeKeys) -> Iterator[tuple[str, str]]:
     if first is not None and last is not None and first >= last:
         yield (
             "last_block",
-            f"the section ends with block {last} and begins with block {first}; its end lies behind its "
-            "beginning, and it has two blocks at least",
+            (
+                f"the section ends with block {last} and begins with block {first}; its end lies behind its "
+                "beginning, and it has two blocks at least"
+            ),
         )
+    if keys.radius_correction and keys.effective_radius is not None:
+        yield "effective_radius", "the machine has corrected the radius (radius_correction); take one out"
     if keys.compensate != "nothing" and keys.gauge_temperature is None:
         yield "compensate", "the expansion of the gauge needs its temperature; state gauge_temperature"
+    if keys.path.retract > keys.path.approach:
+        yield (
+            "path",
+            (
+                f"retract: {keys.path.retract:g} mm is farther than the approach, {keys.path.approach:g} mm, "
+                "and nobody knows what is there; state less"
+            ),
+        )
     volume = keys.path.working_volume or ()
     for name, (low, high) in zip("xyz", volume, strict=bool(volume)):
         if low >= high:

@@ -60,13 +60,14 @@ class StepGauge:
     faces
         In the order along the gauge: front and back of each block.
     expansion_coefficient
-        α, 1/K.
+        α, 1/K; None where the calibration does not state it.
     expansion_uncertainty
-        Standard uncertainty of α, 1/K.
+        Standard uncertainty of α, 1/K; None where it is not stated.
     reference_temperature
         At which the distances hold, K.
     block_width, block_height
-        Across the gauge, m: for the clearance of a probing path.
+        Across the gauge, m: for the clearance of a probing path. None where not stated; the initial points
+        tell them too (`zlmreport.step_gauge.location.Located`).
     place
         Where the calibration stands: for messages.
     """
@@ -75,17 +76,21 @@ class StepGauge:
     serial: str
     certificate: str
     faces: tuple[Face, ...]
-    expansion_coefficient: float
-    expansion_uncertainty: float
+    expansion_coefficient: float | None
+    expansion_uncertainty: float | None
     reference_temperature: float
-    block_width: float
-    block_height: float
+    block_width: float | None
+    block_height: float | None
     place: Place
 
     @property
     def blocks(self) -> tuple[int, ...]:
         """Numbers of the blocks, rising."""
         return tuple(sorted({face.block for face in self.faces}))
+
+    def face(self, number: int) -> Face | None:
+        """Return a face by its number; None if the section does not hold it."""
+        return next((face for face in self.faces if face.number == number), None)
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,0 +1,167 @@
+"""Whether stated intervals x ± U hold the true errors of a machine that a step gauge was measured on.
+
+A machine with known errors is simulated: gauges drawn from their calibration lie along lines of all
+directions in its working volume, are touched with a known scatter at another temperature than is believed,
+and are evaluated as a job is.
+"""
+
+from __future__ import annotations
+
+import argparse
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+
+from zlmreport.errors import Place
+from zlmreport.evaluation.evaluate import evaluate
+from zlmreport.job.options import Options
+from zlmreport.language import same
+from zlmreport.measurement.axis import Axis
+from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.plugins import find_plugins
+from zlmreport.quantities.arrays import BoolArray
+from zlmreport.step_gauge.calibration_file import read_calibration, section
+from zlmreport.step_gauge.deviations import deviations_of
+from zlmreport.step_gauge.gauge import Side, StepGauge
+from zlmreport.step_gauge.initial_points import InitialPoints
+from zlmreport.step_gauge.location import locate
+from zlmreport.step_gauge.measurements import Targets, measurement_set
+from zlmreport.step_gauge.probed import ProbedPoint, gridded
+from zlmreport.step_gauge.set_up import Expansion, GaugeSetUp, StatedRadius
+from zlmreport.step_gauge.simulated_cmm import MachineErrors, Simulated, SimulatedTest, simulate
+from zlmreport.step_gauge.uncertainty import gauge_contributions
+from zlmreport.uncertainty import terms
+from zlmreport.uncertainty.budget import Budget
+from zlmreport.uncertainty.contribution import Acts, Contribution, Distribution
+from zlmreport.uncertainty.positions import mean_uncertainty
+
+GAUGE = Path(__file__).parents[1] / "configs" / "step-gauge" / "gauge.yaml"
+HERE = Place("simulated")
+MACHINE = MachineErrors(
+    scale=(18e-6, -9e-6, 12e-6),
+    amplitude=(1.2e-6, 0.8e-6, 0.0),
+    period=(0.12, 0.09, 0.1),
+    lost_motion=(1.4e-6, 0.9e-6, 0.0),
+    squareness=(15e-6, -8e-6, 4e-6),
+)
+#: Standard uncertainties: of the effective radius where it is stated, a touch, an initial point, m.
+RADIUS, TOUCH, POINT = 0.2e-6, 0.3e-6, 2e-6
+#: The gauge above its reference temperature, and the full range of the error of that, K.
+DIFFERENCE, RANGE = 0.4, 0.2
+
+_STANDARD = find_plugins().standard("step-gauge")
+_GAUGE = section(read_calibration(GAUGE).gauge, 2, 13, HERE)
+
+
+@dataclass(frozen=True, slots=True)
+class Coverage:
+    """The share of true errors within x ± U, over all faces but the reference face, and by face."""
+
+    all_faces: float
+    lowest: float
+    highest: float
+
+
+def coverage(trials: int, *, radius_is_determined: bool, seed: int = 20260512) -> Coverage:
+    """Return how many of the true errors the stated intervals hold.
+
+    Parameters
+    ----------
+    trials
+        Simulated calibrations.
+    radius_is_determined
+        Whether the effective radius comes from the blocks of the gauge (Eq. 1). The machine then has no lost
+        motion, for it could not be told from the radius.
+    seed
+        Of everything random.
+    """
+    generator = np.random.default_rng(seed)
+    held = np.array([_trial(generator, radius_is_determined) for _ in range(trials)])
+    by_face = held.mean(axis=0)
+    return Coverage(float(held.mean()), float(by_face.min()), float(by_face.max()))
+
+
+def _trial(generator: np.random.Generator, radius_is_determined: bool) -> BoolArray:  # noqa: FBT001 - as above
+    direction = generator.normal(size=3) * (1.0, 1.0, 0.3)
+    test = SimulatedTest(
+        gauge=_GAUGE,
+        begin=(0.3, 0.3, 0.2),
+        direction=(float(direction[0]), float(direction[1]), float(direction[2])),
+        point_uncertainty=POINT,
+        touch_uncertainty=TOUCH,
+        temperature_difference=DIFFERENCE,
+        temperature_range=RANGE,
+    )
+    machine = replace(MACHINE, lost_motion=(0.0, 0.0, 0.0)) if radius_is_determined else MACHINE
+    simulated = simulate(test, machine, generator)
+    stated = None
+    if not radius_is_determined:
+        stated = StatedRadius(test.effective_radius + generator.normal(0.0, RADIUS), RADIUS)
+    set_up = _set_up(test, simulated, stated)
+    measurements = _measured(simulated, set_up)
+    budget = Budget((*gauge_contributions(set_up, measurements), _temperature(_GAUGE)))
+    evaluation = evaluate(_STANDARD, measurements, Options(), {})
+    expanded = np.nanmax(mean_uncertainty(evaluation, budget).by_approach, axis=0)
+    found = np.nansum(evaluation.statistics.mean, axis=0)
+    held: BoolArray = np.abs(found - simulated.truth)[1:] <= expanded[1:]
+    return held
+
+
+def _set_up(test: SimulatedTest, simulated: Simulated, stated: StatedRadius | None) -> GaugeSetUp:
+    points = InitialPoints(simulated.initial_points, HERE)
+    return GaugeSetUp(
+        gauge=test.gauge,
+        located=locate(points, test.gauge, test.tip_radius, POINT),
+        tip_radius=test.tip_radius,
+        radius_is_corrected=False,
+        effective_radius=stated,
+        probing_uncertainty=TOUCH,
+        gauge_expansion=Expansion(test.gauge.expansion_coefficient or 0.0, DIFFERENCE),
+        scale_expansion=None,
+        files=(),
+        place=HERE,
+    )
+
+
+def _measured(simulated: Simulated, set_up: GaugeSetUp) -> MeasurementSet:
+    points = [
+        ProbedPoint(HERE, face.number, cycle + 1, tuple(point.tolist()))
+        for face, of_face in zip(set_up.gauge.faces, simulated.coordinates, strict=True)
+        for cycle, point in enumerate(of_face)
+    ]
+    probed = gridded(points, set_up.gauge, tuple(Side), place=HERE)
+    return measurement_set(
+        probed,
+        deviations_of(probed, set_up, HERE, is_corrected=False),
+        set_up,
+        Axis("line"),
+        targets=Targets.FACES,
+        origin=0.0,
+        source="step-gauge",
+        files=(),
+        place=HERE,
+    )
+
+
+def _temperature(gauge: StepGauge) -> Contribution:
+    """Return the contribution that a job states as uncertainty.device_temperature."""
+    length = gauge.faces[-1].nominal - gauge.faces[0].nominal
+    full_range = terms.temperature_range(gauge.expansion_coefficient or 0.0, length, RANGE)
+    size = terms.from_range(full_range, Distribution.RECTANGULAR)
+    return Contribution(
+        same("temperature"), size, Acts.ALONG_THE_LENGTH, Distribution.RECTANGULAR, same(""), same("")
+    )
+
+
+def main(arguments: list[str]) -> None:
+    """Print the shares of both ways to the effective radius."""
+    parser = argparse.ArgumentParser(prog="./run benchmark step-gauge", description=__doc__)
+    parser.add_argument("--trials", type=int, default=1000, help="simulated calibrations (%(default)s)")
+    trials = parser.parse_args(arguments).trials
+    for title, determined in (("stated", False), ("from the gauge (Eq. 1)", True)):
+        found = coverage(trials, radius_is_determined=determined)
+        print(
+            f"effective radius {title}: {found.all_faces:.1%} of the true errors within x ± U "
+            f"(by face {found.lowest:.1%} to {found.highest:.1%})"
+        )

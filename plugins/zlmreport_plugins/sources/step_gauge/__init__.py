@@ -1,0 +1,15 @@
+"""Data source ``step-gauge``: the faces of a step gauge as a machine has probed them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from zlmreport.hookspecs import hookimpl
+from zlmreport.protocols import DataSource
+from zlmreport_plugins.sources.step_gauge.source import StepGaugeSource
+
+
+@hookimpl
+def zlmreport_sources() -> Iterable[DataSource]:
+    """Return the reader of probed faces."""
+    return [StepGaugeSource()]

@@ -1,0 +1,227 @@
+"""The calibration file of a step gauge: YAML with all facts, or a CSV table of the faces alone."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from zlmreport.errors import InputError, Place, Problem
+from zlmreport.job.step_gauge_file import StepGaugeFile, holds_all_facts, load_step_gauge
+from zlmreport.measurement.provenance import SourceFile
+from zlmreport.measurement.reading_units import CELSIUS
+from zlmreport.quantities.units import MICROMETRE, MILLIMETRE
+from zlmreport.step_gauge.gauge import Face, Side, StepGauge
+from zlmreport.step_gauge.named_columns import NamedColumns, Row, read_named_columns
+
+_COLUMNS = ("face", "side", "nominal_mm", "calibrated_mm", "U_k2_um")
+_SIDES = {"front": Side.FRONT, "back": Side.BACK}
+_PER_KELVIN = 1e-6  # of µm/(m·K)
+_REFERENCE_CELSIUS = 20.0
+#: Of the distance between neighbouring faces: a calibrated face lies no farther from its nominal place.
+_MOST_OF_A_STEP = 0.1
+
+
+@dataclass(frozen=True, slots=True)
+class CalibratedGauge:
+    """A gauge with the file that its calibration was read from."""
+
+    gauge: StepGauge
+    file: SourceFile
+
+
+@dataclass(frozen=True, slots=True)
+class _Listed:
+    """A face as a file lists it."""
+
+    face: Face
+    place: Place
+
+
+def read_calibration(path: Path) -> CalibratedGauge:
+    """Read a gauge's calibration.
+
+    Raises
+    ------
+    AccessError
+        If a file cannot be read.
+    InputError
+        With every defect and its place: blocks out of order, a face that is missing or stands on the wrong
+        side, distances that do not rise or lie far from their nominal place.
+    """
+    if not holds_all_facts(path):
+        return _of_table(path)
+    file = load_step_gauge(path)
+    keys = file.keys
+    gauge = StepGauge(
+        name=keys.name,
+        serial=keys.serial or "",
+        certificate=keys.certificate or "",
+        faces=_checked(list(_stated(file)), file.place_of("faces")),
+        expansion_coefficient=_per_kelvin(keys.expansion_coefficient),
+        expansion_uncertainty=_per_kelvin(keys.expansion_coefficient_uncertainty),
+        reference_temperature=CELSIUS.to_si(keys.reference_temperature),
+        block_width=_metres(keys.block.width),
+        block_height=_metres(keys.block.height),
+        place=Place(str(path)),
+    )
+    return CalibratedGauge(gauge, file.file)
+
+
+def section(gauge: StepGauge, first_block: int | None, last_block: int | None, place: Place) -> StepGauge:
+    """Return the part of a gauge from one block to another, both included.
+
+    Parameters
+    ----------
+    gauge
+        The whole gauge.
+    first_block, last_block
+        Numbers of blocks; None for the first and the last of the gauge.
+    place
+        Where the section is stated.
+
+    Raises
+    ------
+    InputError
+        If the gauge lacks one of them, or the section has no two blocks.
+    """
+    blocks = gauge.blocks
+    first = blocks[0] if first_block is None else first_block
+    last = blocks[-1] if last_block is None else last_block
+    for block in (first, last):
+        if block not in blocks:
+            raise InputError.at(
+                place,
+                f"the section begins or ends with block {block}, and {gauge.place.file} has the blocks "
+                f"{blocks[0]} to {blocks[-1]}",
+            )
+    if first >= last:
+        raise InputError.at(
+            place, f"the section from block {first} to block {last} has no two blocks; its end lies behind"
+        )
+    return replace(gauge, faces=tuple(face for face in gauge.faces if first <= face.block <= last))
+
+
+def _per_kelvin(value: float | None) -> float | None:
+    return None if value is None else value * _PER_KELVIN
+
+
+def _metres(value: float | None) -> float | None:
+    return None if value is None else MILLIMETRE.to_si(value)
+
+
+def _stated(file: StepGaugeFile) -> Iterator[_Listed]:
+    for index, each in enumerate(file.keys.faces):
+        face = Face(
+            each.face,
+            _SIDES[each.side],
+            MILLIMETRE.to_si(each.nominal),
+            MILLIMETRE.to_si(each.calibrated),
+            MICROMETRE.to_si(each.expanded_uncertainty),
+        )
+        yield _Listed(face, file.place_of("faces", index, "face"))
+
+
+def _of_table(path: Path) -> CalibratedGauge:
+    """Return the gauge of a table: of its material it says nothing."""
+    table = read_named_columns(path, _COLUMNS)
+    problems = table.problems
+    listed = [each for row in table.rows if (each := _face(row, problems))]
+    if problems:
+        raise InputError(sorted(problems))
+    gauge = StepGauge(
+        name=path.name,
+        serial="",
+        certificate="",
+        faces=_checked(listed, _end(table)),
+        expansion_coefficient=None,
+        expansion_uncertainty=None,
+        reference_temperature=CELSIUS.to_si(_REFERENCE_CELSIUS),
+        block_width=None,
+        block_height=None,
+        place=Place(str(path)),
+    )
+    return CalibratedGauge(gauge, table.source)
+
+
+def _end(table: NamedColumns) -> Place:
+    return table.rows[-1].place if table.rows else table.text.place()
+
+
+def _face(row: Row, problems: list[Problem]) -> _Listed | None:
+    number = row.integer("face", problems)
+    nominal, calibrated, expanded = (row.number(column, problems) for column in _COLUMNS[2:])
+    side = _SIDES.get(row.text("side").casefold())
+    if side is None:
+        problems.append(Problem(row.cells["side"].place, "column side: front or back is expected"))
+    if expanded is not None and expanded < 0:
+        problems.append(Problem(row.cells["U_k2_um"].place, "an uncertainty is not negative"))
+    if None in {number, nominal, calibrated, expanded} or side is None:
+        return None
+    face = Face(
+        number or 0,
+        side,
+        MILLIMETRE.to_si(nominal or 0.0),
+        MILLIMETRE.to_si(calibrated or 0.0),
+        MICROMETRE.to_si(expanded or 0.0),
+    )
+    return _Listed(face, row.cells["face"].place)
+
+
+def _checked(listed: Sequence[_Listed], end: Place) -> tuple[Face, ...]:
+    """Return the faces of whole blocks in their order, or raise InputError."""
+    problems = list(_out_of_order(listed))
+    if not problems:
+        problems = list(_unlike_a_gauge(listed))
+    if not problems and (len(listed) < 4 or len(listed) % 2):
+        problems.append(
+            Problem(
+                end,
+                f"the calibration ends after {len(listed)} faces; a gauge has two blocks at least, and each "
+                "block a front and a back face",
+            )
+        )
+    if problems:
+        raise InputError(sorted(problems))
+    return tuple(each.face for each in listed)
+
+
+def _out_of_order(listed: Sequence[_Listed]) -> Iterator[Problem]:
+    """Yield the faces that do not follow the one before them, or are on the wrong side for their number."""
+    for index, each in enumerate(listed):
+        number = each.face.number
+        expected = listed[index - 1].face.number + 1 if index else number
+        if number != expected:
+            yield Problem(each.place, f"face {number} stands where face {expected} is expected")
+        elif index == 0 and number % 2 == 0:
+            yield Problem(each.place, f"the calibration begins with face {number}, the back of a block")
+        elif (number % 2 == 1) != (each.face.side is Side.FRONT):
+            right = "front" if number % 2 else "back"
+            yield Problem(
+                each.place,
+                f"face {number} is a {right} face: block b has the front face 2b − 1 and the back face 2b; "
+                "was a face left out, or the gauge read from its other end?",
+            )
+
+
+def _unlike_a_gauge(listed: Sequence[_Listed]) -> Iterator[Problem]:
+    for earlier, each in itertools.pairwise(listed):
+        if each.face.nominal <= earlier.face.nominal:
+            yield Problem(
+                each.place,
+                f"face {each.face.number} lies at {MILLIMETRE.from_si(each.face.nominal):.9g} mm, not behind "
+                f"face {earlier.face.number}; distances rise from the beginning of the gauge",
+            )
+    if len(listed) < 2:
+        return
+    steps = [b.face.nominal - a.face.nominal for a, b in itertools.pairwise(listed)]
+    largest = _MOST_OF_A_STEP * min(steps)
+    for each in listed:
+        departure = each.face.distance - each.face.nominal
+        if abs(departure) > largest > 0:
+            yield Problem(
+                each.place,
+                f"the calibrated distance of face {each.face.number} is "
+                f"{MICROMETRE.from_si(departure):.6g} µm from the nominal one; is the unit right?",
+            )

@@ -1,0 +1,148 @@
+"""A gauge is found from its 16 points wherever it lies, and what is no gauge is refused with the reason."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from step_gauge.gauges import gauge
+from zlmreport.errors import InputError, Place
+from zlmreport.quantities.arrays import FloatArray
+from zlmreport.step_gauge.initial_points import InitialPoints
+from zlmreport.step_gauge.location import Located, direction_of, locate
+from zlmreport.step_gauge.simulated_cmm import MachineErrors, SimulatedTest, simulate
+
+GAUGE = gauge()
+PLACE = Place("points.csv")
+RADIUS = 2e-3
+COMPONENT = st.floats(-1, 1)
+
+
+def points(
+    direction: tuple[float, float, float] = (0.2, 1.0, 0.3), uncertainty: float = 0.0, seed: int = 1
+) -> FloatArray:
+    """Return the points on a gauge that begins at (290, 41, 201) mm, on a machine without errors."""
+    test = SimulatedTest(
+        GAUGE, (0.290, 0.041, 0.201), direction, effective_radius=RADIUS, point_uncertainty=uncertainty
+    )
+    return simulate(test, MachineErrors(), np.random.default_rng(seed)).initial_points
+
+
+def located(coordinates: FloatArray, uncertainty: float = 1e-6) -> Located:
+    return locate(InitialPoints(coordinates, PLACE), GAUGE, RADIUS, uncertainty)
+
+
+def refused(coordinates: FloatArray) -> str:
+    with pytest.raises(InputError) as caught:
+        located(coordinates)
+    return str(caught.value)
+
+
+@given(COMPONENT, COMPONENT, COMPONENT)
+def test_the_direction_is_that_of_the_gauge_in_any_orientation(x: float, y: float, z: float) -> None:
+    length = math.hypot(x, y)
+    if length < 0.1 or abs(z) > 2 * length:  # upright gauges have no top that looks up
+        return
+    direction = np.array([x, y, z]) / np.linalg.norm([x, y, z])
+    found = located(points((x, y, z))).location
+    assert np.allclose(found.direction, direction, atol=1e-9)
+    assert np.allclose(found.begin_normal, -direction, atol=1e-9)
+    assert abs(np.dot(found.upward, direction)) < 1e-9
+
+
+def test_the_centre_lies_in_the_middle_of_the_block_whatever_the_radius() -> None:
+    found = located(points((1.0, 0.0, 0.0)))
+    # half a block of 10 mm behind its front face; the radius does not shift it
+    assert found.location.begin == pytest.approx((0.295, 0.041, 0.201), abs=1e-6)
+
+
+def test_the_sizes_of_the_blocks_are_free_of_the_radius() -> None:
+    block = located(points()).begin
+    assert (float(block.length), float(block.width), float(block.height)) == pytest.approx(
+        (10e-3, 20e-3, 15e-3), abs=0.5e-6
+    )
+
+
+@pytest.mark.parametrize(
+    "order",
+    [
+        pytest.param([2, 0, 1, 3, 4, 5, 6, 7], id="P1 to P3 in another order"),
+        pytest.param([0, 1, 2, 4, 3, 5, 6, 7], id="sides exchanged"),
+        pytest.param([0, 1, 2, 3, 4, 6, 5, 7], id="top and foot exchanged"),
+    ],
+)
+def test_an_order_that_geometry_tells_is_accepted(order: list[int]) -> None:
+    straight = located(points()).location
+    assert np.allclose(located(points()[:, order]).location.begin, straight.begin, atol=1e-12)
+
+
+def test_the_uncertainty_of_the_direction_is_what_directions_scatter_by() -> None:
+    uncertainty = 2e-6
+    true = direction_of(points(), RADIUS)
+    many = np.array([points(uncertainty=uncertainty, seed=seed) for seed in range(400)])
+    scatter = math.sqrt(np.mean(np.sum((direction_of(many, RADIUS) - true) ** 2, axis=-1)) / 2)
+    stated = located(points(), uncertainty).location.direction_uncertainty
+    assert stated == pytest.approx(scatter, rel=0.12)  # 3/√(2·2·400) and what the 400 leave
+
+
+def test_blocks_whose_sizes_scatter_more_than_is_stated_raise_the_uncertainty() -> None:
+    coordinates = points()
+    coordinates[1, 3] += 0.02e-3 * np.array([0, 0, 1])  # nothing across: the size stays
+    assert located(coordinates).point_uncertainty == pytest.approx(1e-6)
+    coordinates = points((1.0, 0.0, 0.0))
+    coordinates[1, 3, 1] -= 60e-6  # a side 60 µm farther out: √(60²/12) of it
+    assert located(coordinates).point_uncertainty == pytest.approx(60e-6 / math.sqrt(12), rel=0.01)
+
+
+def test_a_face_that_is_square_to_the_line_is_within_its_uncertainty() -> None:
+    found = located(points(uncertainty=1e-6))
+    assert not found.begin_misalignment.is_significant
+    assert not found.end_misalignment.is_significant
+
+
+def test_a_face_that_is_tilted_is_reported_as_misaligned() -> None:
+    coordinates = points((1.0, 0.0, 0.0))
+    coordinates[0, 2, 0] += 20e-6  # P3 lies 9 mm above P1 and P2
+    found = located(coordinates).begin_misalignment
+    assert found.angle == pytest.approx(20e-6 / 9e-3, rel=0.02)  # the direction turns a little with it
+    assert found.is_significant
+
+
+def test_points_on_a_line_define_no_plane() -> None:
+    coordinates = points()
+    coordinates[0, 1] = (coordinates[0, 0] + coordinates[0, 2]) / 2
+    assert "block begin: P1, P2 and P3 lie on a line and define no plane" in refused(coordinates)
+
+
+def test_exchanged_ends_are_refused() -> None:
+    assert "beginning and end are exchanged" in refused(points()[::-1])
+
+
+def test_a_point_on_the_wrong_face_is_refused() -> None:
+    coordinates = points()
+    coordinates[0, 7] = coordinates[0, 0]
+    assert "P1 to P3 belong on the front, P8 on the back" in refused(coordinates)
+
+
+def test_sides_that_are_no_sides_are_refused() -> None:
+    coordinates = points()
+    coordinates[1, 3] = coordinates[1, 4]
+    assert "block end: P4 and P5 do not lie on opposite sides" in refused(coordinates)
+
+
+def test_a_block_of_another_width_is_refused_with_both_widths() -> None:
+    coordinates = points((1.0, 0.0, 0.0))
+    coordinates[:, 3, 1] -= 3e-3
+    assert "a width of 23.000 mm by these points, and the gauge one of 20.000 mm" in refused(coordinates)
+
+
+def test_a_section_of_another_number_of_blocks_is_refused_with_the_one_that_fits() -> None:
+    coordinates = points((1.0, 0.0, 0.0))
+    coordinates[1, :, 0] -= 20e-3
+    message = refused(coordinates)
+    assert "mm apart by these points, and the blocks 1 and 5 of the section 80.000 mm" in message
+    assert "they fit the blocks 1 to 4" in message
