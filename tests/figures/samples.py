@@ -9,7 +9,6 @@ import numpy as np
 
 from zlmreport.figures.canvas import Colour, Fill, Run, Segment, Stroke
 from zlmreport.figures.draw import draw
-from zlmreport.figures.draw_lettering import plain_label
 from zlmreport.figures.figure import (
     Arrow,
     Band,
@@ -23,6 +22,7 @@ from zlmreport.figures.figure import (
     Role,
 )
 from zlmreport.figures.frame import Box
+from zlmreport.figures.lettering import plain_label
 from zlmreport.language import Language, Words
 from zlmreport.measurement.approach import Approach
 from zlmreport.quantities.arrays import FloatArray

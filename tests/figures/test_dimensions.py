@@ -18,7 +18,7 @@ from zlmreport.figures.dimensions import (
     margin_width,
     spread,
 )
-from zlmreport.figures.frame import Box
+from zlmreport.figures.frame import Box, counts
 
 NOTHING = np.empty((0, 2))
 REGION = Box(0.0, 0.0, 300.0, 200.0)
@@ -103,7 +103,7 @@ def test_an_arrow_at_the_edge_stays_inside(at: float) -> None:
 def test_a_label_leaves_marks_alone() -> None:
     marks = np.array([(x, 75.0) for x in (160.0, 165.0, 170.0, 130.0, 135.0, 140.0)])
     (one,) = _beside(_span(50.0, 100.0), marks=marks)
-    assert one.label.box.count(marks) == 0
+    assert counts([one.label.box], marks) == [0]
 
 
 def test_a_label_that_cannot_avoid_a_line_says_so() -> None:

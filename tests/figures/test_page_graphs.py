@@ -14,8 +14,8 @@ from weasyprint.text.fonts import FontConfiguration
 
 from figures.samples import ALL, ORDINARY, Recording, drawn
 from zlmreport.figures.canvas import Face
-from zlmreport.figures.draw_lettering import font_file
 from zlmreport.figures.figure import Figure
+from zlmreport.figures.metrics import font_file
 from zlmreport.language import Language
 from zlmreport_plugins.renderers.pdf.graphs import FAMILY, PageGraph
 

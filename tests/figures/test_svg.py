@@ -11,8 +11,9 @@ import matplotlib as mpl
 import pytest
 
 from figures.samples import ALL, both_directions, figure
-from zlmreport.figures.draw import figure_size, to_svg
+from zlmreport.figures.draw import to_svg
 from zlmreport.figures.figure import Figure
+from zlmreport.figures.sketch import figure_size
 from zlmreport.language import Language, same
 
 SVG = "{http://www.w3.org/2000/svg}"

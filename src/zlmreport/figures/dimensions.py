@@ -10,7 +10,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
 from zlmreport.figures.canvas import Label
-from zlmreport.figures.frame import Box, PlacedLabel
+from zlmreport.figures.frame import Box, PlacedLabel, counts
 from zlmreport.quantities.arrays import FloatArray
 
 #: Length of an arrow head, and half its width.
@@ -167,8 +167,8 @@ def beside_targets(
     for span in sorted(spans, key=lambda span: -span.length):
         taken = [box for other in placed for box in other.boxes]
         best = _cheapest(_candidates(span), region, taken, marks, lines)
-        covered = best.label.box.count(marks) + best.label.box.count(lines)
-        placed.append(replace(best, is_among_lines=covered > 0))
+        covered = counts([best.label.box], marks) + counts([best.label.box], lines)
+        placed.append(replace(best, is_among_lines=any(covered)))
     return tuple(placed)
 
 
@@ -190,22 +190,26 @@ def _candidates(span: Span) -> list[Dimension]:
 def _cheapest(
     candidates: Sequence[Dimension], region: Box, taken: Sequence[Box], marks: FloatArray, lines: FloatArray
 ) -> Dimension:
-    boxes = [box for one in candidates for box in one.boxes]
-    left, right = min(box.left for box in boxes), max(box.right for box in boxes)
-    near = [points[(points[:, 0] > left) & (points[:, 0] < right)] for points in (marks, lines)]
-    return min(candidates, key=lambda one: _cost(one, region, taken, *near))
+    boxes = [one.boxes for one in candidates]
+    line_boxes, label_boxes = zip(*boxes, strict=True)
+    covered = zip(
+        counts(label_boxes, lines), counts(label_boxes, marks), counts(line_boxes, marks), strict=True
+    )
+    costs = [
+        _cost(one, region, taken, on_lines, label_on_marks + line_on_marks)
+        for one, (on_lines, label_on_marks, line_on_marks) in zip(candidates, covered, strict=True)
+    ]
+    return candidates[costs.index(min(costs))]
 
 
-def _cost(
-    dimension: Dimension, region: Box, taken: Sequence[Box], marks: FloatArray, lines: FloatArray
-) -> float:
+def _cost(dimension: Dimension, region: Box, taken: Sequence[Box], on_lines: int, on_marks: int) -> float:
     line, label = dimension.boxes
     is_off_middle = label.bottom + label.top != 2 * dimension.span.middle
     return (
         _COST_OF_DISTANCE * abs(dimension.x - dimension.span.low_from)
         + _COST_OFF_MIDDLE * is_off_middle
-        + _COST_OF_LINE * label.count(lines)
-        + _COST_OF_MARK * (label.count(marks) + line.count(marks))
+        + _COST_OF_LINE * on_lines
+        + _COST_OF_MARK * on_marks
         + _COST_OF_LEAVING * sum(not region.contains(box) for box in (line, label))
         + _COST_OF_OVERLAP * sum(box.overlaps(other) for box in (line, label) for other in taken)
     )

@@ -11,7 +11,7 @@ from matplotlib.path import Path
 from matplotlib.transforms import Affine2D, Transform
 
 from zlmreport.figures.canvas import Canvas, Colour, Face, Fill, Run, Segment, Stroke
-from zlmreport.figures.draw_lettering import font_file
+from zlmreport.figures.metrics import font_file
 from zlmreport.quantities.arrays import FloatArray
 
 _OPERATORS = {Path.MOVETO: "M", Path.LINETO: "L", Path.CURVE4: "C", Path.CLOSEPOLY: "Z"}

@@ -5,6 +5,7 @@ All places are points from the lower left corner of the drawing, y upwards.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -57,11 +58,15 @@ class Box:
             and other.top <= self.top
         )
 
-    def count(self, points: FloatArray) -> int:
-        """Return how many points, shape (N, 2), lie inside."""
-        x, y = points[:, 0], points[:, 1]
-        inside = (x > self.left) & (x < self.right) & (y > self.bottom) & (y < self.top)
-        return int(np.count_nonzero(inside))
+
+def counts(boxes: Sequence[Box], points: FloatArray) -> list[int]:
+    """Return how many points, shape (N, 2), lie inside each of some boxes."""
+    edges = np.array([(box.left, box.bottom, box.right, box.top) for box in boxes])
+    left, bottom, right, top = edges.T[:, :, np.newaxis]
+    x, y = points.T
+    inside = (x > left) & (x < right) & (y > bottom) & (y < top)
+    numbers: list[int] = np.count_nonzero(inside, axis=1).tolist()
+    return numbers
 
 
 @dataclass(frozen=True, slots=True)

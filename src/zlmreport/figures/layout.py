@@ -11,10 +11,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from zlmreport.figures.canvas import Label
-from zlmreport.figures.draw_lettering import plain_label
 from zlmreport.figures.figure import Figure, Panel
 from zlmreport.figures.frame import Box, Frame, PlacedLabel
 from zlmreport.figures.legend import LEGEND_GAP, LegendLayout, lay_out_legend
+from zlmreport.figures.lettering import plain_label
 from zlmreport.figures.panel_layout import PanelLayout, bracket_width, lay_out_panel, level_width
 from zlmreport.figures.scale import Scale, category_scale, position_scale, value_scales
 from zlmreport.figures.style import TEXT_SIZE, TICK_TEXT_SIZE

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 from zlmreport.figures.canvas import Face, Label
-from zlmreport.figures.draw_lettering import plain_label, symbol_label
 from zlmreport.figures.figure import Band, Curve, Panel, Readings
 from zlmreport.figures.frame import PlacedLabel
+from zlmreport.figures.lettering import plain_label, symbol_label
 from zlmreport.figures.style import TEXT_SIZE
 from zlmreport.language import Language, Words
 

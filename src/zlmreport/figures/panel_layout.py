@@ -19,10 +19,10 @@ from zlmreport.figures.dimensions import (
     margin_width,
     spread,
 )
-from zlmreport.figures.draw_lettering import plain_label, symbol_label
 from zlmreport.figures.figure import Arrow, Bracket, Level, Panel
 from zlmreport.figures.frame import Frame, PlacedLabel
 from zlmreport.figures.legend import LegendLayout
+from zlmreport.figures.lettering import plain_label, symbol_label
 from zlmreport.figures.style import TEXT_SIZE, TICK_TEXT_SIZE
 from zlmreport.language import Language
 from zlmreport.quantities.arrays import FloatArray

@@ -28,7 +28,7 @@ from zlmreport.figures.figure import (
 from zlmreport.language import Words
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.axis import Axis
-from zlmreport.quantities.arrays import FloatArray, read_only_floats
+from zlmreport.quantities.arrays import BoolArray, FloatArray, read_only_floats
 
 Mark = TypeVar("Mark")
 
@@ -88,13 +88,21 @@ class Diagram:
         """Return a line through one value at each target, shape (m,)."""
         if not np.isfinite(values).any():
             return None
-        return Curve(notation, role, self.positions, self._printed(values))
+        shown = self._shown(values)
+        return Curve(notation, role, read_only_floats(self.positions[shown]), self._printed(values[shown]))
 
     def band(self, notation: str, role: Role, lower: FloatArray, upper: FloatArray) -> Band | None:
         """Return the area between two limits, each of shape (m,)."""
         if not (np.isfinite(lower) & np.isfinite(upper)).any():
             return None
-        return Band(notation, role, self.positions, self._printed(lower), self._printed(upper))
+        shown = self._shown(lower + upper)
+        return Band(
+            notation,
+            role,
+            read_only_floats(self.positions[shown]),
+            self._printed(lower[shown]),
+            self._printed(upper[shown]),
+        )
 
     def readings(self, *approaches: Approach) -> tuple[Readings, ...]:
         """Return the single readings of each approach that was measured; of all approaches by default."""
@@ -158,6 +166,15 @@ class Diagram:
             y_unit=self.axis.deviation_unit.symbol,
             panels=tuple(panels),
         )
+
+    def _shown(self, values: FloatArray) -> BoolArray:
+        """Return the positions that a line runs through: all, so that what is missing leaves a gap.
+
+        But where each target can be reached in one direction only, a line runs from one of these to the next.
+        """
+        one_sided = self.evaluation.measurements.one_sided_targets
+        shown: BoolArray = np.isfinite(values) if one_sided else np.ones(values.shape, dtype=np.bool_)
+        return shown
 
     def _printed(self, values: FloatArray) -> FloatArray:
         return read_only_floats(self.axis.deviation_unit.from_si(values))

@@ -6,6 +6,7 @@ certificates are printed or copied in black and white, no two roles share both l
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from enum import Enum
 
@@ -74,6 +75,8 @@ ROLES = {
     Role.NOISE: _style(_BLACK, 0.7, (3.2, 1.8), None, 0.07),
     Role.PATH: _style(_GREY, 0.5, (24.0, 0.8), None, 0.06),
 }
+#: Of a triangle of height 1 with three equal sides.
+TRIANGLE_HALF_WIDTH = 0.5 / math.cos(math.pi / 6)
 MARK_SIZES = {Mark.UP: 4.6, Mark.DOWN: 4.6, Mark.DISC: 3.8}
 #: Parts a mark from the line that it sits on.
 RIM = Stroke(WHITE, 0.5)

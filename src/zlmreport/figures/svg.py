@@ -40,12 +40,12 @@ class SvgCanvas:
         data = "".join(operator + " ".join(map(_number, points)) for operator, points in segments)
         inside = ' fill="none"'
         if fill is not None:
-            inside = f' fill="{_hex(fill.colour)}"'
+            inside = f' fill="{hexadecimal(fill.colour)}"'
             if fill.opacity < 1:
                 inside += f' fill-opacity="{_number(fill.opacity)}"'
         line = ""
         if stroke is not None:
-            line = f' stroke="{_hex(stroke.colour)}" stroke-width="{_number(stroke.width)}"'
+            line = f' stroke="{hexadecimal(stroke.colour)}" stroke-width="{_number(stroke.width)}"'
             if stroke.dashes:
                 line += f' stroke-dasharray="{" ".join(map(_number, stroke.dashes))}"'
         self._parts.append(f'<path class="{escape(kind)}" d="{data}"{inside}{line}/>')
@@ -60,7 +60,7 @@ class SvgCanvas:
             place = f'x="{_number(x)}" y="{_number(y)}" font-size="{_number(run.size)}"{_FACES[run.face]}'
             spans += f"<tspan {place}>{escape(run.text, quote=False)}</tspan>"
         turn = f' transform="rotate({_number(-angle)})"' if angle else ""
-        self._parts.append(f'<text class="{escape(kind)}" fill="{_hex(colour)}"{turn}>{spans}</text>')
+        self._parts.append(f'<text class="{escape(kind)}" fill="{hexadecimal(colour)}"{turn}>{spans}</text>')
 
     def image(self) -> str:
         """Return the image."""
@@ -72,5 +72,6 @@ def _number(value: float) -> str:
     return "0" if text == "-0" else text
 
 
-def _hex(colour: Colour) -> str:
+def hexadecimal(colour: Colour) -> str:
+    """Return a colour as style sheets write it: ``#0063a6``."""
     return "#" + "".join(f"{round(255 * part):02x}" for part in colour)

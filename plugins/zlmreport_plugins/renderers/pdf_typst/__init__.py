@@ -1,0 +1,44 @@
+"""PDF, set by Typst: for fleets that count seconds; the same certificate as the format ``pdf``."""
+
+from __future__ import annotations
+
+from zlmreport.certificate.document import Certificate
+from zlmreport.errors import AccessError, Place
+from zlmreport.hookspecs import hookimpl
+from zlmreport.language import Words
+
+
+class TypstRenderer:
+    """Certificates as PDF, set by Typst."""
+
+    identifier = "pdf-typst"
+    title = Words(en="PDF, set by Typst", de="PDF, von Typst gesetzt")
+    suffix = ".pdf"
+    carries_attachments = True
+    #: How its files begin the name of the program that made them.
+    creator = "Typst "
+
+    def render(self, certificate: Certificate) -> bytes:
+        """Return the PDF.
+
+        Raises
+        ------
+        AccessError
+            If the package ``typst`` is not installed.
+        InputError
+            If the certificate has letters that the bundled typeface lacks.
+        """
+        try:
+            from zlmreport_plugins.renderers.pdf_typst.press import press
+        except ImportError as error:
+            raise AccessError.at(
+                Place("pdf-typst"),
+                f"Typst cannot be loaded: {error}; install it with: pip install 'zlmreport[typst]'",
+            ) from error
+        return press().print(certificate)
+
+
+@hookimpl
+def zlmreport_renderers() -> list[TypstRenderer]:
+    """Offer the renderer."""
+    return [TypstRenderer()]

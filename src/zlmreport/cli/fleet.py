@@ -1,0 +1,160 @@
+"""A night of a fleet: what is due is made, and said."""
+
+from __future__ import annotations
+
+import contextlib
+import sys
+import time
+from argparse import Namespace
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from types import TracebackType
+from typing import Any, Self
+
+from zlmreport import __version__
+from zlmreport.cli.fleet_log import JsonLog, TextLog, by_word, of_job
+from zlmreport.cli.fleet_progress import Progress
+from zlmreport.cli.messages import visible
+from zlmreport.cli.summary import print_json
+from zlmreport.errors import AccessError, InputError, Place
+from zlmreport.fleet.desk import Happened, What
+from zlmreport.fleet.night import foretell, spend
+from zlmreport.fleet.plan import Due, Planned
+from zlmreport.job.fleet import FleetFile, load_fleet
+
+SCHEMA = "zlmreport/night/1"
+
+_FAILED = 4
+
+
+def run(options: Namespace) -> int:
+    """Make what is due of a fleet, or say what that is, and return the exit code."""
+    fleet = load_fleet(options.fleet)
+    if options.workers and fleet.keys.executor.kind == "dask":
+        raise InputError.at(Place("zlmreport fleet --workers"), "a scheduler has the workers that it has")
+    plugins = tuple(options.plugin)
+    if options.dry_run:
+        return _foretell(fleet, plugins, options)
+    with _logs(fleet, options) as logs:
+        watcher = _Watcher(fleet, logs, options)
+        with watcher:
+            spend(fleet, plugins, watcher, options.workers)
+    code = _FAILED if watcher.counts[What.FAILED] else 0
+    if options.json:
+        print_json(_summary(fleet, watcher, code))
+    return code
+
+
+class _Watcher:
+    """Writes the logs, shows the bar, and counts."""
+
+    def __init__(self, fleet: FleetFile, logs: Sequence[TextLog | JsonLog], options: Namespace) -> None:
+        self.counts: Counter[What] = Counter()
+        self.jobs: list[dict[str, Any]] = []
+        self._fleet = fleet
+        self._logs = logs
+        self._options = options
+        self._begun = time.monotonic()
+        self._progress = Progress(sys.stderr, 0)
+
+    def planned(self, jobs: Sequence[Planned]) -> None:
+        due = sum(each.due is not Due.NOTHING for each in jobs)
+        for log in self._logs:
+            log.begun(self._fleet.name, due, len(jobs))
+        if not self._options.quiet:
+            self._progress = Progress(sys.stderr, due)
+
+    def happened(self, happened: Happened) -> None:
+        self.counts[happened.what] += 1
+        if self._options.json:
+            self.jobs.append({"what": happened.what.value, **of_job(happened)})
+        if happened.what is What.UNCHANGED:
+            return
+        self._progress.hide()
+        for log in self._logs:
+            log.happened(happened)
+        if self._options.quiet or self._options.json:
+            for problem in happened.problems:
+                print(visible(str(problem)), file=sys.stderr)
+        self._progress.advance(failed=happened.what is What.FAILED)
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        """Take the bar away, and say what the night came to if it came to its end."""
+        self._progress.hide()
+        for log in self._logs if error is None else ():
+            log.ended(self.counts, time.monotonic() - self._begun)
+
+
+@contextlib.contextmanager
+def _logs(fleet: FleetFile, options: Namespace) -> Iterator[Sequence[TextLog | JsonLog]]:
+    """Yield the logs: one for whoever is there, and that of the fleet file."""
+    logs: list[TextLog | JsonLog] = []
+    if options.log_json:
+        logs.append(JsonLog(sys.stderr if options.json else sys.stdout))
+    elif not (options.quiet or options.json):
+        logs.append(TextLog(sys.stdout))
+    keys = fleet.keys.log
+    if keys is None:
+        yield logs
+        return
+    try:
+        keys.file.parent.mkdir(parents=True, exist_ok=True)
+        file = keys.file.open("a", encoding="utf-8")
+    except OSError as error:
+        raise AccessError.at(
+            fleet.place_of("log", "file"), f"{keys.file} cannot be written: {error.strerror or error}"
+        ) from error
+    with file:
+        yield [*logs, JsonLog(file) if keys.format == "json" else TextLog(file)]
+
+
+def _summary(fleet: FleetFile, watcher: _Watcher, code: int) -> dict[str, Any]:
+    """Return what became of every job, for programs."""
+    return {
+        "schema": SCHEMA,
+        "zlmreport": __version__,
+        "fleet": fleet.name,
+        "exit_code": code,
+        "counts": by_word(watcher.counts),
+        "jobs": watcher.jobs,
+    }
+
+
+_FORETOLD = {
+    Due.CERTIFICATE: "would be made",
+    Due.COMPARISON: "would be made anew, and be a draft if it differs from what was issued",
+    Due.REFUSAL: "would fail",
+}
+
+
+def _foretell(fleet: FleetFile, plugins: tuple[Path, ...], options: Namespace) -> int:
+    """Print what a night would do."""
+    planned = foretell(fleet, plugins)
+    due = [each for each in planned if each.due is not Due.NOTHING]
+    if options.json:
+        jobs = [
+            {
+                "due": each.due.value,
+                "job": each.job,
+                "number": each.number or None,
+                "why": each.why or None,
+                "problems": [str(problem) for problem in each.problems],
+            }
+            for each in planned
+        ]
+        print_json({"schema": SCHEMA, "zlmreport": __version__, "fleet": fleet.name, "due": jobs})
+        return 0
+    for each in due:
+        number = f"{each.number}  " if each.number else ""
+        print(visible(f"{number}{each.job}: {each.why}; {_FORETOLD[each.due]}"))
+        for problem in each.problems:
+            print(visible(f"  {problem}"))
+    if not options.quiet:
+        print(f"{len(due)} of {len(planned)} jobs are due; nothing was made")
+    return 0

@@ -1,0 +1,49 @@
+"""``zlmreport fleet report``: the overview of a fleet, for people and for Prometheus."""
+
+from __future__ import annotations
+
+import os
+from argparse import Namespace
+from datetime import datetime
+from pathlib import Path
+
+from zlmreport import pipeline
+from zlmreport.cli.terminal import shown_path
+from zlmreport.fleet.basis import path_in
+from zlmreport.fleet.ledger import Ledger
+from zlmreport.fleet.overview import overview
+from zlmreport.fleet.overview_names import Names
+from zlmreport.fleet.overview_state import FleetState, Night, state_of
+from zlmreport.fleet.prometheus import metrics
+from zlmreport.job.fleet import FleetFile, job_files, load_fleet
+from zlmreport.language import Language
+from zlmreport.pipeline import Document
+from zlmreport.plugins import find_plugins
+
+
+def run(options: Namespace) -> int:
+    """Write both files anew, each whole or not at all; the ledger is only read."""
+    fleet = load_fleet(options.fleet)
+    state = _state(fleet)
+    folder: Path = options.output or fleet.output
+    names = Names(find_plugins(files=options.plugin).standards)
+    files = os.path.relpath(fleet.output, folder)
+    page = overview(state, Language(fleet.keys.language), names, files)
+    documents = (
+        Document(folder / f"{fleet.path.stem}.html", page.encode()),
+        Document(folder / f"{fleet.path.stem}.prom", metrics(state).encode()),
+    )
+    for path in pipeline.write(documents):
+        print(shown_path(path))
+    return 0
+
+
+def _state(fleet: FleetFile) -> FleetState:
+    jobs = [path_in(fleet.path.parent, path) for path in job_files(fleet)]
+    with Ledger.open(fleet.ledger, fleet.name, create=False) as ledger:
+        night = ledger.last_night()
+        return state_of(fleet.name, ledger.entries(), jobs, _night(*night) if night else None)
+
+
+def _night(began: str, ended: str | None) -> Night:
+    return Night(datetime.fromisoformat(began), datetime.fromisoformat(ended) if ended else None)

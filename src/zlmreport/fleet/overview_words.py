@@ -1,0 +1,159 @@
+"""The words of the overview."""
+
+from __future__ import annotations
+
+from zlmreport.language import Words
+
+TITLE = Words(en="Fleet overview", de="Flottenübersicht")
+
+# Headline
+
+LAST_RUN = Words(en="Last run", de="Letzter Lauf")
+NEVER = Words(en="not yet", de="noch keiner")
+INTERRUPTED = Words(en="{began}, interrupted", de="{began}, abgebrochen")
+RAN = Words(en="{began}, {duration}", de="{began}, {duration}")
+SECONDS = Words(en="{number} s", de="{number} s")
+MINUTES = Words(en="{minutes} min {seconds} s", de="{minutes} min {seconds} s")
+JOBS = Words(en="Jobs", de="Aufträge")
+JOBS_DONE = Words(
+    en="{jobs}: {made} made, {unchanged} unchanged, {draft} as drafts, {failed} failed",
+    de="{jobs}: {made} erstellt, {unchanged} unverändert, {draft} als Entwurf, {failed} fehlgeschlagen",
+)
+CERTIFICATES = Words(en="Certificates", de="Kalibrierscheine")
+HEADLINE = Words(en="The fleet in numbers", de="Die Flotte in Zahlen")
+AXES = Words(en="Axes", de="Achsen")
+
+# What needs you
+
+NEEDS = Words(en="What needs you", de="Was auf Sie wartet")
+NOTHING = Words(
+    en="Nothing: every job was made, every limit that is stated is met, and no parameter drifts.",
+    de="Nichts: Alle Aufträge sind erstellt, alle Grenzwerte eingehalten, und keine Kenngröße driftet.",
+)
+NO_NIGHT = Words(
+    en="The ledger is empty: the fleet has not run yet.",
+    de="Noch ist nichts verzeichnet: Die Flotte ist noch nicht gelaufen.",
+)
+FAILED = Words(en="Failed", de="Fehlgeschlagen")
+FAILED_CAPTION = Words(
+    en="Jobs of which no certificate could be made; the next run tries again",
+    de="Aufträge, aus denen kein Kalibrierschein entstehen konnte; der nächste Lauf versucht es erneut",
+)
+NOT_MET = Words(en="Limit not met", de="Grenzwert nicht eingehalten")
+NOT_MET_CAPTION = Words(
+    en="Parameters whose latest certificate states that the limit is not met",
+    de="Kenngrößen, deren Grenzwert laut letztem Kalibrierschein nicht eingehalten ist",
+)
+UNDECIDED = Words(en="Undecided", de="Ohne Aussage")
+UNDECIDED_CAPTION = Words(
+    en="Parameters so near to their limit that the decision rule states nothing",
+    de="Kenngrößen so nahe am Grenzwert, dass die Entscheidungsregel keine Aussage zulässt",
+)
+DRIFTING = Words(en="Drifting", de="Drift")
+DRIFTING_CAPTION = Words(
+    en="Parameters that drift, those first that meet their limit soonest",
+    de="Kenngrößen mit signifikanter Drift; zuerst die, die ihren Grenzwert am frühesten erreichen",
+)
+DRAFTS = Words(en="Drafts", de="Entwürfe")
+DRAFTS_CAPTION = Words(
+    en="Contents that differ from what was issued under their number: issue an amendment, or undo the change",
+    de="Inhalte, die vom ausgestellten Kalibrierschein gleicher Nummer abweichen: eine Änderung dazu "
+    "ausstellen oder den Eingriff zurücknehmen",
+)
+
+# Machines
+
+MACHINES = Words(en="Machines and axes", de="Maschinen und Achsen")
+MACHINE_CAPTION = Words(
+    en="Latest values and their course since {first}",
+    de="Letzte Werte und ihr Verlauf seit {first}",
+)
+NO_MACHINE = Words(en="Machine not named", de="Maschine nicht benannt")
+MEASURED = Words(en="measured {date}", de="gemessen {date}")
+
+# Columns
+
+JOB = Words(en="Job", de="Auftrag")
+MESSAGE = Words(en="What is wrong", de="Ursache")
+SINCE = Words(en="Since", de="Seit")
+AXIS = Words(en="Axis", de="Achse")
+PARAMETER = Words(en="Parameter", de="Kenngröße")
+VALUE = Words(en="Value ± U", de="Wert ± U")
+LIMIT = Words(en="Limit", de="Grenzwert")
+STATE = Words(en="State", de="Aussage")
+COURSE = Words(en="Course", de="Verlauf")
+DRIFT = Words(en="Drift ± U", de="Drift ± U")
+REACHED = Words(en="Limit reached", de="Grenzwert erreicht")
+CERTIFICATE = Words(en="Certificate", de="Kalibrierschein")
+REASON = Words(en="Why", de="Warum")
+
+# States
+
+MET = Words(en="met", de="eingehalten")
+IS_NOT_MET = Words(en="not met", de="nicht eingehalten")
+IS_OPEN = Words(en="undecided", de="ohne Aussage")
+NO_LIMIT = Words(en="no limit", de="kein Grenzwert")
+
+# Drift
+
+PER_YEAR = Words(en="{change}/year", de="{change}/Jahr")
+CHANCE = Words(en="{p}; {number} calibrations", de="{p}; {number} Kalibrierungen")
+ALSO = Words(en="also {symbols}, without a limit", de="auch {symbols}, ohne Grenzwert")
+WITHOUT_LIMIT = Words(en="no limit stated", de="kein Grenzwert angegeben")
+BETWEEN = Words(en="95 %: {earliest} to {latest}", de="95 %: {earliest} bis {latest}")
+NOT_BEFORE = Words(en="95 %: not before {earliest}", de="95 %: nicht vor {earliest}")
+GETS_SMALLER = Words(en="moves away from it", de="entfernt sich davon")
+FAR_AWAY = Words(en="not within {years} years", de="nicht innerhalb von {years} Jahren")
+TOO_FEW = Words(en="{number} of {least} dates", de="{number} von {least} Terminen")
+STEADY = Words(en="none found", de="keine erkennbar")
+
+# How to read it
+
+READING = Words(en="How to read this page", de="Lesehilfe")
+TERM_VALUE = Words(en="Diamonds and line", de="Rauten und Linie")
+MEANING_VALUE = Words(
+    en="the certified values, the last one larger; a cross where the limit was not met",
+    de="die bescheinigten Werte, der letzte größer; ein Kreuz, wo der Grenzwert nicht eingehalten war",
+)
+TERM_BAND = Words(en="Shaded band", de="Band")
+MEANING_BAND = Words(
+    en="their expanded uncertainty",
+    de="ihre erweiterte Messunsicherheit",
+)
+TERM_LIMIT = Words(en="Dashed line", de="Gestrichelte Linie")
+MEANING_LIMIT = Words(
+    en="the limit; the graph stands on zero",
+    de="der Grenzwert; die Grundlinie ist null",
+)
+TERM_DRIFT = Words(en="Dash-dotted line", de="Strichpunktierte Linie")
+MEANING_DRIFT = Words(
+    en="a drift, and where it leads",
+    de="eine Drift, und wohin sie führt",
+)
+DRIFT_METHOD = Words(
+    en="A parameter drifts if a weighted regression through {least} or more dates is steeper than its "
+    "scatter explains (Student’s t), and the order of the values bears it out (Mann and Kendall). All tests "
+    "of the fleet are judged together: of the axes that are named, no more than {share} % are expected to be "
+    "named by accident (Benjamini and Hochberg over the axes, Holm within an axis).",
+    de="Eine Drift wird genannt, wenn eine gewichtete Ausgleichsgerade durch mindestens {least} Termine "
+    "steiler ist, als ihre Streuung erklärt (Student-t-Test), und die Reihenfolge der Werte sie bestätigt "
+    "(Mann und Kendall). Alle Tests der Flotte werden gemeinsam beurteilt: Von den genannten Achsen werden "
+    "im Mittel höchstens {share} % zufällig genannt (Benjamini und Hochberg über die Achsen, Holm innerhalb "
+    "einer Achse).",
+)
+FORECAST_METHOD = Words(
+    en="A limit is reached where the line meets it, within the 95 % interval. That holds as long as the axis "
+    "goes on as it has done, and nobody adjusts it.",
+    de="Ein Grenzwert gilt als erreicht, wo die Gerade ihn schneidet, mit 95-%-Intervall. Das setzt voraus, "
+    "dass die Achse sich weiter so verhält wie bisher und niemand sie justiert.",
+)
+ALTERNATIVE = Words(
+    en="{number} values of {symbol} from {first} to {last}, the last {value}.",
+    de="{number} Werte von {symbol} vom {first} bis {last}, zuletzt {value}.",
+)
+ALTERNATIVE_LIMIT = Words(en=" Limit {limit}.", de=" Grenzwert {limit}.")
+ALTERNATIVE_DRIFT = Words(en=" Drift {change}/year.", de=" Drift {change}/Jahr.")
+SAMPLE = Words(
+    en="An example of the small graphs, explained beside it.",
+    de="Ein Beispiel der kleinen Diagramme, daneben erklärt.",
+)

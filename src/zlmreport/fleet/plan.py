@@ -1,0 +1,193 @@
+"""What is due tonight, and why: decided from the ledger and the disk, before anything is made."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from enum import Enum
+from pathlib import Path
+
+from zlmreport.errors import Place, Problem, ZlmreportError
+from zlmreport.fleet.basis import Basis, Disk, KnownFile, changes, path_in
+from zlmreport.fleet.ledger import Issued, Standing
+from zlmreport.fleet.records import State
+from zlmreport.fleet.shelf import is_intact
+from zlmreport.job.fleet import FleetFile, number_of
+
+
+class Due(Enum):
+    """What a night is to do about a job."""
+
+    NOTHING = "unchanged"
+    CERTIFICATE = "certificate"
+    #: Made, and then compared with what its number was issued with.
+    COMPARISON = "comparison"
+    REFUSAL = "refused"
+
+
+@dataclass(frozen=True, slots=True)
+class Planned:
+    """A job of tonight.
+
+    Attributes
+    ----------
+    path
+        The job file.
+    job
+        The same, as the ledger names it.
+    due
+        What is to be done.
+    why
+        In words; empty if nothing is due.
+    number
+        Of its certificate, as far as it is known.
+    issued
+        The certificate that has the number already.
+    problems
+        Why it is refused.
+    """
+
+    path: Path
+    job: str
+    due: Due
+    why: str = ""
+    number: str = ""
+    issued: Issued | None = None
+    problems: tuple[Problem, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Evening:
+    """What is known before a night.
+
+    Attributes
+    ----------
+    fleet
+        The fleet file.
+    jobs
+        Its job files.
+    standings
+        What the ledger knows of jobs, by their paths.
+    certificates
+        Every certificate that was issued, by its number.
+    now
+        Programs, formats and defaults of tonight.
+    """
+
+    fleet: FleetFile
+    jobs: Sequence[Path]
+    standings: Mapping[str, Standing]
+    certificates: Mapping[str, Issued]
+    now: Basis
+
+    def job_of(self, path: Path) -> str:
+        """Return a job file as the ledger names it."""
+        return path_in(self.fleet.path.parent, path)
+
+
+def reasons(evening: Evening) -> Mapping[Path, str]:
+    """Return why each job is due; nothing for one that is not. No job is read that is as it was."""
+    sources, shelf = Disk(evening.fleet.path.parent), Disk(evening.fleet.output)
+    return {
+        path: _why(evening.standings.get(evening.job_of(path)), evening, sources, shelf)
+        for path in evening.jobs
+    }
+
+
+def plan(evening: Evening, why: Mapping[Path, str]) -> tuple[Planned, ...]:
+    """Return every job with what is due about it, in the order of job files."""
+    planned = [_planned(path, why[path], evening) for path in evening.jobs]
+    return tuple(_without_shared_numbers(planned, evening))
+
+
+def _why(standing: Standing | None, evening: Evening, sources: Disk, shelf: Disk) -> str:
+    """Say why a job is due; nothing if it is not."""
+    if standing is None:
+        return "new"
+    if standing.basis is None:
+        return f"failed on {_day(standing.night)}"
+    found = list(changes(standing.basis, sources, evening.now))
+    if found:
+        return f"{'; '.join(found)} since {_day(standing.night)}"
+    certificate = evening.certificates.get(standing.number)
+    files = certificate.files if certificate and standing.state is State.MADE else standing.files
+    return "; ".join(_damage(evening.fleet.output, files, shelf))
+
+
+def _damage(folder: Path, files: Sequence[KnownFile], shelf: Disk) -> Iterator[str]:
+    """Yield what has become of a certificate's own files."""
+    for file in files:
+        if not shelf.has(file):
+            yield f"{file.path} is gone"
+        elif not shelf.still_has(file) and not is_intact(folder / file.path, file):
+            yield f"{file.path} is not as it was issued"
+
+
+def _planned(path: Path, why: str, evening: Evening) -> Planned:
+    """Return what is due about a job, with what its number means."""
+    job = evening.job_of(path)
+    if not why:
+        return Planned(path, job, Due.NOTHING, number=evening.standings[job].number)
+    try:
+        number, place = number_of(path, evening.fleet.defaults)
+    except ZlmreportError as error:
+        return Planned(path, job, Due.REFUSAL, why, problems=error.problems)
+    issued = evening.certificates.get(number)
+    planned = Planned(path, job, Due.COMPARISON if issued else Due.CERTIFICATE, why, number, issued)
+    refusal = _refusal(issued, evening) if issued else ""
+    return _refused(planned, Problem(place, refusal)) if refusal else planned
+
+
+def _refusal(issued: Issued, evening: Evening) -> str:
+    """Say why nothing is made under the number of a certificate; nothing if there is no reason."""
+    if issued.fleet != evening.fleet.name:
+        return f"its number was issued for {issued.job} of the fleet {issued.fleet!r}"
+    for file in issued.files:
+        path = evening.fleet.output / file.path
+        if path.is_file() and not is_intact(path, file):
+            return (
+                f"{path} is not as it was issued on {_day(issued.night)}; move it away, and the next night "
+                "restores it"
+            )
+    return ""
+
+
+def _without_shared_numbers(planned: Sequence[Planned], evening: Evening) -> Iterator[Planned]:
+    """Yield the jobs, refusing those that have another's number; the one issued with it keeps it."""
+    by_number: dict[str, list[Planned]] = defaultdict(list)
+    for each in planned:
+        by_number[each.number].append(each)
+    for each in planned:
+        others = [other for other in by_number[each.number] if other is not each]
+        if not each.number or not others or _holds(each) or each.due is Due.REFUSAL:
+            yield each
+            continue
+        place, *places = (_number_place(one.path, evening.fleet) for one in (each, *others))
+        message = (
+            f"the number {each.number} stands in {', '.join(map(str, places))} too; each certificate has "
+            "one of its own"
+        )
+        yield _refused(each, Problem(place, message))
+
+
+def _number_place(path: Path, fleet: FleetFile) -> Place:
+    """Return where a job has its number; of one that cannot be read any more, the file."""
+    try:
+        _, place = number_of(path, fleet.defaults)
+    except ZlmreportError:
+        return Place(str(path))
+    return place
+
+
+def _refused(planned: Planned, problem: Problem) -> Planned:
+    return replace(planned, due=Due.REFUSAL, problems=(problem,))
+
+
+def _holds(each: Planned) -> bool:
+    """Whether a number is rightly this job's, whoever else states it."""
+    return each.due is Due.NOTHING or (each.issued is not None and each.issued.job == each.job)
+
+
+def _day(night: str) -> str:
+    return night[:10]

@@ -1,0 +1,157 @@
+"""Processes of this machine that make certificates: kept warm, renewed now and then, missed when killed."""
+
+from __future__ import annotations
+
+import contextlib
+import signal
+from collections import deque
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+from multiprocessing import get_context
+from multiprocessing.connection import Connection, wait
+from multiprocessing.process import BaseProcess
+from pathlib import Path
+from typing import Self
+
+from zlmreport.errors import Place, Problem
+from zlmreport.fleet.work import Failed, Made, Task, warm, work
+
+#: Certificates after which a worker makes room for a new one: no library is trusted to leak nothing.
+LIFE = 500
+
+
+@dataclass(slots=True)
+class _Worker:
+    """A process, this end of the line to it, and the task that it has."""
+
+    process: BaseProcess
+    line: Connection
+    task: Task | None = None
+    done: int = 0
+
+
+@dataclass(slots=True)
+class Pool:
+    """Workers on this machine; it is left as a context manager, which ends them.
+
+    A worker has one task at a time, so that it is known which one ended it. Such a task is tried once more,
+    alone, when all others are done: then nobody else can have taken its memory.
+
+    Attributes
+    ----------
+    workers
+        How many.
+    plugins
+        Plugins in files of their own.
+    """
+
+    workers: int
+    plugins: tuple[Path, ...] = ()
+    _staff: list[_Worker] = field(default_factory=list)
+
+    def __enter__(self) -> Self:
+        """Start the workers: they load the plugins while the night is planned."""
+        self._staff.extend(self._hired() for _ in range(self.workers))
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        """End the workers."""
+        for worker in self._staff:
+            self._dismiss(worker)
+        self._staff.clear()
+
+    def results(self, tasks: Iterable[Task]) -> Iterator[tuple[Task, Made | Failed]]:
+        """Yield what became of each task, as it is done; tasks are taken as workers have time for them."""
+        killers: list[Task] = []
+        for task, result in self._worked(iter(tasks), self.workers):
+            if isinstance(result, Failed | Made):
+                yield task, result
+            else:
+                killers.append(task)
+        for task in killers:
+            for _, again in self._worked(iter([task]), 1):
+                yield task, Failed((_killed(task, again),)) if isinstance(again, int) else again
+
+    def _worked(self, tasks: Iterator[Task], most: int) -> Iterator[tuple[Task, Made | Failed | int]]:
+        """Yield each task with its result, or with how the worker that had it ended."""
+        free = deque(self._staff)
+        busy: dict[Connection, _Worker] = {}
+        while True:
+            while free and len(busy) < most and (task := next(tasks, None)) is not None:
+                worker = free.popleft()
+                self._give(worker, task)
+                busy[worker.line] = worker
+            if not busy:
+                return
+            ready = wait(list(busy))
+            for worker in [worker for line, worker in busy.items() if line in ready]:
+                del busy[worker.line]
+                task, result = self._received(worker)
+                is_spent = isinstance(result, int) or worker.done >= LIFE
+                follower = self._replaced(worker) if is_spent else worker
+                # The next task first, so that the worker need not wait for what is done with the result.
+                if not free and len(busy) < most and (following := next(tasks, None)) is not None:
+                    self._give(follower, following)
+                    busy[follower.line] = follower
+                else:
+                    free.append(follower)
+                yield task, result
+
+    def _give(self, worker: _Worker, task: Task) -> None:
+        worker.task = task
+        with contextlib.suppress(OSError):  # one that is gone is noticed where its answer is awaited
+            worker.line.send(task)
+
+    def _received(self, worker: _Worker) -> tuple[Task, Made | Failed | int]:
+        """Return a worker's answer, or the exit code of one that is gone."""
+        task, worker.task = worker.task, None
+        if task is None:
+            raise RuntimeError("a worker answers that was asked nothing")
+        try:
+            result: Made | Failed = worker.line.recv()
+        except (EOFError, OSError):
+            worker.process.join()
+            return task, worker.process.exitcode or 0
+        worker.done += 1
+        return task, result
+
+    def _hired(self) -> _Worker:
+        context = get_context("forkserver")
+        context.set_forkserver_preload([_serve.__module__])  # what all need is loaded once, plugins apart
+        ours, theirs = context.Pipe()
+        process = context.Process(target=_serve, args=(theirs, self.plugins), daemon=True)
+        process.start()
+        theirs.close()
+        return _Worker(process, ours)
+
+    def _replaced(self, worker: _Worker) -> _Worker:
+        self._dismiss(worker)
+        new = self._hired()
+        self._staff[self._staff.index(worker)] = new
+        return new
+
+    def _dismiss(self, worker: _Worker) -> None:
+        """End a worker; one with a task has no time to finish it."""
+        worker.line.close()
+        if worker.task is not None:
+            worker.process.kill()
+        worker.process.join()
+
+
+def _serve(line: Connection, plugins: tuple[Path, ...]) -> None:
+    """Answer tasks until the line is closed, by whatever end of the other side."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # of a terminal: the night decides what it means
+    with contextlib.suppress(Exception):  # what is wrong with a plugin is said of each job
+        warm(plugins)
+    with contextlib.suppress(EOFError, OSError):
+        while True:
+            line.send(work(line.recv()))
+
+
+def _killed(task: Task, code: int) -> Problem:
+    """Return the problem of a task that ended two workers, the second while nothing else was done."""
+    how = f"was killed by {signal.Signals(-code).name}" if code < 0 else f"ended with exit code {code}"
+    hint = "; the system may have run out of memory" if code == -signal.SIGKILL else ""
+    return Problem(
+        Place(str(task.job)), f"the worker process {how} while it made this certificate, twice{hint}"
+    )

@@ -1,0 +1,156 @@
+r"""The state of a fleet for Prometheus, in the text format that node exporter collects from files.
+
+Metres, radians and seconds, as Prometheus has its units; a family has a ``# HELP`` and a ``# TYPE`` line, and
+``\``, ``"`` and line feeds are escaped. No sample carries a time: the collector refuses them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
+from datetime import UTC, date, datetime
+from types import MappingProxyType
+
+from zlmreport.fleet.overview_state import FleetState
+from zlmreport.fleet.trend_fleet import Trend
+from zlmreport.quantities.units import ANGLES, ARCSECOND, LENGTHS, MICROMETRE, Unit
+
+_NO_LABELS: Mapping[str, str] = MappingProxyType({})
+_UNITS = {unit.ascii: unit for unit in (*LENGTHS, *ANGLES)}
+#: What follows the name of a metric, by the unit of the ledger.
+_QUANTITIES = ((LENGTHS, MICROMETRE, "meters"), (ANGLES, ARCSECOND, "radians"))
+
+
+@dataclass(slots=True)
+class _Family:
+    """A metric: its name, what it says, and its samples."""
+
+    name: str
+    about: str
+    samples: list[tuple[Mapping[str, str], float]] = field(default_factory=list)
+
+    def lines(self) -> Iterator[str]:
+        """Yield its lines; none without a sample."""
+        if not self.samples:
+            return
+        yield f"# HELP {self.name} {_escaped(self.about)}"
+        yield f"# TYPE {self.name} gauge"
+        for labels, value in self.samples:
+            stated = ",".join(f'{name}="{_escaped(text, quotes=True)}"' for name, text in labels.items())
+            yield f"{self.name}{{{stated}}} {value!r}"
+
+
+def metrics(state: FleetState) -> str:
+    """Return the text of the file."""
+    families = (*_of_fleet(state), *_of_axes(state), *_of_parameters(state))
+    return "".join(f"{line}\n" for family in families for line in family.lines())
+
+
+def _of_fleet(state: FleetState) -> Iterator[_Family]:
+    fleet = {"fleet": state.name}
+    began = _Family("zlmreport_fleet_last_run_timestamp_seconds", "When the last run of the fleet began.")
+    lasted = _Family("zlmreport_fleet_last_run_duration_seconds", "How long the last run of the fleet took.")
+    if state.night:
+        began.samples.append((fleet, state.night.began.timestamp()))
+        if state.night.seconds is not None:
+            lasted.samples.append((fleet, state.night.seconds))
+    jobs = _Family("zlmreport_fleet_jobs", "Jobs of the fleet by their state after the last run.")
+    jobs.samples = [({**fleet, "state": name}, float(count)) for name, count in state.counts.items()]
+    yield from (began, lasted, jobs)
+
+
+def _of_axes(state: FleetState) -> Iterator[_Family]:
+    measured = _Family(
+        "zlmreport_axis_measured_timestamp_seconds", "Date of the last measurement of the axis."
+    )
+    latest: dict[tuple[str, str], date] = {}
+    for trend in state.trends:
+        axis = trend.series.machine, trend.series.axis
+        day = trend.series.calibrations[-1].measured
+        latest[axis] = max(day, latest.get(axis, day))
+    measured.samples = [
+        ({"fleet": state.name, "machine": machine, "axis": axis}, _timestamp(day))
+        for (machine, axis), day in latest.items()
+    ]
+    yield measured
+
+
+def _of_parameters(state: FleetState) -> Iterator[_Family]:
+    for units, _, quantity in _QUANTITIES:
+        of_kind = [each for each in state.trends if _UNITS.get(each.series.unit) in units]
+        for name, about, value in _AMOUNTS:
+            yield _family(f"zlmreport_parameter_{name}_{quantity}", about, state.name, of_kind, value)
+    for name, about, value in _STATEMENTS:
+        yield _family(f"zlmreport_parameter_{name}", about, state.name, state.trends, value)
+
+
+def _family(
+    name: str, about: str, fleet: str, trends: Iterable[Trend], value: Callable[[Trend], float | None]
+) -> _Family:
+    family = _Family(name, about)
+    for trend in trends:
+        stated = value(trend)
+        if stated is not None:
+            series = trend.series
+            labels = {
+                "fleet": fleet,
+                "machine": series.machine,
+                "axis": series.axis,
+                "standard": series.standard,
+                "symbol": series.symbol,
+            }
+            family.samples.append((labels, stated))
+    return family
+
+
+def _in_si(trend: Trend, value: float | None) -> float | None:
+    unit: Unit | None = _UNITS.get(trend.series.unit)
+    return None if value is None or unit is None else unit.to_si(value)
+
+
+def _slope(trend: Trend) -> float | None:
+    return _in_si(trend, trend.line.slope) if trend.line else None
+
+
+def _conforms(trend: Trend) -> float | None:
+    conforms = trend.series.latest.conforms
+    return None if conforms is None else float(conforms)
+
+
+def _reached(trend: Trend) -> float | None:
+    return _timestamp(trend.forecast.expected) if trend.forecast else None
+
+
+def _timestamp(day: date) -> float:
+    return datetime(day.year, day.month, day.day, tzinfo=UTC).timestamp()
+
+
+_AMOUNTS: tuple[tuple[str, str, Callable[[Trend], float | None]], ...] = (
+    ("value", "Latest certified value.", lambda trend: _in_si(trend, trend.series.latest.value)),
+    (
+        "expanded_uncertainty",
+        "Expanded uncertainty of the latest certified value.",
+        lambda trend: _in_si(trend, trend.series.latest.expanded_uncertainty),
+    ),
+    ("limit", "Limit of the amount of the value.", lambda trend: _in_si(trend, trend.series.latest.limit)),
+    ("change_per_year", "Slope of the line through the certified values, in a year.", _slope),
+)
+_STATEMENTS: tuple[tuple[str, str, Callable[[Trend], float | None]], ...] = (
+    ("conforms", "1 if the limit is met, 0 if not; absent where nothing is stated.", _conforms),
+    (
+        "drift_p_value",
+        "Chance of so steep a line where nothing drifts; of this parameter alone.",
+        lambda trend: trend.p_value,
+    ),
+    (
+        "drifts",
+        "1 if the parameter drifts, with all tests of the fleet in view.",
+        lambda trend: None if trend.line is None else float(trend.drifts),
+    ),
+    ("limit_reached_timestamp_seconds", "When a drift meets its limit.", _reached),
+)
+
+
+def _escaped(text: str, *, quotes: bool = False) -> str:
+    escaped = text.replace("\\", "\\\\").replace("\n", "\\n")
+    return escaped.replace('"', '\\"') if quotes else escaped

@@ -1,0 +1,192 @@
+"""One certificate of a fleet, from its job to bytes and to what the ledger keeps; nothing is written.
+
+This is what runs in a worker: a process of this machine, or of another.
+"""
+
+from __future__ import annotations
+
+import functools
+import hashlib
+import threading
+import time
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path, PurePosixPath
+
+from zlmreport import pipeline
+from zlmreport.errors import InputError, Place, Problem, as_problems
+from zlmreport.fleet import program
+from zlmreport.fleet.basis import Basis
+from zlmreport.fleet.draft import MARK, drafted
+from zlmreport.fleet.layout import folder_of
+from zlmreport.fleet.records import RecordedParameter
+from zlmreport.fleet.shelf import Finished
+from zlmreport.fleet.sources import files_behind
+from zlmreport.fleet.stated import Subject, parameters_of
+from zlmreport.job.fleet import FleetFile, load_fleet
+from zlmreport.job.job import Job
+from zlmreport.job.loading import chosen_formats, load
+from zlmreport.plugins import Registry, find_plugins
+
+
+@dataclass(frozen=True, slots=True)
+class Task:
+    """A certificate that is to be made.
+
+    Attributes
+    ----------
+    fleet, content
+        The fleet file as it was read when the night began.
+    job
+        The job file.
+    issued
+        Digests of the files of the certificate that has this number already, by their suffixes; empty if none
+        has it.
+    folder
+        Where these are, relative to the folder of certificates.
+    plugins
+        Plugins in files of their own.
+    programs
+        Versions of the program and of all plugins, as the night began with them.
+    """
+
+    fleet: Path
+    content: bytes
+    job: Path
+    issued: Mapping[str, str]
+    folder: str
+    plugins: tuple[Path, ...]
+    programs: Mapping[str, str]
+
+
+@dataclass(frozen=True, slots=True)
+class Made:
+    """A certificate, or its draft.
+
+    Attributes
+    ----------
+    subject
+        What it is about.
+    basis
+        What it was made from.
+    files
+        Its files.
+    parameters
+        What it states.
+    is_draft
+        Whether its number was issued with another content.
+    """
+
+    subject: Subject
+    basis: Basis
+    files: tuple[Finished, ...]
+    parameters: tuple[RecordedParameter, ...]
+    is_draft: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Failed:
+    """A job that came to nothing, and why."""
+
+    problems: tuple[Problem, ...]
+    subject: Subject = field(default_factory=Subject)
+
+
+#: A worker of Dask may have several threads, and no library that lays out pages has been asked about that.
+_ONE_AT_A_TIME = threading.Lock()
+
+
+def work(task: Task) -> Made | Failed:
+    """Make a certificate; whatever goes wrong is the answer and no exception."""
+    with _ONE_AT_A_TIME:
+        subject = Subject()
+        try:
+            begun = time.time()
+            registry = _registry(task.plugins)
+            fleet = _fleet(task.fleet, task.content)
+            job = load(task.job, registry, chosen_formats(fleet.formats, registry), defaults=fleet.defaults)
+            subject = Subject.of(job)
+            return _made(task, job, fleet, begun)
+        except Exception as error:  # noqa: BLE001 - one job's trouble must not take the others along
+            return Failed(as_problems(task.job, error).problems, subject)
+
+
+def warm(plugins: tuple[Path, ...]) -> None:
+    """Load the plugins, so that the first certificate need not."""
+    _registry(plugins)
+
+
+def _made(task: Task, job: Job, fleet: FleetFile, begun: float) -> Made:
+    registry = _registry(task.plugins)
+    programs = _programs(task, job, registry)
+    outcome = pipeline.run(job, registry)
+    certificate = outcome.certificate
+    renderers = [registry.renderer(identifier) for identifier in job.formats]
+    suffixes = [each.suffix for each in renderers]
+    contents = [each.content for each in outcome.documents]
+    folder = PurePosixPath(task.folder or folder_of(job.keys, fleet.keys.output.layout))
+    issued = {**_digests(fleet.output / folder, certificate.number, suffixes), **task.issued}
+    is_draft = any(
+        issued.get(suffix, digest) != digest
+        for suffix, digest in zip(suffixes, map(_digest, contents), strict=True)
+    )
+    if is_draft:
+        rendered = pipeline.render(drafted(certificate), renderers, registry)
+        contents = [rendered[each.identifier] for each in renderers]
+    stem = certificate.number + (MARK if is_draft else "")
+    files = tuple(files_behind(certificate, job, fleet, begun))
+    return Made(
+        subject=Subject.of(job),
+        basis=Basis(files, programs, job.formats, defaults_digest(fleet)),
+        files=tuple(
+            Finished(suffix, str(folder / f"{stem}{suffix}"), content)
+            for suffix, content in zip(suffixes, contents, strict=True)
+        ),
+        parameters=tuple(parameters_of(certificate)),
+        is_draft=is_draft,
+    )
+
+
+def defaults_digest(fleet: FleetFile) -> str:
+    """Return the digest of a fleet's defaults; empty without any."""
+    return _digest(fleet.defaults.as_yaml().encode()) if fleet.defaults else ""
+
+
+def _digests(folder: Path, number: str, suffixes: Sequence[str]) -> dict[str, str]:
+    """Return the digests of files that have the number already, though no ledger may know them."""
+    paths = {suffix: folder / f"{number}{suffix}" for suffix in suffixes}
+    return {suffix: _digest(path.read_bytes()) for suffix, path in paths.items() if path.is_file()}
+
+
+def _digest(content: bytes) -> str:
+    return hashlib.sha256(content).hexdigest()
+
+
+def _programs(task: Task, job: Job, registry: Registry) -> dict[str, str]:
+    """Return the versions of what takes part; refuse to work with other releases than the night's."""
+    here = _versions(task.plugins)
+    names = sorted(program.used(job, job.formats, registry))
+    for name in names:
+        own, begun_with = (program.release(each.get(name, "")) for each in (here, task.programs))
+        if own != begun_with:
+            raise InputError.at(
+                Place(str(task.job)),
+                f"this worker has {name} {own}, and the night began with {begun_with}; install the same "
+                "version everywhere",
+            )
+    return {name: task.programs[name] for name in names}
+
+
+@functools.cache
+def _registry(plugins: tuple[Path, ...]) -> Registry:
+    return find_plugins(files=plugins)
+
+
+@functools.cache
+def _versions(plugins: tuple[Path, ...]) -> Mapping[str, str]:
+    return program.versions(files=plugins)
+
+
+@functools.lru_cache(maxsize=4)
+def _fleet(path: Path, content: bytes) -> FleetFile:
+    return load_fleet(path, content)

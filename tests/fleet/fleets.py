@@ -1,0 +1,166 @@
+"""Fleets of small jobs, whose nights are spent in this process."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Self
+
+import pytest
+
+from job.jobs import SOUND
+from offers import offering
+from testing.exemplary import ExemplaryRenderer, ExemplarySource, ExemplaryStandard
+from zlmreport.certificate.document import Certificate
+from zlmreport.fleet import night, program, work
+from zlmreport.fleet.desk import Happened, What
+from zlmreport.fleet.ledger import Ledger
+from zlmreport.fleet.plan import Planned
+from zlmreport.fleet.records import Entry
+from zlmreport.fleet.work import Failed, Made, Task
+from zlmreport.job.fleet import FleetFile, load_fleet
+from zlmreport.plugins import Plugin, collect
+
+READINGS = "1 2 3 -1 -2 -3"
+FLEET = """\
+schema: zlmreport/fleet/1
+name: Hall North
+jobs: jobs/*.yaml
+output: {directory: certificates, layout: "{serial}/{axis}"}
+ledger: ledger.db
+"""
+VERSIONS = {"zlmreport": "0.1.0 code", "exemplary-plugins": "1.2 code", "the set of plugins": " all"}
+
+
+class Page(ExemplaryRenderer):
+    """A certificate in a few lines, which shows every change of what it was made from."""
+
+    suffix = ".txt"
+
+    def render(self, certificate: Certificate) -> bytes:
+        lines = [certificate.title, certificate.page_words.number]
+        lines.extend(f"{each.name} {each.file.sha256}" for each in certificate.sources)
+        return "\n".join(lines).encode()
+
+
+class Sheet(Page):
+    """The same in a second file."""
+
+    identifier = "exemplary-sheet"
+    suffix = ".md"
+
+
+REGISTRY = collect(
+    [
+        (
+            Plugin("exemplary", "exemplary_module", "exemplary-plugins", "1.2"),
+            offering([ExemplaryStandard()], [ExemplarySource()], [Page(), Sheet()]),
+        )
+    ]
+)
+
+
+class Here:
+    """Makes certificates in this process, one after the other."""
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        pass
+
+    def results(self, tasks: Iterable[Task]) -> Iterator[tuple[Task, Made | Failed]]:
+        for task in tasks:
+            yield task, work.work(task)
+
+
+@dataclass(slots=True)
+class Witness:
+    """Remembers a night."""
+
+    jobs: Sequence[Planned] = ()
+    seen: list[Happened] = field(default_factory=list)
+
+    def planned(self, jobs: Sequence[Planned]) -> None:
+        self.jobs = jobs
+
+    def happened(self, happened: Happened) -> None:
+        self.seen.append(happened)
+
+    @property
+    def what(self) -> dict[str, What]:
+        """What happened to each job, by its file's stem."""
+        return {Path(each.job).stem: each.what for each in self.seen}
+
+    def of(self, stem: str) -> Happened:
+        """Return what happened to a job."""
+        return next(each for each in self.seen if Path(each.job).stem == stem)
+
+
+@dataclass(frozen=True, slots=True)
+class Fleet:
+    """A folder with a fleet."""
+
+    folder: Path
+
+    @classmethod
+    def of(cls, folder: Path, *numbers: str) -> Self:
+        """Return a fleet with a job for each number, `x` with ``CAL-X``."""
+        fleet = cls(folder)
+        fleet.write("fleet.yaml", FLEET)
+        for number in numbers:
+            fleet.job(number)
+        return fleet
+
+    def write(self, name: str, text: str) -> Path:
+        path = self.folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, encoding="utf-8")
+        return path
+
+    def job(self, stem: str, *changes: tuple[str, str], readings: str = READINGS) -> Path:
+        """Write a job with its readings; `changes` replace parts of its text."""
+        text = SOUND.replace("CAL-1", f"CAL-{stem.upper()}").replace("six.txt", f"{stem}.txt")
+        for old, new in changes:
+            assert old in text
+            text = text.replace(old, new)
+        self.write(f"jobs/{stem}.txt", readings)
+        return self.write(f"jobs/{stem}.yaml", text)
+
+    def readings(self, stem: str, text: str) -> None:
+        """Write other readings."""
+        self.write(f"jobs/{stem}.txt", text)
+
+    @property
+    def file(self) -> FleetFile:
+        return load_fleet(self.folder / "fleet.yaml")
+
+    def spend(self) -> Witness:
+        """Spend a night."""
+        witness = Witness()
+        night.spend(self.file, (), witness)
+        return witness
+
+    def foretold(self) -> dict[str, Planned]:
+        """Return what a night would do about each job."""
+        return {each.path.stem: each for each in night.foretell(self.file, ())}
+
+    def entries(self) -> list[Entry]:
+        with Ledger.open(self.file.ledger, self.file.name) as ledger:
+            return list(ledger.entries())
+
+    def certificate(self, stem: str, suffix: str = ".txt") -> Path:
+        return self.folder / f"certificates/17/X/CAL-{stem.upper()}{suffix}"
+
+    def files(self) -> set[str]:
+        """Return the names of all files among the certificates, hidden ones too."""
+        return {path.name for path in (self.folder / "certificates").rglob("*") if path.is_file()}
+
+
+def without_processes(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let nights be spent in this process, with exemplary plugins of known versions."""
+    monkeypatch.setattr(night, "_executor", lambda *_: Here())
+    monkeypatch.setattr(work, "_registry", lambda _: REGISTRY)
+    monkeypatch.setattr(work, "_versions", lambda _: VERSIONS)
+    monkeypatch.setattr(program, "versions", lambda **_: VERSIONS)

@@ -1,0 +1,87 @@
+"""A fleet made by the workers of a Dask scheduler, one of which is killed."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from fleet.deadly import PLUGIN
+from fleet.fleets import FLEET, Fleet, Witness
+from zlmreport.errors import AccessError
+from zlmreport.fleet import cluster, night
+from zlmreport.fleet.desk import What
+
+pytest.importorskip("distributed")
+
+SETTINGS = {
+    "DASK_DISTRIBUTED__SCHEDULER__ALLOWED_FAILURES": "1",
+    "OPENBLAS_NUM_THREADS": "1",
+    "PYTHONPATH": os.pathsep.join(path for path in sys.path if path),
+}
+
+
+@contextlib.contextmanager
+def started(*command: str, folder: Path) -> Iterator[None]:
+    """Run a program of Dask, which ends with those that it started."""
+    with (folder / "log").open("ab") as log:
+        process = subprocess.Popen(
+            [sys.executable, "-m", *command], env=os.environ | SETTINGS, cwd=folder, stdout=log, stderr=log
+        )
+    try:
+        yield
+    finally:
+        process.terminate()
+        process.wait()
+
+
+@pytest.fixture(scope="module")
+def scheduler(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
+    """Run a scheduler with two workers, and yield its address."""
+    folder = tmp_path_factory.mktemp("dask")
+    file = folder / "address"
+    port = "tcp://127.0.0.1:0"
+    flags = ("--scheduler-file", str(file), "--no-dashboard")
+    with started("distributed.cli.dask_scheduler", "--host", port, *flags, folder=folder):
+        while not (file.is_file() and file.stat().st_size):
+            time.sleep(0.05)
+        workers = ("--nworkers", "2", "--nthreads", "1", "--local-directory", str(folder))
+        with started("distributed.cli.dask_worker", *workers, *flags, folder=folder):
+            yield _address(file)
+
+
+def _address(file: Path) -> str:
+    import json
+
+    address: str = json.loads(file.read_text(encoding="utf-8"))["address"]
+    return address
+
+
+def test_a_cluster_makes_the_certificates_and_loses_none_with_a_worker(
+    scheduler: str, tmp_path: Path
+) -> None:
+    fleet = Fleet.of(tmp_path, "a1", "a2", "a3", "a4", "killed", "killed-once")
+    fleet.write("fleet.yaml", f"{FLEET}executor: {{kind: dask, scheduler: '{scheduler}'}}\n")
+    plugin = fleet.write("deadly.py", PLUGIN)
+    witness = Witness()
+    night.spend(fleet.file, (plugin,), witness)
+    assert {stem for stem, what in witness.what.items() if what is What.FAILED} == {"killed"}
+    assert "no worker lived to make this certificate" in witness.of("killed").problems[0].message
+    pids = {fleet.certificate(f"a{number}", ".pid").read_text() for number in range(1, 5)}
+    assert str(os.getpid()) not in pids
+
+
+def test_a_scheduler_that_is_not_there_is_named_with_its_place(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(cluster, "_PATIENCE", 0.2)
+    fleet = Fleet.of(tmp_path, "x")
+    fleet.write("fleet.yaml", f"{FLEET}executor:\n  kind: dask\n  scheduler: tcp://127.0.0.1:1\n")
+    with pytest.raises(AccessError, match=r"fleet.yaml:8:14: no scheduler with workers answers at tcp://127"):
+        night.spend(fleet.file, (), Witness())

@@ -1,0 +1,190 @@
+"""The ledger keeps one truth in SQLite and in PostgreSQL."""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from sqlalchemy import create_engine, text
+
+from fleet.fleets import FLEET, Fleet, without_processes
+from fleet.servers import server
+from zlmreport.errors import AccessError, InputError
+from zlmreport.fleet.basis import Basis, KnownFile, Look
+from zlmreport.fleet.desk import What
+from zlmreport.fleet.ledger import Ledger, Night
+from zlmreport.fleet.ledger_night import NumberTakenError
+from zlmreport.fleet.records import Entry, RecordedParameter, State
+
+NIGHTS = ("2026-11-20T02:00:00+00:00", "2026-11-21T02:00:00+00:00")
+BASIS = Basis(
+    (KnownFile("job", "x.yaml", "a" * 64, Look(10, 20, 30)),), {"zlmreport": "0.1.0 code"}, ("pdf",)
+)
+FILES = (KnownFile(".pdf", "m/X/CAL-1.pdf", "b" * 64, Look(1, 2, 3)),)
+ENTRY = Entry(
+    job="x.yaml",
+    number="CAL-1",
+    machine="HMC 500 17",
+    axis="X",
+    measured="2026-11-18",
+    night=NIGHTS[0],
+    digest=BASIS.digest,
+    state=State.MADE,
+    files=("m/X/CAL-1.pdf",),
+    parameters=(
+        RecordedParameter("iso230-2:2014", "A", 12.25, "um", 1.5, 20.0, conforms=True),
+        RecordedParameter("iso230-2:2014", "B_mean", -1.5, "um"),
+    ),
+)
+FAILURE = Entry("y.yaml", "", "", "", "", NIGHTS[0], "", State.FAILED, "y.yaml:3:1: is no job")
+
+
+@pytest.fixture(scope="module")
+def postgresql() -> Iterator[str]:
+    """The URL of a database on a server of our own."""
+    with server() as url:
+        yield url
+
+
+@pytest.fixture(params=["sqlite", "postgresql"])
+def address(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[str]:
+    """Yield the address of an empty ledger in either database."""
+    if request.param == "sqlite":
+        yield str(tmp_path / "ledger.db")
+        return
+    url = request.getfixturevalue("postgresql")
+    yield url
+    engine = create_engine(url)
+    with engine.begin() as connection:
+        connection.execute(text("DROP SCHEMA public CASCADE"))
+        connection.execute(text("CREATE SCHEMA public"))
+    engine.dispose()
+
+
+@contextlib.contextmanager
+def night(address: str, began: str = NIGHTS[0], fleet: str = "north") -> Iterator[tuple[Ledger, Night]]:
+    with Ledger.open(address, fleet) as ledger, ledger.night(began, "fleet.yaml") as at_work:
+        yield ledger, at_work
+
+
+def test_an_entry_comes_back_as_it_was_given(address: str) -> None:
+    with night(address) as (ledger, at_work):
+        at_work.issue(ENTRY, FILES, BASIS)
+        at_work.add(FAILURE)
+        assert list(ledger.entries()) == [ENTRY, FAILURE]
+
+
+def test_what_a_certificate_was_made_from_comes_back(address: str) -> None:
+    with night(address) as (ledger, at_work):
+        at_work.issue(ENTRY, FILES, BASIS)
+        standing = ledger.standings()["x.yaml"]
+        assert (standing.basis, standing.files, standing.night) == (BASIS, FILES, NIGHTS[0])
+
+
+def test_the_latest_entry_of_each_job_is_found(address: str) -> None:
+    with night(address) as (_, at_work):
+        at_work.issue(ENTRY, FILES, BASIS)
+        at_work.add(FAILURE)
+    with night(address, NIGHTS[1]) as (ledger, at_work):
+        draft = replace(ENTRY, night=NIGHTS[1], state=State.DRAFT)
+        at_work.add(draft, FILES, BASIS)
+        assert ledger.latest() == (draft, FAILURE)
+        assert ledger.issued() == (ENTRY,)
+
+
+def test_a_certificate_confirmed_keeps_its_first_entry(address: str) -> None:
+    with night(address) as (_, at_work):
+        at_work.issue(ENTRY, FILES, BASIS)
+    with night(address, NIGHTS[1]) as (ledger, at_work):
+        at_work.issue(replace(ENTRY, night=NIGHTS[1]), FILES, BASIS)
+        assert ledger.certificates()["CAL-1"].night == NIGHTS[0]
+        assert len(list(ledger.entries())) == 2
+        assert len(ledger.issued()) == 1
+
+
+def test_a_number_is_given_once_whatever_fleet_asks(address: str) -> None:
+    with night(address) as (_, at_work):
+        at_work.issue(ENTRY, FILES, BASIS)
+    with night(address, fleet="south") as (ledger, at_work):
+        with pytest.raises(NumberTakenError):
+            at_work.issue(ENTRY, FILES, BASIS)
+        assert not list(ledger.entries())
+        assert ledger.certificates()["CAL-1"].fleet == "north"
+
+
+def test_fleets_see_their_own_jobs_only(address: str) -> None:
+    with night(address) as (_, at_work):
+        at_work.issue(ENTRY, FILES, BASIS)
+    with Ledger.open(address, "south") as ledger:
+        assert not ledger.latest()
+
+
+def test_a_night_that_did_not_end_is_noticed_by_the_next(address: str) -> None:
+    with night(address) as (_, at_work):
+        assert not at_work.was_interrupted
+    with night(address, NIGHTS[1]) as (_, at_work):
+        assert at_work.was_interrupted
+        at_work.end(NIGHTS[1])
+    with night(address, NIGHTS[1]) as (_, at_work):
+        assert not at_work.was_interrupted
+
+
+def test_a_second_night_is_excluded_while_the_first_is_at_work(address: str) -> None:
+    with (
+        night(address),
+        Ledger.open(address, "south") as second,
+        pytest.raises(AccessError, match="another night is at work on this ledger"),
+    ):
+        second.night(NIGHTS[0], "fleet.yaml").__enter__()
+    with night(address, fleet="south") as (_, at_work):
+        assert at_work.fleet == "south"
+
+
+def test_a_reader_is_let_in_during_a_night(address: str) -> None:
+    with night(address) as (_, at_work):
+        at_work.issue(ENTRY, FILES, BASIS)
+        with Ledger.open(address, "north", create=False) as reader:
+            assert reader.latest() == (ENTRY,)
+
+
+def test_nights_of_a_fleet_are_kept(address: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    without_processes(monkeypatch)
+    fleet = Fleet.of(tmp_path, "x", "y")
+    fleet.write("fleet.yaml", FLEET.replace("ledger.db", address))
+    fleet.spend()
+    fleet.readings("x", "2 2 3 -1 -2 -3")
+    fleet.spend()
+    assert fleet.spend().what == {"x": What.UNCHANGED, "y": What.UNCHANGED}
+    assert [each.state for each in fleet.entries()] == [State.MADE, State.MADE, State.DRAFT]
+
+
+def test_a_ledger_of_another_format_is_refused(address: str) -> None:
+    Ledger.open(address, "north").__exit__(None, None, None)
+    engine = create_engine(address if "://" in address else f"sqlite:///{address}")
+    with engine.begin() as connection:
+        connection.execute(text("UPDATE ledger_format SET format = 7"))
+    engine.dispose()
+    with pytest.raises(InputError, match="is a ledger of format 7, and this program writes format 1"):
+        Ledger.open(address, "north")
+
+
+def test_a_file_that_is_no_database_is_named(tmp_path: Path) -> None:
+    path = tmp_path / "ledger.db"
+    path.write_text("no database, but a text of some length", encoding="utf-8")
+    with pytest.raises(AccessError, match=f"{path}: the ledger cannot be used: file is not a database"):
+        Ledger.open(str(path), "north")
+
+
+def test_a_database_of_another_kind_is_refused() -> None:
+    with pytest.raises(InputError, match="a ledger is in SQLite or PostgreSQL, not in mysql"):
+        Ledger.open("mysql://server/fleet", "north")
+
+
+def test_a_server_that_is_not_there_is_named_without_the_password() -> None:
+    with pytest.raises(AccessError) as raised:
+        Ledger.open("postgresql+psycopg://user:secret@localhost:1/fleet", "north")
+    assert "the ledger cannot be used" in str(raised.value)
+    assert "secret" not in str(raised.value)

@@ -1,0 +1,257 @@
+"""The overview says first what needs somebody, and shows every axis."""
+
+from __future__ import annotations
+
+import itertools
+import re
+from dataclasses import replace
+from datetime import UTC, datetime, timedelta
+from html.parser import HTMLParser
+from typing import Any
+from xml.etree import ElementTree as ET
+
+import pytest
+
+from fleet.histories import entry, history, parameter, quarters
+from zlmreport.fleet.overview import overview
+from zlmreport.fleet.overview_names import Names, with_unit
+from zlmreport.fleet.overview_state import Night, state_of
+from zlmreport.fleet.records import Entry, State
+from zlmreport.language import Language
+from zlmreport.plugins import find_plugins
+
+NIGHT = datetime(2026, 11, 21, 2, 0, tzinfo=UTC)
+LATEST = quarters(8)[-1]
+
+
+def of_night(one: Entry, **changes: Any) -> Entry:
+    return replace(one, night=NIGHT.isoformat(), **changes)
+
+
+def page(*entries: Entry, language: Language = Language.ENGLISH, files: str = ".") -> str:
+    jobs = [each.job for each in entries]
+    night = Night(NIGHT, NIGHT + timedelta(seconds=94)) if entries else None
+    state = state_of("Hall North", entries, jobs, night)
+    return overview(state, language, Names(find_plugins().standards), files)
+
+
+def text(html: str) -> str:
+    """Return what a reader sees, in one line."""
+    body = html.partition("<main>")[2] or html
+    return re.sub(r"\s+", " ", re.sub(r"<[^>]+>", " ", re.sub(r"<svg.*?</svg>", " ", body, flags=re.DOTALL)))
+
+
+def section(html: str, key: str) -> str:
+    return html.partition(f'<section id="{key}"')[2].partition("</section>")[0]
+
+
+def needs(*entries: Entry, **options: Any) -> str:
+    return text(section(page(*entries, **options), "needs"))
+
+
+CALM = history([8.0, 8.4, 8.1, 8.3, 8.2])
+FAILURE = of_night(
+    entry(
+        LATEST, job="y/2026.yaml", state=State.FAILED, measured="", message="y.csv:3:4: 'abc' is no number"
+    ),
+)
+
+
+def test_a_fleet_without_trouble_says_so() -> None:
+    assert "Nothing: every job was made" in needs(*CALM)
+
+
+def test_a_fleet_that_never_ran_says_so() -> None:
+    assert "has not run yet" in needs()
+
+
+def test_a_failure_is_told_with_its_message() -> None:
+    said = needs(*CALM, FAILURE)
+    assert "y/2026.yaml" in said
+    assert "y.csv:3:4: &#39;abc&#39; is no number" in said
+
+
+def test_a_failure_is_told_with_the_night_since_which_it_fails() -> None:
+    made = entry(quarters(1)[0], parameter(8.0), job=FAILURE.job, night="2026-11-18T02:00:00+00:00")
+    nights = [replace(FAILURE, night=f"2026-11-{day}T02:00:00+00:00") for day in (19, 20)]
+    assert "2026-11-19" in needs(made, *nights, FAILURE)
+
+
+def test_a_failure_that_was_mended_is_none() -> None:
+    before = replace(FAILURE, night="2026-11-20T02:00:00+00:00")
+    mended = of_night(entry(LATEST, parameter(8.0), job=FAILURE.job))
+    assert "abc" not in needs(before, mended)
+
+
+def test_a_job_that_is_no_longer_of_the_fleet_does_not_fail() -> None:
+    state = state_of("Hall North", [*CALM, FAILURE], [each.job for each in CALM], None)
+    assert state.failures == ()
+
+
+def test_a_limit_that_is_not_met_is_told_with_value_uncertainty_and_limit() -> None:
+    said = needs(entry(LATEST, parameter(21.04, conforms=False)))
+    assert "Limit not met" in said
+    assert "21.0 ± 1.0 µm" in said
+    assert "20 µm" in said
+
+
+def test_a_limit_that_was_not_met_before_an_adjustment_is_history() -> None:
+    first, second = quarters(2)
+    before = entry(first, parameter(21.0, conforms=False))
+    assert "Nothing" in needs(before, entry(second, parameter(12.0)))
+
+
+def test_a_limit_that_nothing_is_stated_of_is_told() -> None:
+    assert "Undecided" in needs(entry(LATEST, parameter(19.8, conforms=None)))
+
+
+def test_a_drift_is_told_with_the_month_in_which_its_limit_is_met() -> None:
+    # 8 µm in January 2025 and 4.4 µm a year: 20 µm after 2.7 years.
+    said = needs(*history([8.0, 9.12, 10.18, 11.31, 12.4, 13.49]))
+    assert "Drifting" in said
+    assert "/year" in said
+    assert re.search(r"2027-0[789]", said)
+
+
+def test_a_drift_away_from_the_limit_has_no_month() -> None:
+    assert "moves away from it" in needs(*history([13.49, 12.4, 11.31, 10.18, 9.12, 8.0]))
+
+
+def test_a_drift_without_a_limit_is_told_all_the_same() -> None:
+    assert "no limit stated" in needs(*history([8.0, 9.12, 10.18, 11.31, 12.4, 13.49], limit=None))
+
+
+def test_a_draft_is_told_with_its_reason() -> None:
+    draft = of_night(entry(LATEST, state=State.DRAFT, message="the readings have changed"))
+    assert "the readings have changed" in needs(draft)
+
+
+def test_what_needs_somebody_comes_before_the_machines() -> None:
+    html = page(*CALM, FAILURE)
+    assert html.index('id="needs"') < html.index('id="machines"')
+
+
+def test_failures_come_first() -> None:
+    html = page(entry(LATEST, parameter(21.0, conforms=False)), FAILURE)
+    assert html.index('<h3 id="failed"') < html.index('<h3 id="not-met"')
+
+
+def test_every_axis_is_shown_with_its_latest_value_and_a_graph() -> None:
+    entries = [*CALM, *history([3.0, 3.1, 3.2, 3.1, 3.25], axis="Y")]
+    machines = section(page(*entries), "machines")
+    assert "3.2 ± 1.0 µm" in text(machines)
+    assert machines.count("<svg") == 2
+
+
+def test_a_parameter_without_a_limit_is_shown_where_its_standard_limits_none() -> None:
+    stated = (parameter(8.0), parameter(2.0, symbol="R", limit=None, conforms=None))
+    other = parameter(9.0, standard="vdi-dgq-3441", symbol="P", limit=None, conforms=None)
+    shown = text(section(page(entry(LATEST, *stated, other)), "machines"))
+    assert "9.0 ± 1.0 µm" in shown
+    assert "2.0 ± 1.0 µm" not in shown
+
+
+def test_few_calibrations_are_told_from_steady_ones() -> None:
+    shown = text(section(page(*CALM[:2]), "machines"))
+    assert "2 of 5 dates" in shown
+
+
+def test_standards_and_symbols_have_their_printed_names() -> None:
+    shown = text(section(page(entry(LATEST, parameter(8.0, symbol="A_fwd"))), "machines"))
+    assert "A ↑ ISO 230-2:2014" in shown
+
+
+def test_a_standard_that_is_not_installed_any_more_is_shown_by_its_identifier() -> None:
+    shown = text(section(page(entry(LATEST, parameter(8.0, standard="house-1", symbol="H_x"))), "machines"))
+    assert "house-1" in shown
+
+
+def test_a_value_has_the_sign_that_its_standard_prints() -> None:
+    # ISO 230-2:1988 prints the mean reversal value with the sign opposite to the results file.
+    reversal = parameter(-1.2, standard="iso230-2:1988", symbol="B_mean", expanded_uncertainty=0.1)
+    html = page(entry(LATEST, reversal))
+    assert " 1.20 ± 0.10 µm" in text(section(html, "machines"))
+    assert "the last 1.20 µm" in html
+
+
+def test_links_lead_from_the_page_to_the_certificates() -> None:
+    one = entry(LATEST, parameter(8.0), files=("MT 500/X/CAL-1.pdf",))
+    assert 'href="../certificates/MT%20500/X/CAL-1.pdf"' in page(one, files="../certificates")
+
+
+def test_users_text_is_no_markup() -> None:
+    html = page(entry(LATEST, parameter(8.0), machine="<script>alert(1)</script>"))
+    assert "<script" not in html
+
+
+def test_the_page_loads_nothing_and_runs_nothing() -> None:
+    html = page(*CALM, FAILURE)
+    addresses = re.findall(r"(?:src|href)\s*=\s*\"([^\"]*)|url\(([^)]{0,20})", html)
+    assert all(
+        not re.match(r"[a-z]+:|//", link) and (not url or url.startswith("data:")) for link, url in addresses
+    )
+    assert "<script" not in html
+
+
+def test_the_page_is_well_formed() -> None:
+    ET.fromstring(page(*CALM, FAILURE).partition("\n")[2])
+
+
+class _Outline(HTMLParser):
+    def __init__(self) -> None:
+        super().__init__()
+        self.levels: list[int] = []
+        self.tables = self.captions = 0
+
+    def handle_starttag(self, tag: str, attrs: object) -> None:
+        del attrs
+        if re.fullmatch(r"h\d", tag):
+            self.levels.append(int(tag[1]))
+        self.tables += tag == "table"
+        self.captions += tag == "caption"
+
+
+@pytest.fixture(scope="module")
+def outline() -> _Outline:
+    found = _Outline()
+    found.feed(page(*CALM, FAILURE, entry(LATEST, parameter(21.0, conforms=False), axis="Z", job="z.yaml")))
+    return found
+
+
+def test_headings_leave_out_no_level(outline: _Outline) -> None:
+    assert outline.levels[0] == 1
+    assert all(later <= earlier + 1 for earlier, later in itertools.pairwise(outline.levels))
+
+
+def test_every_table_has_a_caption(outline: _Outline) -> None:
+    assert outline.tables == outline.captions > 0
+
+
+def test_every_graph_says_what_it_shows() -> None:
+    labels = re.findall(r'<svg[^>]*aria-label="([^"]*)"', page(*CALM))
+    assert labels[0] == "5 values of A from 2025-01-15 to 2026-01-14, the last 8.20 µm. Limit 20.00 µm."
+
+
+def test_the_same_ledger_gives_the_same_page() -> None:
+    assert page(*CALM, FAILURE) == page(*CALM, FAILURE)
+
+
+def test_a_german_page_is_german() -> None:
+    said = needs(*CALM, FAILURE, language=Language.GERMAN)
+    assert "Was auf Sie wartet" in said
+    shown = text(section(page(*CALM, language=Language.GERMAN), "machines"))
+    assert "8,2 ± 1,0 µm" in shown
+
+
+def test_the_headline_tells_the_last_run() -> None:
+    html = page(*CALM, FAILURE)
+    assert "2026-11-21 02:00 UTC, 1 min 34 s" in html
+    assert "6: 0 made, 5 unchanged, 0 as drafts, 1 failed" in html
+
+
+@pytest.mark.parametrize(
+    ("number", "unit", "expected"),
+    [("4.2", "um", "4.2 µm"), ("20", "arcsec", "20″"), ("4.2 ± 0.3", "arcsec", "(4.2 ± 0.3)″")],
+)
+def test_a_unit_stands_as_it_is_printed(number: str, unit: str, expected: str) -> None:
+    assert with_unit(number, unit) == expected

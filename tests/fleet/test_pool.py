@@ -1,0 +1,68 @@
+"""Workers on this machine: warm, renewed, and missed by one job only when they die."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import pytest
+
+from fleet.deadly import PLUGIN
+from fleet.fleets import Fleet, Witness
+from zlmreport.fleet import night, pool
+from zlmreport.fleet.desk import What
+from zlmreport.fleet.records import State
+
+
+@pytest.fixture(scope="module")
+def fleet(tmp_path_factory: pytest.TempPathFactory) -> Fleet:
+    """Return a fleet of sound jobs and of jobs that end their worker."""
+    fleet = Fleet.of(tmp_path_factory.mktemp("fleet"), "a1", "a2", "a3", "a4", "killed", "killed-once")
+    fleet.write("deadly.py", PLUGIN)
+    return fleet
+
+
+@pytest.fixture(scope="module")
+def spent(fleet: Fleet) -> Witness:
+    """Spend a night with two workers that make three certificates each before they are renewed."""
+    witness = Witness()
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(pool, "LIFE", 3)
+        night.spend(fleet.file, (fleet.folder / "deadly.py",), witness, workers=2)
+    return witness
+
+
+def test_a_killed_worker_fails_its_own_job_and_no_other(spent: Witness) -> None:
+    assert {stem for stem, what in spent.what.items() if what is What.FAILED} == {"killed"}
+    assert sum(what is What.ISSUED for what in spent.what.values()) == 5
+
+
+def test_it_is_said_how_the_worker_ended(spent: Witness) -> None:
+    (killed,) = spent.of("killed").problems
+    assert killed.message == (
+        "the worker process was killed by SIGKILL while it made this certificate, twice; the system may have "
+        "run out of memory"
+    )
+
+
+def test_a_job_whose_worker_was_killed_is_tried_once_more(spent: Witness) -> None:
+    assert spent.what["killed-once"] is What.ISSUED
+
+
+@pytest.mark.usefixtures("spent")
+def test_the_ledger_names_the_failures(fleet: Fleet) -> None:
+    failed = {each.number for each in fleet.entries() if each.state is State.FAILED}
+    assert failed == {"CAL-KILLED"}
+
+
+@pytest.mark.usefixtures("spent")
+def test_workers_make_several_certificates_and_are_renewed(fleet: Fleet) -> None:
+    pids = [fleet.certificate(f"a{number}", ".pid").read_text() for number in range(1, 5)]
+    assert 1 < len(set(pids)) < 4
+    assert str(os.getpid()) not in pids
+
+
+@pytest.mark.usefixtures("spent")
+def test_no_worker_is_left_behind(fleet: Fleet) -> None:
+    pids = {path.read_text() for path in (fleet.folder / "certificates").rglob("*.pid")}
+    assert not [pid for pid in pids if Path("/proc", pid).exists()]
