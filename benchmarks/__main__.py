@@ -6,10 +6,12 @@ import argparse
 import sys
 from pathlib import Path
 
+import capturing
 import cold
 import memory
 import report
 import stacked
+import typst_side_by_side
 import warm
 from measure import Measured, Sizes, own_process
 
@@ -17,6 +19,8 @@ BENCHMARKS = {
     "warm": ("One certificate, warm", warm.measure),
     "cold": ("Start of the command", cold.measure),
     "evaluation": ("Stacked tests", stacked.measure),
+    "typst": ("PDF by WeasyPrint and by Typst", typst_side_by_side.measure),
+    "capture": ("Live capture", capturing.measure),
     "memory": ("Memory of a process that makes many certificates", memory.measure),
 }
 
@@ -32,6 +36,21 @@ def main() -> None:
         from coverage_of_u import main as hold  # noqa: PLC0415 - as above
 
         hold(sys.argv[2:])
+        return
+    if sys.argv[1:2] == ["step-gauge"]:
+        from step_gauge_coverage import main as touch  # noqa: PLC0415 - as above
+
+        touch(sys.argv[2:])
+        return
+    if sys.argv[1:2] == ["kills"]:
+        from kills import main as kill  # noqa: PLC0415 - as above
+
+        kill(sys.argv[2:])
+        return
+    if sys.argv[1:2] == ["fleet"]:
+        from fleet_nights import main as night  # noqa: PLC0415 - as above
+
+        night(sys.argv[2:])
         return
     arguments = _parser().parse_args()
     sizes = Sizes(arguments.rounds, arguments.tests, arguments.certificates)
@@ -49,7 +68,8 @@ def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="./run benchmark",
         description="Measure zlmreport against a plain recipe.",
-        epilog="./run benchmark hidden-effects and coverage have options of their own: see their --help.",
+        epilog="./run benchmark hidden-effects, coverage, step-gauge, kills have options of their own: see "
+        "their --help.",
     )
     parser.add_argument("names", nargs="*", type=_benchmark, metavar="NAME", help=", ".join(BENCHMARKS))
     parser.add_argument(

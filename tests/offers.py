@@ -7,13 +7,19 @@ from typing import Any
 
 from testing.exemplary import ExemplaryRenderer, ExemplarySource, ExemplaryStandard
 from testing.exemplary_effect import ExemplaryEffect
+from testing.exemplary_probing_program import ExemplaryProbing
 from testing.exemplary_program import ExemplaryProgram
 from zlmreport.hookspecs import hookimpl
 from zlmreport.plugins import Plugin, Registry, collect
 
 
-def offering(
-    standards: Any = (), sources: Any = (), renderers: Any = (), effects: Any = (), part_programs: Any = ()
+def offering(  # noqa: PLR0913, PLR0917 - one for each kind
+    standards: Any = (),
+    sources: Any = (),
+    renderers: Any = (),
+    effects: Any = (),
+    part_programs: Any = (),
+    probing_programs: Any = (),
 ) -> SimpleNamespace:
     """Return a plugin that offers these objects."""
 
@@ -37,17 +43,22 @@ def offering(
     def zlmreport_part_programs() -> Any:
         return part_programs
 
+    @hookimpl
+    def zlmreport_probing_programs() -> Any:
+        return probing_programs
+
     return SimpleNamespace(
         zlmreport_standards=zlmreport_standards,
         zlmreport_sources=zlmreport_sources,
         zlmreport_renderers=zlmreport_renderers,
         zlmreport_effects=zlmreport_effects,
         zlmreport_part_programs=zlmreport_part_programs,
+        zlmreport_probing_programs=zlmreport_probing_programs,
     )
 
 
 def exemplary_registry() -> Registry:
-    """Return a registry of one standard, data source, format, effect and part program, all fast."""
+    """Return a registry of one standard, data source, format, effect, part program and probing program."""
     plugin = Plugin("exemplary", "exemplary_module", "exemplary-plugins", "1.2")
     offers = offering(
         [ExemplaryStandard()],
@@ -55,5 +66,6 @@ def exemplary_registry() -> Registry:
         [ExemplaryRenderer()],
         [ExemplaryEffect()],
         [ExemplaryProgram()],
+        [ExemplaryProbing()],
     )
     return collect([(plugin, offers)])

@@ -18,6 +18,7 @@ import hooks
 import job_keys
 import least_numbers
 import methods
+import probing_path
 import sequences
 import standard_pages
 
@@ -27,6 +28,7 @@ PARTS: Mapping[str, Callable[[], str]] = {
     "commands": command_texts.text,
     "comparison": comparison.text,
     "effects": effect_pages.text,
+    "fleet-keys": job_keys.fleet_text,
     "hooks": hooks.hooks_text,
     "protocols": hooks.protocols_text,
     "instrument-keys": job_keys.instruments_text,
@@ -34,6 +36,7 @@ PARTS: Mapping[str, Callable[[], str]] = {
     "least-numbers": least_numbers.text,
     "methods-drift": methods.drift_text,
     "methods-sight": methods.sight_text,
+    "probing-program-keys": job_keys.probing_programs_text,
     "program-keys": job_keys.programs_text,
     "source-keys": job_keys.sources_text,
     "standard-keys": job_keys.standards_text,
@@ -54,7 +57,7 @@ def generate(folder: Path) -> set[str]:
         after = _PART.sub(filled, before)
         if after != before:
             page.write_text(after, encoding="utf-8")
-    for name, picture in sequences.pictures().items():
+    for name, picture in {**sequences.pictures(), **probing_path.pictures()}.items():
         (folder / "images" / name).write_text(picture, encoding="utf-8")
     return used
 

@@ -14,6 +14,7 @@ from zlmreport.foresight.motion import Motion, ProgramStop, Reading
 from zlmreport.live.reading import LiveReading
 from zlmreport.plugins import Kind
 from zlmreport.protocols import Connection, SourceContext
+from zlmreport.step_gauge.path import Probing, ProbingPath, Travel
 
 _PROTOCOLS = (
     *(kind.protocol for kind in Kind),
@@ -24,6 +25,9 @@ _PROTOCOLS = (
     Connection,
     LiveReading,
     Emulator,
+    ProbingPath,
+    Travel,
+    Probing,
 )
 
 

@@ -4,17 +4,19 @@ from __future__ import annotations
 
 import inspect
 import json
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import Any, TypeAlias
 
 from markdown import code, table
 from pydantic import BaseModel
 
 from zlmreport.job.fields import field_at
+from zlmreport.job.fleet_keys import FleetKeys
 from zlmreport.job.model import JobKeys
 from zlmreport.job.options import Options
 from zlmreport.language import Language
 from zlmreport.plugins import find_plugins
+from zlmreport.protocols import PartProgram, ProbingProgram
 
 Schema: TypeAlias = Mapping[str, Any]
 
@@ -24,6 +26,11 @@ _HEADING = ("Key", "Value", "Without it", "Meaning")
 def job_text() -> str:
     """Return every key of a job file that does not belong to a plugin."""
     return _table(JobKeys)
+
+
+def fleet_text() -> str:
+    """Return every key of a fleet file."""
+    return _table(FleetKeys)
 
 
 def sources_text() -> str:
@@ -49,9 +56,18 @@ def standards_text() -> str:
 
 def programs_text() -> str:
     """Return the keys of each installed writer of part programs."""
+    return _programs_text(find_plugins().part_programs)
+
+
+def probing_programs_text() -> str:
+    """Return the keys of each installed writer of probing programs."""
+    return _programs_text(find_plugins().probing_programs)
+
+
+def _programs_text(programs: Iterable[PartProgram | ProbingProgram]) -> str:
     return "\n\n".join(
         part
-        for program in find_plugins().part_programs
+        for program in programs
         for part in (f"### `program: {program.identifier}`", _table(program.options))
     )
 

@@ -1,10 +1,12 @@
 """Makes the pictures of the documentation from real output: ``python docs/generate/pictures.py``.
 
-Needs ``pdftoppm`` (Debian, Ubuntu: apt-get install poppler-utils) and ``zlmreport`` beside this Python.
+Needs ``pdftoppm`` and ``chromium`` (Debian, Ubuntu: apt-get install poppler-utils chromium) and ``zlmreport``
+beside this Python.
 """
 
 from __future__ import annotations
 
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -27,10 +29,25 @@ def make(name: str, pdf: Path, page: int) -> None:
         only = ["-f", str(page), "-l", str(page), "-singlefile"]
         command = ["pdftoppm", "-r", str(_DOTS_PER_INCH), *only, "-png", pdf, stem]
         subprocess.run(command, check=True)  # noqa: S603 - of our own files
-        with Image.open(stem.with_suffix(".png")) as picture:
-            picture.convert("RGB").quantize(_COLOURS, Image.Quantize.MAXCOVERAGE).save(
-                _PICTURES / f"{name}.png", optimize=True
-            )
+        _keep(name, stem.with_suffix(".png"))
+
+
+def make_of_screen(name: str, page: Path, width: int, height: int) -> None:
+    """Make a picture of a page of HTML, as a browser's window of this size shows it."""
+    with tempfile.TemporaryDirectory() as folder:
+        shot = Path(folder, "page.png")
+        quiet = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-background-networking"]
+        window = [f"--user-data-dir={folder}/browser", "--hide-scrollbars", f"--window-size={width},{height}"]
+        command = ["chromium", *quiet, *window, f"--screenshot={shot}", page.as_uri()]
+        subprocess.run(command, check=True, stderr=subprocess.DEVNULL)  # noqa: S603 - of our own files
+        _keep(name, shot)
+
+
+def _keep(name: str, shot: Path) -> None:
+    with Image.open(shot) as picture:
+        picture.convert("RGB").quantize(_COLOURS, Image.Quantize.MAXCOVERAGE).save(
+            _PICTURES / f"{name}.png", optimize=True
+        )
 
 
 def page_with(pdf: Path, text: str, after: int = 0) -> int:
@@ -46,6 +63,16 @@ def certificate(job: Path, folder: Path) -> Path:
     subprocess.run([_ZLMREPORT, job, "--output", folder, "--format", "pdf", "--quiet"], check=True)  # noqa: S603 - of our own files
     (pdf,) = folder.glob("*.pdf")
     return pdf
+
+
+def overview(folder: Path) -> Path:
+    """Return the overview of the example fleet, after its night; one of its jobs fails on purpose."""
+    shutil.copytree(_ROOT / "configs", folder / "configs")
+    # In the folder itself: the page shows paths as they were given.
+    for words in (["fleet"], ["fleet", "report"]):
+        command = [_ZLMREPORT, *words, "configs/fleet/fleet.yaml"]
+        subprocess.run(command, cwd=folder, check=words != ["fleet"], stdout=subprocess.DEVNULL)  # noqa: S603 - of our own files
+    return folder / "out" / "fleet" / "fleet.html"
 
 
 def main() -> None:
@@ -64,6 +91,7 @@ def main() -> None:
         job.write_text(text.replace("language: en ", "language: de "), encoding="utf-8")
         german = certificate(job, first / "de")
         make("tutorial-german", german, page_with(german, "Ergebnisse nach ISO 230-2:2014", after=1))
+        make_of_screen("fleet-overview", overview(Path(folder, "fleet")), 1180, 1180)
 
 
 if __name__ == "__main__":

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import difflib
+import traceback
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 
 @dataclass(frozen=True, slots=True, order=True)
@@ -67,6 +69,33 @@ class AccessError(ZlmreportError):
     """A file or a device could not be read or written (exit code 3)."""
 
     exit_code = 3
+
+
+def as_problems(job: Path, error: Exception) -> ZlmreportError:
+    """Return whatever ended the work on a job as an error with a message.
+
+    Parameters
+    ----------
+    job
+        The job file.
+    error
+        What was raised: a mistake of the user, a file that cannot be used, a library that is not there, or a
+        mistake of the program's own, named with the line of it that a report needs.
+    """
+    if isinstance(error, ZlmreportError):
+        return error
+    if isinstance(error, OSError):
+        if error.filename and error.strerror:
+            message = f"cannot be read or written: {error.strerror.lower()}"
+            return AccessError.at(Place(str(error.filename)), message)
+        return AccessError.at(Place(str(job)), " ".join(str(error).split()))
+    frame = traceback.extract_tb(error.__traceback__)[-1]
+    where = f"{Path(frame.filename).name}, line {frame.lineno}"
+    message = " ".join(f"{type(error).__name__}: {error}".split())[:300]
+    return InputError.at(
+        Place(str(job)),
+        f"{message} ({where}); this is a mistake of zlmreport or of a plugin: please report it with the job",
+    )
 
 
 def did_you_mean(name: str, known: Sequence[str]) -> str:

@@ -6,7 +6,15 @@ from collections.abc import Iterable
 
 import pluggy
 
-from zlmreport.protocols import DataSource, Effect, Instrument, PartProgram, Renderer, Standard
+from zlmreport.protocols import (
+    DataSource,
+    Effect,
+    Instrument,
+    PartProgram,
+    ProbingProgram,
+    Renderer,
+    Standard,
+)
 
 PROJECT = "zlmreport"
 
@@ -43,3 +51,8 @@ def zlmreport_part_programs() -> Iterable[PartProgram]:  # type: ignore[empty-bo
 @hookspec
 def zlmreport_instruments() -> Iterable[Instrument]:  # type: ignore[empty-body]
     """Return the live instruments that this plugin reads."""
+
+
+@hookspec
+def zlmreport_probing_programs() -> Iterable[ProbingProgram]:  # type: ignore[empty-body]
+    """Return the languages in which this plugin writes probing programs."""

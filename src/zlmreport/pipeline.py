@@ -23,6 +23,7 @@ from zlmreport.certificate.forecast import forecasts
 from zlmreport.certificate.model_annex import Modelled
 from zlmreport.certificate.results import Evaluated
 from zlmreport.correction.corrections import corrected
+from zlmreport.correction.exclusions import without_excluded
 from zlmreport.correction.of_job import corrections_of
 from zlmreport.errors import AccessError, Place
 from zlmreport.evaluation.decision import decided, decision_rule
@@ -34,6 +35,8 @@ from zlmreport.model.study import Fitted, Study
 from zlmreport.plugins import Registry
 from zlmreport.protocols import Renderer, SourceContext, Standard, carries_attachments, relationship_of
 from zlmreport.signing.signer import Signer
+from zlmreport.step_gauge.set_up import gauge_set_up
+from zlmreport.step_gauge.uncertainty import contributions_of_job
 from zlmreport.uncertainty.expanded import with_uncertainty
 from zlmreport.uncertainty.job_budget import budget_of
 
@@ -70,28 +73,32 @@ class Outcome:
 
 
 def read(job: Job, registry: Registry) -> MeasurementSet:
-    """Read the measurements that the job names, and correct them for what it asks."""
+    """Read the measurements that the job names, correct them and set aside what it says."""
     source = registry.source(job.source.identifier)
-    measurements = source.read(job.source.options, SourceContext(job.axis, job.source.place))
+    context = SourceContext(job.axis, job.source.place, gauge_set_up(job))
+    measurements = source.read(job.source.options, context)
     corrections = corrections_of(job, measurements)
-    return corrected(measurements, corrections) if corrections else measurements
+    if corrections:
+        measurements = corrected(measurements, corrections)
+    return without_excluded(measurements, job)
 
 
 def compose(job: Job, registry: Registry) -> Certificate:
     """Read, evaluate by every standard that the job names, and compose the document; nothing is rendered."""
     demand_mandatory_items(job)
     measurements = read(job, registry)
-    evaluated = _evaluated(job, measurements, registry)
+    evaluations = evaluated(job, measurements, registry)
     studied = modelled(job, measurements, registry) if job.effects else None
     found = job.as_found
-    as_found = _evaluated(found, read(found, registry), registry) if found else ()
-    return build(job, evaluated, registry.versions(job), studied, as_found)
+    as_found = evaluated(found, read(found, registry), registry) if found else ()
+    return build(job, evaluations, registry.versions(job), studied, as_found)
 
 
-def _evaluated(job: Job, measurements: MeasurementSet, registry: Registry) -> tuple[Evaluated, ...]:
+def evaluated(job: Job, measurements: MeasurementSet, registry: Registry) -> tuple[Evaluated, ...]:
+    """Evaluate readings by every standard that the job names, with uncertainties and decisions."""
     stated = job.keys.decision_rule
     rule = decision_rule(stated.rule, stated.guard_band_factor)
-    budget = budget_of(job, measurements)
+    budget = budget_of(job, measurements, contributions_of_job(job, measurements))
     chosen = standards(job, registry)
     bare = [
         (
@@ -100,11 +107,12 @@ def _evaluated(job: Job, measurements: MeasurementSet, registry: Registry) -> tu
         )
         for (standard, options), choice in zip(chosen, job.standards, strict=True)
     ]
-    evaluated = []
+    complete: list[Evaluated] = []
     for (standard, options), evaluation in zip(chosen, with_uncertainty(bare, budget), strict=True):
-        complete = decided(evaluation, rule)
-        evaluated.append(Evaluated(complete, tuple(standard.figures(complete, options)), budget))
-    return tuple(evaluated)
+        with_verdicts = decided(evaluation, rule)
+        figures = tuple(standard.figures(with_verdicts, options))
+        complete.append(Evaluated(with_verdicts, figures, budget))
+    return tuple(complete)
 
 
 def modelled(job: Job, measurements: MeasurementSet, registry: Registry) -> Modelled:

@@ -26,6 +26,8 @@ from zlmreport.live.reading import LiveReading
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.model.effect import Effect
+from zlmreport.step_gauge.path import ProbingPath
+from zlmreport.step_gauge.set_up import GaugeSetUp
 
 __all__ = [
     "Connection",
@@ -33,10 +35,12 @@ __all__ = [
     "Effect",
     "Instrument",
     "PartProgram",
+    "ProbingProgram",
     "Renderer",
     "SourceContext",
     "Standard",
     "carries_attachments",
+    "made",
     "relationship_of",
 ]
 
@@ -97,10 +101,13 @@ class SourceContext:
         The axis under test, as the job describes it.
     place
         Where the job names the source: for messages about what a file leaves open.
+    step_gauge
+        The step gauge that was probed; None where the job describes none.
     """
 
     axis: Axis
     place: Place
+    step_gauge: GaugeSetUp | None = None
 
 
 @runtime_checkable
@@ -132,7 +139,8 @@ class Renderer(Protocol):
     Two more attributes say what it has to do with attachments, and one that lacks them has nothing to do
     with any. ``relationship`` is the `Relationship` of its file to a document that carries it.
     ``carries_attachments`` is true of a document that carries the files of others: it is rendered last, with
-    ``certificate.attachments``.
+    ``certificate.attachments``. A renderer of PDF whose files do not name this program as their creator says
+    in ``creator`` what that entry begins with: a certificate is verified by the renderer that made it.
 
     Attributes
     ----------
@@ -162,6 +170,12 @@ def carries_attachments(renderer: Renderer) -> bool:
     return getattr(renderer, "carries_attachments", False)
 
 
+def made(renderer: Renderer, creator: str) -> bool:
+    """Return whether a file that names this creator is told by it to be the renderer's."""
+    own: str | None = getattr(renderer, "creator", None)
+    return own is not None and creator.startswith(own)
+
+
 @runtime_checkable
 class PartProgram(Protocol):
     """A writer of part programs: the motion of a planned test in the language of a control.
@@ -187,6 +201,35 @@ class PartProgram(Protocol):
         """Return the program in ASCII; raise `InputError` at ``motion.place`` for what cannot be programmed.
 
         The axis stops at every stop of the motion and stays at those that are read for ``motion.dwell``.
+        """
+
+
+@runtime_checkable
+class ProbingProgram(Protocol):
+    """A writer of probing programs: the path over a step gauge in the language of a measuring machine.
+
+    Attributes
+    ----------
+    identifier
+        As ``step_gauge.path.programs`` names it: ``dmis``.
+    title
+        In words.
+    suffix
+        Of the file: ``.dmi``.
+    options
+        Its job keys beside ``program``; all have a default, for a command line has no keys.
+    """
+
+    identifier: str
+    title: Words
+    suffix: str
+    options: type[Options]
+
+    def write(self, path: ProbingPath, options: Any) -> str:
+        """Return the program in ASCII; raise `InputError` at ``path.place`` for what cannot be programmed.
+
+        The tip's centre goes along the moves of the path in their order. Whatever the language, what is
+        measured is the centre of the tip: the effective radius is found from the gauge itself.
         """
 
 

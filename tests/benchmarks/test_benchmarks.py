@@ -21,7 +21,7 @@ def run(*arguments: str | Path) -> subprocess.CompletedProcess[str]:
     )
 
 
-@pytest.mark.parametrize("name", ["warm", "cold", "evaluation", "memory"])
+@pytest.mark.parametrize("name", ["warm", "cold", "evaluation", "typst", "capture", "memory"])
 def test_a_benchmark_measures_on_the_smallest_sizes(name: str, tmp_path: Path) -> None:
     file = tmp_path / "results.json"
     done = run(name, "--rounds", "1", "--tests", "20", "--certificates", "2", "--json", file)
@@ -34,7 +34,7 @@ def test_a_benchmark_measures_on_the_smallest_sizes(name: str, tmp_path: Path) -
 def test_a_benchmark_that_there_is_not_is_refused_with_those_there_are() -> None:
     done = run("speed")
     assert done.returncode == 2
-    assert "'speed' is none of warm, cold, evaluation, memory" in done.stderr
+    assert "'speed' is none of warm, cold, evaluation, typst" in done.stderr
 
 
 def test_a_pdf_that_lacks_a_number_of_the_document_is_not_compared(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -20,6 +20,7 @@ TAKEN = {
     "line": "Z 200",
     "plane": {"axis": "Z", "at": 200},
     "deviations_from_method": "none",
+    "excluded": [{"target": 5, "direction": "-", "run": 2, "reason": "Air hose touched the reflector."}],
     "operator": "B. Other",
     "remarks": "none",
     "source": SOURCE,

@@ -120,6 +120,11 @@ def test_a_source_does_not_take_the_name_of_the_results_file(tmp_path: Path) -> 
     assert certificate.sources[-1].name == "CAL-1-2.json"
 
 
+def test_a_source_whose_name_begins_like_the_certificate_s_files_gets_another(tmp_path: Path) -> None:
+    certificate = composed(tmp_path, readings="CAL-1.laser.csv")
+    assert certificate.sources[-1].name == "CAL-1-2.laser.csv"
+
+
 def test_a_name_that_is_not_seen_or_not_taken_everywhere_is_made_plain(tmp_path: Path) -> None:
     certificate = composed(tmp_path, readings="a:b?.txt")
     assert certificate.sources[-1].name == "a_b_.txt"

@@ -17,18 +17,23 @@ from zlmreport.job.loading import load
 from zlmreport.plugins import Registry, find_plugins
 
 CONFIGS = ROOT / "configs"
+#: The jobs of the fleet have tests of their own.
+FLEET = CONFIGS / "fleet"
 #: What other jobs extend is no job by itself.
 JOBS = sorted(
-    path for path in CONFIGS.rglob("*.yaml") if "schema: zlmreport/job/1" in path.read_text(encoding="utf-8")
+    path
+    for path in CONFIGS.rglob("*.yaml")
+    if FLEET not in path.parents and "schema: zlmreport/job/1" in path.read_text(encoding="utf-8")
 )
 SIMULATIONS = sorted(
     path
     for path in CONFIGS.rglob("*.yaml")
     if "schema: zlmreport/simulation/1" in path.read_text(encoding="utf-8")
 )
-#: Real readings; beside a simulation stand simulated ones.
+#: Real readings; beside a simulation, or a script that makes them, stand simulated ones.
+MADE = {each.parent for each in (*SIMULATIONS, *CONFIGS.rglob("make.py"))}
 DATA = sorted(
-    path for path in CONFIGS.rglob("*.csv") if path.parent not in {each.parent for each in SIMULATIONS}
+    path for path in CONFIGS.rglob("*.csv") if FLEET not in path.parents and path.parent not in MADE
 )
 
 

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-from certificate.documents import COMPLETE, certificate, text_of
+from certificate.documents import COMPLETE, certificate, job, registry, text_of
+from zlmreport.correction.of_job import corrections_of
 from zlmreport.errors import InputError
 from zlmreport.physics.refractive_index import refractive_index
+from zlmreport.pipeline import read
 
 HEAD = "target,direction,run,deviation,air_temperature,air_pressure,relative_humidity,material_temperature\n"
 #: Two readings, 1 m apart, in the same air and on a warm machine.
@@ -48,6 +51,14 @@ def test_a_metre_is_corrected_by_the_index_that_the_instrument_assumed(tmp_path,
     found = end(tmp_path, {"air": {"assumed": assumed}})
 
     assert found == pytest.approx(1e6 * ((1 + 5e-6) * index / INDEX - 1), abs=EXACT)
+
+
+@pytest.mark.parametrize(("told", "datum"), [(None, 0.0), (-0.005, -0.005)])
+def test_the_datum_is_where_the_readings_tell_or_else_the_first_target(tmp_path, told, datum):
+    chosen = job(tmp_path, keys(tmp_path, {"material": {"expansion_coefficient": 11.5}}))
+    measured = replace(read(chosen, registry()), datum=told)
+
+    assert corrections_of(chosen, measured).datum == datum
 
 
 def test_a_metre_of_steel_three_kelvin_too_warm_is_corrected_by_its_expansion(tmp_path):

@@ -72,6 +72,22 @@ def test_a_hidden_effect_is_named_first_or_among_its_equals(effect: str) -> None
     assert effect in {found.candidates[0].identifier, *found.candidates[0].equals}
 
 
+def test_a_parameter_that_is_given_its_true_value_leaves_nothing_to_be_found() -> None:
+    """What a given value makes of the readings is no part of what the contest is about."""
+    free = _diagnosis(0.0)
+    (lost_motion,) = (each for each in free.fit.estimates if each.effect == "backlash")
+    fixed = {"lost_motion": lost_motion.value}
+    model = AxisModel(
+        tuple(
+            replace(term, fixed=fixed) if term.effect.identifier == "backlash" else term
+            for term in USUAL.terms
+        )
+    )
+    given = _diagnosis(0.0, model=model)
+    assert given.verdict is free.verdict is Verdict.ADEQUATE
+    assert given.fit.noise.sigma == pytest.approx(free.fit.noise.sigma, rel=0.05)
+
+
 SCREW = _diagnosis(hidden(DESIGN, "screw-pitch", [0.01], size=2.0))
 
 

@@ -104,6 +104,22 @@ def test_means_off_the_model_are_no_chance() -> None:
     assert _where(found).startswith("largest at ")
 
 
+def test_a_failure_points_at_the_readings_that_it_names() -> None:
+    cell = _tests(hidden(DESIGN, "scale-kink", [0.5], size=2.0))[ResidualTest.LACK_OF_FIT].readings
+    assert len(cell) == 5
+    assert len({(DESIGN.target[each], DESIGN.direction[each]) for each in cell.tolist()}) == 1
+    run = _tests(np.where(DESIGN.run == 4, 3 * SIGMA, 0.0))[ResidualTest.RUNS].readings
+    assert run.tolist() == np.flatnonzero(DESIGN.run == 4).tolist()
+    uneven = noise(DESIGN, 5) * np.where(DESIGN.target == 12, 6.0, 0.0)
+    target = _tests(uneven)[ResidualTest.SPREAD].readings
+    assert target.tolist() == np.flatnonzero(DESIGN.target == 12).tolist()
+
+
+def test_a_failure_of_all_readings_points_at_none() -> None:
+    found = _tests(hidden(DESIGN, "screw-pitch", [0.01], size=2.0))[ResidualTest.PERIOD_IN_POSITION]
+    assert found.readings.size == 0
+
+
 def test_lack_of_fit_is_blind_to_drift_in_the_linear_method() -> None:
     found = _tests(hidden(DESIGN, "thermal-drift", [700.0], size=1.0))
     assert found[ResidualTest.LACK_OF_FIT].p_value > 0.05

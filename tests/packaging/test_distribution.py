@@ -19,6 +19,7 @@ import pytest
 
 import zlmreport_plugins.instruments
 import zlmreport_plugins.part_programs
+import zlmreport_plugins.probing_programs
 import zlmreport_plugins.renderers
 import zlmreport_plugins.sources
 import zlmreport_plugins.standards
@@ -95,6 +96,7 @@ def test_every_built_in_plugin_is_declared_as_an_entry_point(metadata: dict[str,
     kinds = [
         zlmreport_plugins.instruments,
         zlmreport_plugins.part_programs,
+        zlmreport_plugins.probing_programs,
         zlmreport_plugins.renderers,
         zlmreport_plugins.sources,
         zlmreport_plugins.standards,

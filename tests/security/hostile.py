@@ -59,8 +59,8 @@ def job_with(text_of: Callable[[Path], str]) -> str:
         "laboratory": {"country": "DE"},
         "location": {"kind": "laboratory"},
         "axis": {"kind": "linear", "travel": [0, 100]},
-        "measurement": {"date": "2026-11-18", "source": _source(), "plane": {"at": 200}},
-        "as_found": {"measurement": {"date": "2026-11-17", "source": _source(), "plane": {"at": 200}}},
+        "measurement": {"date": "2026-11-18", **_measurement()},
+        "as_found": {"measurement": {"date": "2026-11-17", **_measurement()}},
         "instrument": {},
         "evaluate": [{"standard": "nmtba", "tolerances": {"P": 20}}],
         "opinions": [{}],
@@ -73,8 +73,12 @@ def job_with(text_of: Callable[[Path], str]) -> str:
     return yaml.safe_dump(job, allow_unicode=True, sort_keys=False, width=1_000_000)
 
 
-def _source() -> dict[str, str]:
-    return {"plugin": "laser-csv", "file": "x-axis.csv"}
+def _measurement() -> dict[str, Any]:
+    return {
+        "source": {"plugin": "laser-csv", "file": "x-axis.csv"},
+        "plane": {"at": 200},
+        "excluded": [{"target": 25, "direction": "+", "run": 3}],
+    }
 
 
 def _state(job: Any, path: Path, text: str) -> None:

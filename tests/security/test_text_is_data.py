@@ -14,12 +14,17 @@ from pathlib import Path
 
 import pikepdf
 import pytest
+from pypdf import PdfReader
 
 from pdf_conformance import complaints
 from security.hostile import READINGS, job_with, text_keys
 from zlmreport.plugins import find_plugins
 
-FORMATS = [renderer.identifier for renderer in find_plugins().renderers]
+#: The formats, by the folder of their files: two of them write the same file.
+FORMATS = {
+    "out": [each.identifier for each in find_plugins().renderers if each.identifier != "pdf-typst"],
+    "by-typst": ["pdf-typst"],
+}
 ATTACKS = (
     '<img src="file:///etc/passwd">',
     '<link rel=stylesheet href="http://example.com/x.css">',
@@ -29,6 +34,7 @@ ATTACKS = (
     '<!DOCTYPE x [<!ENTITY e SYSTEM "file:///etc/passwd">]> &e; ]]>',
     "<script>alert(1)</script><svg onload=alert(1)>",
     "<a rel=attachment href='file:///etc/passwd'>x</a>",
+    '#read("/etc/passwd") #{ panic() } $x$ *a* _b_ @c <d> // e \\ `f` = g',
 )
 
 #: The command line, telling at its end which files and addresses it opened.
@@ -70,19 +76,22 @@ def made(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactor
     with_column = f'{header},"{quoted}"\n' + "".join(f"{row},1\n" for row in rows.splitlines())
     (folder / "x-axis.csv").write_text(with_column, encoding="utf-8")
     (folder / "texts.json").write_text(json.dumps(list(texts.values())), encoding="utf-8")
-    done = subprocess.run(
-        [
-            *(sys.executable, "-c", _WATCHED),
-            *("job.yaml", "--quiet", "--output", "out", "--format", ",".join(FORMATS)),
-        ],
-        cwd=folder,
-        env={**os.environ, "OPENBLAS_NUM_THREADS": "1"},
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    assert (done.returncode, done.stderr) == (0, "")
-    (folder / "opened.txt").write_text(done.stdout, encoding="utf-8")
+    opened = ""
+    for output, formats in FORMATS.items():
+        done = subprocess.run(
+            [
+                *(sys.executable, "-c", _WATCHED),
+                *("job.yaml", "--quiet", "--output", output, "--format", ",".join(formats)),
+            ],
+            cwd=folder,
+            env={**os.environ, "OPENBLAS_NUM_THREADS": "1"},
+            capture_output=True,
+            text=True,
+            check=False,
+        )
+        assert (done.returncode, done.stderr) == (0, "")
+        opened += done.stdout
+    (folder / "opened.txt").write_text(opened, encoding="utf-8")
     return folder
 
 
@@ -136,18 +145,32 @@ def test_every_text_that_is_printed_is_printed_as_it_was_typed(made: Path) -> No
     assert found > len(texts) / 2
 
 
-def test_a_pdf_viewer_finds_nothing_to_run_or_to_load(made: Path) -> None:
-    with pikepdf.open(made / "out" / "CAL-1.pdf") as pdf:
+@pytest.mark.parametrize("output", FORMATS)
+def test_a_pdf_viewer_finds_nothing_to_run_or_to_load(made: Path, output: str) -> None:
+    with pikepdf.open(made / output / "CAL-1.pdf") as pdf:
         assert "/OpenAction" not in pdf.Root
         assert "/JavaScript" not in pdf.Root.get("/Names", {})
         for page in pdf.pages:
             assert "/AA" not in page
-            assert all("/A" not in annotation for annotation in page.get("/Annots", []))
+            actions = [each.A for each in page.get("/Annots", []) if "/A" in each]
+            assert all(action.S == "/GoTo" for action in actions)
         assert all("passwd" not in name for name in pdf.attachments)
 
 
-def test_the_pdf_conforms_all_the_same(made: Path) -> None:
-    assert complaints((made / "out" / "CAL-1.pdf").read_bytes()) == []
+@pytest.mark.parametrize("output", FORMATS)
+def test_the_pdf_conforms_all_the_same(made: Path, output: str) -> None:
+    assert complaints((made / output / "CAL-1.pdf").read_bytes()) == []
+
+
+def test_every_text_in_one_pdf_is_in_the_other_as_it_was_typed(made: Path) -> None:
+    one, other = (
+        "".join("".join(page.extract_text() for page in PdfReader(made / output / "CAL-1.pdf").pages).split())
+        for output in FORMATS
+    )
+    texts = json.loads((made / "texts.json").read_text(encoding="utf-8"))
+    printed = ["".join(text.split()) for text in texts if "".join(text.split()) in one]
+    assert len(printed) > len(texts) / 2
+    assert [text for text in printed if text not in other] == []
 
 
 def test_the_results_file_is_sound(made: Path) -> None:
@@ -156,8 +179,9 @@ def test_the_results_file_is_sound(made: Path) -> None:
 
 def test_no_file_holds_what_the_attack_asks_for(made: Path) -> None:
     secret = Path("/etc/passwd").read_bytes().splitlines()[0]
-    for path in (made / "out").iterdir():
+    for path in (file for output in FORMATS for file in (made / output).iterdir()):
         assert secret not in path.read_bytes()
-    with pikepdf.open(BytesIO((made / "out" / "CAL-1.pdf").read_bytes())) as pdf:
-        for attachment in pdf.attachments.values():
-            assert secret not in attachment.get_file().read_bytes()
+    for output in FORMATS:
+        with pikepdf.open(BytesIO((made / output / "CAL-1.pdf").read_bytes())) as pdf:
+            for attachment in pdf.attachments.values():
+                assert secret not in attachment.get_file().read_bytes()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from io import BytesIO
+from pathlib import Path
 
 import pikepdf
 import pytest
@@ -10,8 +11,10 @@ import pytest
 from pdf_conformance import complaints
 from signing.conftest import PLACE
 from signing.keys import PASSWORD, pkcs12_file, rsa_key
+from typesetting import samples
 from zlmreport.signing.signer import open_signer
 from zlmreport.signing.state import Integrity, signature_state
+from zlmreport_plugins.renderers.pdf_typst import TypstRenderer
 
 
 def test_what_is_signed_stays_as_it_was_byte_by_byte(unsigned: bytes, signed: bytes) -> None:
@@ -64,3 +67,12 @@ def test_a_key_of_rsa_signs_with_and_without_a_password(unsigned: bytes, tmp_pat
     with open_signer(str(file), lambda _: password, PLACE) as signer:
         signed = signer(unsigned, "Electronic signature")
     assert signature_state(signed).integrity is Integrity.INTACT
+
+
+def test_what_typst_printed_stays_what_it_claims(tmp_path: Path) -> None:
+    printed = TypstRenderer().render(samples.certificate(standards=0))
+    file = pkcs12_file(tmp_path / "laboratory.p12")
+    with open_signer(str(file), lambda _: PASSWORD, PLACE) as signer:
+        signed = signer(printed, "Electronic signature")
+    assert signed.startswith(printed)
+    assert complaints(signed) == []

@@ -12,7 +12,7 @@ from jinja2.exceptions import SecurityError
 
 from zlmreport.certificate import document
 from zlmreport.quantities.notation import Span
-from zlmreport.typesetting import contexts
+from zlmreport.typesetting import contexts, overview_contexts
 from zlmreport.typesetting.templates import PACKAGE, environment
 
 CONTEXTS = get_args(contexts.Context)
@@ -25,6 +25,10 @@ PARTS = (
     document.Facts,
     document.Letterhead,
     document.Party,
+    overview_contexts.LinkContext,
+    overview_contexts.OverviewCellContext,
+    overview_contexts.OverviewGroupContext,
+    overview_contexts.TileContext,
     Span,
 )
 

@@ -10,7 +10,7 @@ from fontTools.ttLib import TTFont, woff2
 
 from zlmreport.typesetting.resources import FACES, FAMILY, Face, font, font_faces, style_sheet
 
-SHEETS = ("certificate", "paged", "screen", "A4", "Letter")
+SHEETS = ("certificate", "paged", "screen", "A4", "Letter", "overview")
 
 
 @pytest.mark.parametrize("face", FACES, ids=lambda face: face.stem)

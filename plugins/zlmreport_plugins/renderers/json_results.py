@@ -230,6 +230,7 @@ def _measurements(measurements: MeasurementSet) -> Json:
         "runs": len(measurements.runs),
         "readings": sum(not math.isnan(value) for value in measurements.deviation.tolist()),
         "missing": list(_missing(measurements)),
+        "excluded": list(_excluded(measurements)),
     }
 
 
@@ -239,6 +240,17 @@ def _missing(measurements: MeasurementSet) -> Iterator[Json]:
             "target": _target(measurements.axis, reading.target_position),
             "direction": _DIRECTIONS[reading.approach],
             "run": reading.run,
+        }
+
+
+def _excluded(measurements: MeasurementSet) -> Iterator[Json]:
+    for each in measurements.provenance.exclusions:
+        yield {
+            "target": _target(measurements.axis, each.target_position),
+            "direction": _DIRECTIONS[each.approach],
+            "run": each.run,
+            "deviation": measurements.axis.deviation_unit.from_si(each.deviation),
+            "reason": each.reason,
         }
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Container, Iterable, Iterator
 from dataclasses import dataclass
 from enum import Enum, StrEnum
-from pathlib import Path, PurePosixPath
+from pathlib import PurePosixPath
 
 from zlmreport.errors import InputError, Place
 from zlmreport.job.job import Job
@@ -197,10 +197,11 @@ def _path(file: SourceFile, job: Job, stated: Container[str]) -> str:
 
 def _unique(name: str, taken: set[str], number: str) -> str:
     """Return a name that no file before has; names that begin like the certificate's own files are kept."""
-    path, count, candidate = Path(name), 1, name
+    stem, dot, suffix = name.partition(".")
+    count, candidate = 1, name
     while candidate.casefold() in taken or candidate.startswith(f"{number}."):
         count += 1
-        candidate = f"{path.stem}-{count}{path.suffix}"
+        candidate = f"{stem}-{count}{dot}{suffix}"
     taken.add(candidate.casefold())
     return candidate
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
-from zlmreport.certificate import corrections
+from zlmreport.certificate import corrections, step_gauge
 from zlmreport.certificate.circumstances import date, environment_facts, measurement_facts, with_unit
 from zlmreport.certificate.document import Block, Facts, Paragraph, Section
 from zlmreport.certificate.facts import Fact, stated
@@ -43,6 +43,7 @@ def section(job: Job, measurements: MeasurementSet, scribe: Scribe) -> Section:
         (Words(en="Axis", de="Achse"), _axis(job, scribe)),
         (Words(en="Measurement", de="Messung"), _measurement(keys, measurements, scribe)),
         (Words(en="Measuring instrument", de="Messgerät"), _instrument(keys.instrument, scribe)),
+        (Words(en="Step gauge", de="Stufenendmaß"), step_gauge.facts(job, scribe)),
         (Words(en="Environment", de="Umgebung"), environment),
     )
     blocks: list[Block] = [
@@ -51,6 +52,7 @@ def section(job: Job, measurements: MeasurementSet, scribe: Scribe) -> Section:
     if keys.certificate.kind == "certificate" and not stated(environment, scribe):
         blocks.append(Paragraph(scribe.say(_NO_INFLUENCE)))
     blocks.extend(corrections.blocks(measurements, scribe))
+    blocks.extend(step_gauge.graph(job))
     return Section("conditions", scribe.say(_TITLE), tuple(blocks))
 
 

@@ -55,7 +55,8 @@ def section(
     remarks = tuple(remark for each in measurements for remark in each.provenance.remarks)
     if remarks:
         blocks.append(_remarks(remarks, scribe))
-    blocks.extend(Paragraph(scribe.say(words)) for words in _READING_AIDS)
+    deviation = _INDICATED if measurements[0].is_indication else _ACTUAL
+    blocks.extend(Paragraph(scribe.say(words)) for words in (_READING_AID, _SIGNS.given(deviation=deviation)))
     return Section("origin", scribe.say(_TITLE), tuple(blocks))
 
 
@@ -67,23 +68,23 @@ _READINGS = (
         de="Messwerte im vorgefundenen Zustand, gelesen mit {source}",
     ),
 )
-_READING_AIDS = (
-    Words(
-        en="Values were computed from the unrounded readings, and limits are compared with unrounded values; "
-        "only what is printed is rounded: a value with its uncertainty, any other to the decimals of the "
-        "readings.",
-        de="Gerechnet wurde mit ungerundeten Messwerten, und Grenzwerte werden mit ungerundeten Werten "
-        "verglichen; "
-        "gerundet ist nur, was gedruckt steht: ein Wert mit seiner Unsicherheit, jeder andere auf die "
-        "Dezimalstellen der Messwerte.",
-    ),
-    Words(
-        en="Signs: deviation = actual − target position; reversal value B = mean of the positive "
-        "approach ↑ − mean of the negative approach ↓.",
-        de="Vorzeichen: Abweichung = Istposition − Sollposition; Umkehrspanne B = Mittel der positiven "
-        "Anfahrrichtung ↑ − Mittel der negativen Anfahrrichtung ↓.",
-    ),
+_READING_AID = Words(
+    en="Values were computed from the unrounded readings, and limits are compared with unrounded values; "
+    "only what is printed is rounded: a value with its uncertainty, any other to the decimals of the "
+    "readings.",
+    de="Gerechnet wurde mit ungerundeten Messwerten, und Grenzwerte werden mit ungerundeten Werten "
+    "verglichen; "
+    "gerundet ist nur, was gedruckt steht: ein Wert mit seiner Unsicherheit, jeder andere auf die "
+    "Dezimalstellen der Messwerte.",
 )
+_SIGNS = Words(
+    en="Signs: deviation = {deviation}; reversal value B = mean of the positive approach ↑ − mean of the "
+    "negative approach ↓.",
+    de="Vorzeichen: Abweichung = {deviation}; Umkehrspanne B = Mittel der positiven Anfahrrichtung ↑ − "
+    "Mittel der negativen Anfahrrichtung ↓.",
+)
+_ACTUAL = Words(en="actual − target position", de="Istposition − Sollposition")
+_INDICATED = Words(en="indicated − calibrated position", de="angezeigte − kalibrierte Position")
 
 
 def _remarks(remarks: Iterable[Words], scribe: Scribe) -> Table:

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+import numpy as np
+
+from zlmreport.certificate import exclusions
 from zlmreport.certificate.document import Align, Block, Column, Notice, RowGroup, Section, Symbol, Table
 from zlmreport.certificate.scribe import Scribe
 from zlmreport.language import Words
@@ -28,6 +31,10 @@ _CAPTION = Words(
     en="Deviations x = actual − target position, in the order of runs",
     de="Abweichungen x = Istposition − Sollposition, in der Reihenfolge der Durchläufe",
 )
+_INDICATION = Words(
+    en="Deviations x = indicated − calibrated position, in the order of runs",
+    de="Abweichungen x = angezeigte − kalibrierte Position, in der Reihenfolge der Durchläufe",
+)
 
 
 def section(measurements: MeasurementSet, scribe: Scribe, key: str = "measurement.source") -> Section:
@@ -42,7 +49,10 @@ def section(measurements: MeasurementSet, scribe: Scribe, key: str = "measuremen
     key
         The job key that names their source: marked if the readings are the customer's.
     """
-    blocks: list[Block] = [*missing_readings(measurements, scribe)]
+    blocks: list[Block] = [
+        *missing_readings(measurements, scribe),
+        *exclusions.notice(measurements, scribe, f"{key.removesuffix('source')}excluded"),
+    ]
     columns = [
         (approach, index) for approach in measurements.approaches for index in range(len(measurements.runs))
     ]
@@ -54,13 +64,18 @@ def section(measurements: MeasurementSet, scribe: Scribe, key: str = "measuremen
 
 
 def missing_readings(measurements: MeasurementSet, scribe: Scribe) -> Iterator[Notice]:
-    """Yield the notice that names the missing readings, if there are any."""
-    missing = measurements.missing()
+    """Yield the notice that names the missing readings, if there are any beside those that were set aside."""
+    aside = {(each.target_position, each.approach, each.run) for each in measurements.provenance.exclusions}
+    missing = [
+        each
+        for each in measurements.missing()
+        if (each.target_position, each.approach, each.run) not in aside
+    ]
     if not missing:
         return
     heading = (_ONE_MISSING if len(missing) == 1 else _MISSING).given(
         count=len(missing),
-        all=len(measurements.approaches) * len(measurements.target_positions) * len(measurements.runs),
+        all=len(missing) + int(np.count_nonzero(np.isfinite(measurements.deviations()))),
     )
     one = Words(
         en="target {target} {unit} {arrow}, run {run}",
@@ -113,4 +128,5 @@ def _table(measurements: MeasurementSet, chosen: Sequence[tuple[Approach, int]],
         )
         for position, target in enumerate(measurements.target_positions)
     )
-    return Table(scribe.say(_CAPTION), tuple(columns), (RowGroup(rows),), dense=True)
+    caption = _INDICATION if measurements.is_indication else _CAPTION
+    return Table(scribe.say(caption), tuple(columns), (RowGroup(rows),), dense=True)

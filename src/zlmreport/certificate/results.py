@@ -69,6 +69,9 @@ _GROUPS = {
     ),
 }
 
+_NO_PARAMETER = Words(
+    en="This test defines none of the parameters.", de="Diese Messung bestimmt keine der Kenngrößen."
+)
 _MET = Words(en="met", de="erfüllt")
 _NOT_MET = Words(en="not met", de="nicht erfüllt")
 _OPEN = Words(en="open", de="offen")
@@ -86,12 +89,12 @@ def section(evaluated: Evaluated, scribe: Scribe) -> Section:
     blocks: list[Block] = [
         Paragraph(scribe.say(evaluation.title)),
         *_shortfalls(evaluation, scribe),
-        _parameters(evaluation, scribe),
+        _parameters(evaluation, scribe) if evaluation.parameters else Paragraph(scribe.say(_NO_PARAMETER)),
         *map(Graph, evaluated.figures),
         *conformity.blocks(evaluation, scribe),
         _positions(evaluation, scribe),
         *([_requirements(evaluation, scribe)] if evaluation.findings else []),
-        _definitions(evaluation, scribe),
+        *([_definitions(evaluation, scribe)] if evaluation.parameters else []),
         *(Paragraph(scribe.say(note)) for note in evaluation.notes),
     ]
     return Section(
@@ -172,7 +175,7 @@ def _positions(evaluation: Evaluation, scribe: Scribe) -> Table:
         add(f"x̄{index}{approach.arrow}", statistics.mean[approach.index])
         if len(measurements.runs) > 1:
             add(f"s{index}{approach.arrow}", statistics.standard_deviation[approach.index])
-    if measurements.is_bidirectional:
+    if measurements.is_bidirectional and not measurements.one_sided_targets:
         add(f"x̄{index}", statistics.mean_bidirectional)
         add(f"B{index}", statistics.reversal_value)
     for arrows, expanded in _mean_uncertainties(evaluation):

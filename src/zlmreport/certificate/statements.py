@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from zlmreport.certificate import exclusions
 from zlmreport.certificate.document import Block, Notice, Paragraph
 from zlmreport.certificate.marks import BY_CUSTOMER, EXTERNAL
 from zlmreport.certificate.scribe import Scribe
@@ -49,8 +50,9 @@ _FROM_REPORT = Words(en="{results}: {provider}, {reference}", de="{results}: {pr
 def notices(keys: JobKeys, scribe: Scribe) -> Iterator[Notice]:
     """Yield what nobody may overlook: how the work departed from the method, and what others did."""
     deviations = keys.measurement.deviations_from_method
-    if deviations:
-        yield Notice(scribe.say(_DEVIATIONS), (deviations,))
+    items = (*([deviations] if deviations else []), *exclusions.stated(keys, scribe))
+    if items:
+        yield Notice(scribe.say(_DEVIATIONS), items)
     if keys.external:
         yield Notice(
             scribe.say(_EXTERNAL.given(mark=EXTERNAL)),

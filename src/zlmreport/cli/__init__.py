@@ -12,7 +12,7 @@ import sys
 from collections.abc import Sequence
 from typing import TextIO
 
-from zlmreport.cli.arguments import MAIN_JOB, parse
+from zlmreport.cli.arguments import parse
 from zlmreport.cli.messages import print_problems
 from zlmreport.errors import AccessError, Place, ZlmreportError
 
@@ -30,7 +30,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         _write_what_cannot_be_encoded_as_escapes(stream)
     try:
         command, options = parse(sys.argv[1:] if arguments is None else arguments)
-        module = importlib.import_module(f"zlmreport.cli.{'report' if command == MAIN_JOB else command}")
+        module = importlib.import_module(f"zlmreport.cli.{command.replace(' ', '_')}")
         code: int = module.run(options)
         sys.stdout.flush()
     except SystemExit:  # by argparse, after --help and --version

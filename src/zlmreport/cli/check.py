@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from argparse import Namespace
+from collections.abc import Iterator
 from dataclasses import replace
 
 from zlmreport import pipeline
+from zlmreport.cli.capture_awaited import awaits_capture, demand_capturable, planned
 from zlmreport.cli.jobs import do_all
 from zlmreport.cli.results import Result, load_all
 from zlmreport.cli.terminal import findings
@@ -18,7 +20,15 @@ def run(options: Namespace) -> int:
     registry = find_plugins(files=options.plugin)
 
     def evaluated(result: Result, job: Job) -> Result:
+        if awaits_capture(job):
+            demand_capturable(job, registry)
+            return result
         certificate = pipeline.compose(job, registry)
         return replace(result, evaluations=certificate.evaluations, diagnosis=certificate.diagnosis)
 
-    return do_all(load_all(options.jobs, registry), evaluated, findings, options)
+    def lines(result: Result) -> Iterator[str]:
+        if result.job is None or result.evaluations:
+            return findings(result)
+        return planned(result.path, result.job, registry)
+
+    return do_all(load_all(options.jobs, registry), evaluated, lines, options)

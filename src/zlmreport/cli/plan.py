@@ -5,9 +5,11 @@ from __future__ import annotations
 from argparse import Namespace
 
 from zlmreport import pipeline
+from zlmreport.capture.of_job import options_of
 from zlmreport.cli.plan_files import plan_files, refuse_files_that_are_there
 from zlmreport.cli.plan_json import plan_values
 from zlmreport.cli.plan_lines import plan_lines
+from zlmreport.cli.plan_path import run_path
 from zlmreport.cli.plan_programs import chosen_programs, program_files
 from zlmreport.cli.summary import print_json
 from zlmreport.cli.terminal import shown_path
@@ -20,7 +22,11 @@ def run(options: Namespace) -> int:
     """Plan the test of a job; its readings need not exist."""
     registry = find_plugins(files=options.plugin)
     job = load(options.job, registry)
-    programs = chosen_programs(options.program, options.output, job, registry)
+    if job.keys.step_gauge is not None:
+        return run_path(options, job, registry)
+    programs = chosen_programs(
+        options.program, options.output, job.programs, registry.part_program, "linuxcnc,fanuc"
+    )
     foresight = foresee(job, pipeline.standards(job, registry), registry.effects)
     documents: tuple[pipeline.Document, ...] = ()
     if options.output:
@@ -41,5 +47,6 @@ def run(options: Namespace) -> int:
         print(f"part programs for {names}: state a folder, --output DIR")
     for path in written:
         print(shown_path(path))
-    print(f"next: measure, then zlmreport {shown_path(options.job)}")
+    command = "zlmreport capture" if options_of(job) else "measure, then zlmreport"
+    print(f"next: {command} {shown_path(options.job)}")
     return 0

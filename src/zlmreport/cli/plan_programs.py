@@ -8,7 +8,7 @@ from pathlib import Path
 from zlmreport.errors import InputError, Place, Problem
 from zlmreport.foresight.motion import motion_of
 from zlmreport.job.job import Job, ProgramChoice
-from zlmreport.job.programs import programs_by_name
+from zlmreport.job.programs import Find, programs_by_name
 from zlmreport.pipeline import Document
 from zlmreport.plugins import Registry
 from zlmreport.simulation.description import Plan
@@ -17,9 +17,22 @@ _OPTION = Place("zlmreport plan --program")
 
 
 def chosen_programs(
-    named: str | None, folder: Path | None, job: Job, registry: Registry
+    named: str | None, folder: Path | None, stated: tuple[ProgramChoice, ...], find: Find, such_as: str
 ) -> tuple[ProgramChoice, ...]:
-    """Return the part programs that the command line names, or else those of the job.
+    """Return the programs that the command line names, or else those of the job.
+
+    Parameters
+    ----------
+    named
+        Identifiers on the command line, parted by commas; None if there are none.
+    folder
+        Where files go; None for nowhere.
+    stated
+        The programs of the job.
+    find
+        Finds the installed writers of their kind.
+    such_as
+        Two identifiers, for a message.
 
     Raises
     ------
@@ -27,13 +40,13 @@ def chosen_programs(
         If there is none of that name, or no folder to write it into.
     """
     if named is None:
-        return job.programs
+        return stated
     if folder is None:
-        raise InputError.at(_OPTION, "a part program is a file; state its folder, too: --output DIR")
+        raise InputError.at(_OPTION, "a program is a file; state its folder, too: --output DIR")
     names = [name.strip() for name in named.split(",") if name.strip()]
     if not names:
-        raise InputError.at(_OPTION, "there is no part program in the list; for example linuxcnc,fanuc")
-    return programs_by_name(names, _OPTION, job.programs, registry)
+        raise InputError.at(_OPTION, f"there is no program in the list; for example {such_as}")
+    return programs_by_name(names, _OPTION, stated, find)
 
 
 def program_files(

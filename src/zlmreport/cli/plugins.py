@@ -25,6 +25,7 @@ def listing(registry: Registry) -> Iterator[str]:
         (Kind.RENDERER, registry.renderers),
         (Kind.EFFECT, registry.effects),
         (Kind.PART_PROGRAM, registry.part_programs),
+        (Kind.PROBING_PROGRAM, registry.probing_programs),
         (Kind.INSTRUMENT, registry.instruments),
     ):
         yield Colour.BOLD.of(f"{kind.label}s")

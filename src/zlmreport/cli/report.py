@@ -6,6 +6,7 @@ from argparse import Namespace
 from dataclasses import replace
 
 from zlmreport import pipeline
+from zlmreport.cli.capture_awaited import capture_if_watched
 from zlmreport.cli.jobs import do_all
 from zlmreport.cli.results import Result, load_all
 from zlmreport.cli.signature import demand_something_to_sign, signer_of
@@ -29,6 +30,8 @@ def _make(options: Namespace, registry: Registry, formats: tuple[str, ...], sign
     def made(result: Result, job: Job) -> Result:
         if signer:
             demand_something_to_sign(job, registry)
+        if not (options.quiet or options.json):
+            capture_if_watched(job, registry, result.path)
         outcome = pipeline.run(job, registry, signer)
         files = pipeline.write(outcome.documents)
         made = outcome.certificate

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import traceback
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 
-from zlmreport.errors import AccessError, InputError, Place, Problem, ZlmreportError
+from zlmreport.errors import InputError, ZlmreportError, as_problems
 from zlmreport.evaluation.evaluation import Evaluation
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
@@ -77,12 +76,8 @@ def attempt(result: Result, step: Callable[[], Result]) -> Result:
     """Return what a step makes of a result, or the result with the error that ended the step."""
     try:
         return step()
-    except ZlmreportError as error:
-        return replace(result, error=error)
-    except OSError as error:
-        return replace(result, error=_no_access(result.path, error))
     except Exception as error:  # noqa: BLE001 - one job's trouble must not take the others along
-        return replace(result, error=InputError([_unforeseen(result.path, error)]))
+        return replace(result, error=as_problems(result.path, error))
 
 
 def refuse_shared_files(results: Sequence[Result]) -> list[Result]:
@@ -107,22 +102,3 @@ def refuse_shared_files(results: Sequence[Result]) -> list[Result]:
 
 def _loaded(path: Path, registry: Registry, formats: tuple[str, ...]) -> Result:
     return Result(path, load(path, registry, formats))
-
-
-def _no_access(path: Path, error: OSError) -> ZlmreportError:
-    """Return the error of a file that cannot be used, or of a library that is not there."""
-    if error.filename and error.strerror:
-        message = f"cannot be read or written: {error.strerror.lower()}"
-        return AccessError.at(Place(str(error.filename)), message)
-    return AccessError.at(Place(str(path)), " ".join(str(error).split()))
-
-
-def _unforeseen(path: Path, error: Exception) -> Problem:
-    """Return the problem that is the program's own, with the line of it that a report needs."""
-    frame = traceback.extract_tb(error.__traceback__)[-1]
-    where = f"{Path(frame.filename).name}, line {frame.lineno}"
-    message = " ".join(f"{type(error).__name__}: {error}".split())[:300]
-    return Problem(
-        Place(str(path)),
-        f"{message} ({where}); this is a mistake of zlmreport or of a plugin: please report it with the job",
-    )

@@ -10,6 +10,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from enum import Enum
 from pathlib import Path
 
+from zlmreport.certificate import exclusions
 from zlmreport.certificate.conformity import STATEMENTS
 from zlmreport.certificate.readings import missing_readings
 from zlmreport.certificate.rounding import written
@@ -18,6 +19,7 @@ from zlmreport.certificate.values import limit
 from zlmreport.cli.messages import visible
 from zlmreport.cli.results import Result
 from zlmreport.evaluation.evaluation import Evaluation, Parameter
+from zlmreport.evaluation.requirements import Finding
 from zlmreport.job.job import Job
 from zlmreport.language import Language
 from zlmreport.model.diagnosis import Verdict
@@ -67,14 +69,19 @@ def findings(result: Result) -> Iterator[str]:
     scribe = Scribe.of(result.evaluations[0].measurements, Language.ENGLISH)
     yield f"{Colour.BOLD.of(str(result.path))}  the job and its data are sound"
     for evaluation in result.evaluations:
-        yield f"  {evaluation.designation}"
-        words = {True: "met", False: Colour.RED.of("not met"), None: Colour.YELLOW.of("open")}
-        yield from table(
-            (words[finding.met], f"{scribe.say(finding.requirement)}: {scribe.say(finding.found)}")
-            for finding in evaluation.findings
-        )
+        yield from requirements(evaluation.designation, evaluation.findings, scribe)
     yield from _missing(result, scribe)
     yield from _model(result)
+
+
+def requirements(designation: str, found: Iterable[Finding], scribe: Scribe) -> Iterator[str]:
+    """Yield the lines on what a standard asks of a test."""
+    yield f"  {designation}"
+    words = {True: "met", False: Colour.RED.of("not met"), None: Colour.YELLOW.of("open")}
+    yield from table(
+        (words[finding.met], f"{scribe.say(finding.requirement)}: {scribe.say(finding.found)}")
+        for finding in found
+    )
 
 
 def table(rows: Iterable[Sequence[str]], right: Sequence[int] = (), indent: str = "    ") -> Iterator[str]:
@@ -168,6 +175,9 @@ def _notices(result: Result, scribe: Scribe) -> Iterator[str]:
 def _missing(result: Result, scribe: Scribe) -> Iterator[str]:
     for notice in missing_readings(result.evaluations[0].measurements, scribe):
         yield f"  {Colour.YELLOW.of('missing')}  {notice.heading}"
+        yield from (f"           {item}" for item in notice.items)
+    for notice in exclusions.notice(result.evaluations[0].measurements, scribe):
+        yield f"  {Colour.YELLOW.of('aside')}    {notice.heading}"
         yield from (f"           {item}" for item in notice.items)
 
 

@@ -44,13 +44,19 @@ def corrections_of(job: Job, measurements: MeasurementSet) -> Corrections | None
     if problems:
         raise InputError(problems)
     to_si = job.axis.position_unit.to_si
-    first = float(measurements.target_positions[0])
     return Corrections(
-        datum=first if keys.datum is None else to_si(keys.datum),
+        datum=_datum(measurements) if keys.datum is None else to_si(keys.datum),
         air=air,
         dead_path=_signed(keys.dead_path, to_si(keys.dead_path.length)) if keys.dead_path else None,
         expansion=expansion,
     )
+
+
+def _datum(measurements: MeasurementSet) -> float:
+    """Return where the instrument was set to zero, as the readings tell; or else the first target."""
+    if measurements.datum is None:
+        return float(measurements.target_positions[0])
+    return measurements.datum
 
 
 def air_conditions(job: Job, measurements: MeasurementSet) -> list[FloatArray]:

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from typing import TypeAlias
 
 from zlmreport.errors import Problem
-from zlmreport.job import plan_keys, uncertainty_keys
+from zlmreport.job import plan_keys, step_gauge_keys, uncertainty_keys
 from zlmreport.job.model import JobKeys, Measurement
 from zlmreport.job.supplied_keys import supplied_problems
 from zlmreport.job.tree import Keys, Step, place_of
@@ -45,6 +45,10 @@ def _contradictions(keys: JobKeys) -> Iterator[Contradiction]:
         yield ("axis", "travel"), "the first position of the travel must be less than the last"
     for key, message in plan_keys.contradictions(keys.plan.targets):
         yield ("plan", "targets", key), message
+    if keys.step_gauge and keys.axis.kind is AxisKind.ROTARY:
+        yield ("step_gauge",), "a step gauge has lengths, and the axis is rotary (axis.kind); take one out"
+    for key, message in step_gauge_keys.contradictions(keys.step_gauge) if keys.step_gauge else ():
+        yield ("step_gauge", key), message
     for steps, message in uncertainty_keys.contradictions(keys.uncertainty, keys.axis.kind):
         yield ("uncertainty", *steps), message
     per_metre = keys.instrument and keys.instrument.expanded_uncertainty_per_metre

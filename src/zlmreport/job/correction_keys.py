@@ -59,7 +59,7 @@ class CorrectionKeys(JobPart):
     material: MaterialKeys | None = Field(None, description="Thermal expansion of the material.")
     datum: Finite | None = Field(
         None,
-        description="Position at which the instrument was set to zero, mm; without it the first target "
-        "position.",
+        description="Position at which the instrument was set to zero, mm. Without it as the readings tell, "
+        "or else the first target position.",
         examples=[0],
     )

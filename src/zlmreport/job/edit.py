@@ -1,4 +1,4 @@
-"""Editing a job in place: effects are added to its error model and taken out of it, and nothing else changes.
+"""Editing a job in place: a list of it is changed, such as the effects of its model, and nothing else.
 
 An edit is made in memory first, so that what it would come to can be tried; it is written only if the file
 is still the one that was read.
@@ -12,30 +12,34 @@ import hashlib
 import os
 import shutil
 import tempfile
-from collections.abc import Collection, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Collection, Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 from zlmreport.errors import AccessError, InputError, Place, Problem
-from zlmreport.job.effect_list import (
-    UneditableError,
-    as_text,
-    own_list,
-    with_item,
-    with_list,
-    without_item,
-)
 from zlmreport.job.effects import EffectChoice, effect_choices
 from zlmreport.job.extents import Written
 from zlmreport.job.installed import Installed
 from zlmreport.job.job import Job
+from zlmreport.job.list_edits import (
+    ListKey,
+    UneditableError,
+    as_text,
+    own_list,
+    with_changed_item,
+    with_item,
+    with_list,
+    without_item,
+)
 from zlmreport.job.loading import load
+from zlmreport.job.model import JobKeys
 from zlmreport.job.parse import parse
 from zlmreport.job.text import decoded
 from zlmreport.job.tree import Items, Node, Scalar, walk
 
-_KEY = "model.effects"
-_PATH = ("model", "effects")
+#: The list of a model.
+EFFECTS = ListKey("model", "effects")
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,8 +73,8 @@ class Edit:
     job
         The job with the change.
     inherited_from
-        The file from which the job had its effects so far; empty if they stand in the job itself. The change
-        writes all of them into the job.
+        The file from which the job had the list so far; empty if it stands in the job itself. The change
+        writes all of it into the job.
     """
 
     path: Path
@@ -122,10 +126,32 @@ def named_effect(text: str, registry: Installed, place: Place) -> NamedEffect:
     node: Node
     node = parse(text.encode(), place.file) if ":" in text or "{" in text else Scalar(place, text.strip())
     problems: list[Problem] = []
-    choices = effect_choices(Items(place, (node,)), registry, problems, within=_KEY)
+    choices = effect_choices(Items(place, (node,)), registry, problems, within=str(EFFECTS))
     if problems:
         raise InputError(Problem(place, each.message) for each in problems)
     return NamedEffect(node, choices[0])
+
+
+@dataclass(frozen=True, slots=True)
+class ListChange:
+    """What becomes of a list of a job.
+
+    Attributes
+    ----------
+    where
+        The list.
+    removed
+        Indices of items that go out.
+    changed
+        Items that are written anew, by their indices.
+    added
+        Items that come at the end.
+    """
+
+    where: ListKey
+    removed: Collection[int] = ()
+    changed: Mapping[int, Node] = field(default_factory=dict)
+    added: Sequence[Node] = ()
 
 
 def edit_effects(
@@ -159,34 +185,81 @@ def edit_effects(
     AccessError
         If the file cannot be read.
     """
+    removed = [index for index, choice in enumerate(job.effects) if choice.identifier in remove]
+    kept = [choice for choice in job.effects if choice.identifier not in remove]
+    wanted = meaning([*kept, add.choice] if add else kept)
+    change = ListChange(EFFECTS, removed, added=[add.node] if add else [])
+    return edit_list(path, job, registry, change, lambda after: meaning(after.effects) == wanted)
+
+
+def edit_list(
+    path: Path, job: Job, registry: Installed, change: ListChange, is_meant: Callable[[Job], bool]
+) -> Edit:
+    """Return the change of one list of a job.
+
+    Parameters
+    ----------
+    path, job, registry
+        The job file, as it was loaded, and the installed plugins.
+    change
+        Of the list.
+    is_meant
+        Whether a job with the change says in that list what is meant; in all else it must be as before.
+
+    Raises
+    ------
+    InputError
+        If the file has changed since it was loaded, or the list is written in a way in which nothing can be
+        changed without changing more.
+    AccessError
+        If the file cannot be read.
+    """
     content = _content(path)
     digest = job.files[0].sha256
     _refuse_changed(content, digest, Place(str(path)))
-    listed = _listed(job)
-    kept = [index for index, choice in enumerate(job.effects) if choice.identifier not in remove]
-    wanted = [job.effects[index] for index in kept] + ([add.choice] if add else [])
-    nodes = [listed[index] for index in kept] + ([add.node] if add else [])
+    where, listed = change.where, listed_items(job, change.where)
+    nodes = [
+        *(
+            change.changed.get(index, item)
+            for index, item in enumerate(listed)
+            if index not in change.removed
+        ),
+        *change.added,
+    ]
     mark = codecs.BOM_UTF8 if content.startswith(codecs.BOM_UTF8) else b""
     text = decoded(content, str(path))
-    is_own = own_list(Written.of(text)) is not None
+    is_own = own_list(Written.of(text), where) is not None
     try:
-        if is_own:
-            text = text if add is None else with_item(text, add.node)
-            for index in sorted(set(range(len(listed))) - set(kept), reverse=True):
-                text = without_item(text, index)
-        else:
-            text = with_list(text, nodes)
-        edited = mark + text.encode()
+        edited = mark + (_edited(text, change) if is_own else with_list(text, where, nodes)).encode()
         after = _loaded(path, registry, edited)
     except UneditableError:
         after = None
-    if after is None or not _differs_only_in_effects(job, after, wanted):
+    if after is None or not is_meant(after) or not _is_alike_elsewhere(job, after, where):
         written = ", ".join(as_text(node) for node in nodes)
         raise InputError.at(
-            job.place_of(_KEY),
-            f"cannot be changed here without changing more; write it by hand: effects: [{written}]",
+            job.place_of(str(where)),
+            f"cannot be changed here without changing more; write it by hand: {where.key}: [{written}]",
         )
-    return Edit(path, digest, edited, after, "" if is_own else _origin(listed))
+    return Edit(path, digest, edited, after, "" if is_own or not listed else listed[0].place.file)
+
+
+def listed_items(job: Job, where: ListKey) -> tuple[Node, ...]:
+    """Return the items of a list as they are written, in the job itself or in a file that it extends."""
+    found = list(walk(job.tree, where.path))
+    listed = found[-1][2] if len(found) == len(where.path) else None
+    return listed.items if isinstance(listed, Items) else ()
+
+
+def _edited(text: str, change: ListChange) -> str:
+    """Return the text with the changes of a list of its own, the last item first: so indices stay true."""
+    for item in change.added:
+        text = with_item(text, change.where, item)
+    for index in sorted({*change.removed, *change.changed}, reverse=True):
+        if index in change.removed:
+            text = without_item(text, change.where, index)
+        else:
+            text = with_changed_item(text, change.where, index, change.changed[index])
+    return text
 
 
 def _content(path: Path) -> bytes:
@@ -204,17 +277,6 @@ def _refuse_changed(content: bytes, digest: str, place: Place) -> None:
         )
 
 
-def _listed(job: Job) -> tuple[Node, ...]:
-    """Return the effects of a job as they are written, its own or those of a file that it extends."""
-    found = list(walk(job.tree, _PATH))
-    listed = found[-1][2] if len(found) == len(_PATH) else None
-    return listed.items if isinstance(listed, Items) else ()
-
-
-def _origin(listed: Sequence[Node]) -> str:
-    return listed[0].place.file if listed else ""
-
-
 def _loaded(path: Path, registry: Installed, content: bytes) -> Job | None:
     try:
         return load(path, registry, content=content)
@@ -222,16 +284,25 @@ def _loaded(path: Path, registry: Installed, content: bytes) -> Job | None:
         return None
 
 
-def _differs_only_in_effects(before: Job, after: Job, wanted: Sequence[EffectChoice]) -> bool:
+def _is_alike_elsewhere(before: Job, after: Job, where: ListKey) -> bool:
+    """Return whether two jobs mean the same but for a list."""
     return (
-        _meaning(after.effects) == _meaning(wanted)
-        and after.keys.model_copy(update={"model": None}) == before.keys.model_copy(update={"model": None})
+        _without(before.keys, where) == _without(after.keys, where)
+        and (where == EFFECTS or meaning(after.effects) == meaning(before.effects))
         and after.source.options == before.source.options
         and after.standards == before.standards
         and after.axis == before.axis
     )
 
 
-def _meaning(choices: Sequence[EffectChoice]) -> list[tuple[object, ...]]:
+def _without(keys: JobKeys, where: ListKey) -> dict[str, Any]:
+    """Return what a job says but for a list."""
+    stated = keys.model_dump()
+    group = {**(stated[where.group] or {})}
+    group.pop(where.key, None)
+    return {**stated, where.group: group}
+
+
+def meaning(choices: Sequence[EffectChoice]) -> list[tuple[object, ...]]:
     """Return what effects are, without the places where they stand."""
     return [(choice.identifier, choice.settings, dict(choice.values)) for choice in choices]

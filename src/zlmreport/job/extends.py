@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from zlmreport.errors import AccessError, InputError, Place, Problem
+from zlmreport.job.defaults import Defaults
 from zlmreport.job.parse import parse
 from zlmreport.job.references import path_named
 from zlmreport.job.text import LARGEST
@@ -26,7 +27,7 @@ class Composition:
     files: tuple[SourceFile, ...]
 
 
-def compose(path: Path, content: bytes | None = None) -> Composition:
+def compose(path: Path, content: bytes | None = None, defaults: Defaults | None = None) -> Composition:
     """Read a job file and every file that it extends.
 
     Parameters
@@ -35,6 +36,8 @@ def compose(path: Path, content: bytes | None = None) -> Composition:
         The job file.
     content
         What it is to hold, instead of what it holds: to see what a change would come to.
+    defaults
+        Keys that it builds on as if it extended a file of them.
 
     Raises
     ------
@@ -45,7 +48,11 @@ def compose(path: Path, content: bytes | None = None) -> Composition:
     """
     reader = _Reader({} if content is None else {os.path.realpath(path): content})
     keys = reader.keys(path, (), None)
-    return Composition(keys, tuple(reader.files.values()))
+    if defaults is None:
+        return Composition(keys, tuple(reader.files.values()))
+    together = merged(reader.defaults(defaults), keys)
+    job, shared = defaults.as_files(path)
+    return Composition(together, (job, *reader.files.values(), shared))
 
 
 @dataclass(slots=True)
@@ -75,6 +82,10 @@ class _Reader:
             self.files[identity] = SourceFile.of(path, content)
             self._known[identity] = self._with_bases(parse(content, str(path)), (*chain, path))
         return self._known[identity]
+
+    def defaults(self, defaults: Defaults) -> Keys:
+        """Return default keys and all that they extend."""
+        return self._with_bases(defaults.keys, (defaults.path,)).without("extends")
 
     def _with_bases(self, own: Keys, chain: tuple[Path, ...]) -> Keys:
         bases = keys_of(own.place)

@@ -7,11 +7,15 @@ from zlmreport.job.tree import Keys, Scalar
 
 JOB = "zlmreport/job/1"
 SIMULATION = "zlmreport/simulation/1"
+FLEET = "zlmreport/fleet/1"
+STEP_GAUGE = "zlmreport/step-gauge/1"
 
 #: What a file is, and which command takes it.
 _KINDS = {
     JOB: ("a job", "zlmreport JOB.yaml"),
+    FLEET: ("a fleet of jobs", "zlmreport fleet FLEET.yaml"),
     SIMULATION: ("the description of a simulated test", "zlmreport simulate"),
+    STEP_GAUGE: ("the calibration of a step gauge", "step_gauge.calibration of a job"),
 }
 
 

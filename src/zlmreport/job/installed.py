@@ -61,8 +61,20 @@ class InstalledRenderer(Protocol):
         """Of its files."""
 
 
+class InstalledInstrument(Protocol):
+    """A live instrument with its own keys."""
+
+    @property
+    def identifier(self) -> str:
+        """As jobs name it."""
+
+    @property
+    def options(self) -> type[Options]:
+        """Its own keys."""
+
+
 class InstalledProgram(Protocol):
-    """A writer of part programs with its own keys."""
+    """A writer of part programs or probing programs with its own keys."""
 
     @property
     def identifier(self) -> str:
@@ -134,6 +146,14 @@ class Installed(Protocol):
     def part_programs(self) -> Sequence[InstalledProgram]:
         """All writers of part programs."""
 
+    @property
+    def probing_programs(self) -> Sequence[InstalledProgram]:
+        """All writers of probing programs."""
+
+    @property
+    def instruments(self) -> Sequence[InstalledInstrument]:
+        """All live instruments."""
+
     def source(self, identifier: str, named_at: Place | None = None) -> InstalledSource:
         """Return a data source."""
 
@@ -148,3 +168,9 @@ class Installed(Protocol):
 
     def part_program(self, identifier: str, named_at: Place | None = None) -> InstalledProgram:
         """Return a writer of part programs."""
+
+    def probing_program(self, identifier: str, named_at: Place | None = None) -> InstalledProgram:
+        """Return a writer of probing programs."""
+
+    def instrument(self, identifier: str, named_at: Place | None = None) -> InstalledInstrument:
+        """Return a live instrument."""

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from zlmreport.errors import Place
 from zlmreport.job.effects import EffectChoice
+from zlmreport.job.instruments import InstrumentChoice
 from zlmreport.job.model import JobKeys
 from zlmreport.job.options import Options
 from zlmreport.job.tree import Keys, Step, keys_of, place_of
@@ -36,16 +37,20 @@ class StandardChoice:
 
 @dataclass(frozen=True, slots=True)
 class SourceChoice:
-    """The data source that the job names, its own keys validated, and where the job names it."""
+    """The data source that the job names, its own keys validated, and where the job names it.
+
+    `instrument` is the live instrument that its keys name; None for most.
+    """
 
     identifier: str
     options: Options
     place: Place
+    instrument: InstrumentChoice | None = None
 
 
 @dataclass(frozen=True, slots=True)
 class ProgramChoice:
-    """A part program that the job names, its own keys validated, and where the job names it."""
+    """A program for a machine that the job names, its own keys validated, and where the job names it."""
 
     identifier: str
     options: Options
@@ -70,6 +75,8 @@ class Job:
         The effects of the error model, with the parameters that it fixes.
     programs
         The part programs of its plan.
+    probing_programs
+        The probing programs of its path over a step gauge.
     formats
         Identifiers of the renderers.
     directory
@@ -90,6 +97,7 @@ class Job:
     files: tuple[SourceFile, ...]
     source_as_found: SourceChoice | None = None
     programs: tuple[ProgramChoice, ...] = ()
+    probing_programs: tuple[ProgramChoice, ...] = ()
     tree: Keys = field(default_factory=lambda: keys_of(Place("job")))
 
     @property

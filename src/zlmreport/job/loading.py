@@ -8,14 +8,17 @@ from pathlib import Path
 
 from zlmreport.errors import InputError, Place, Problem, did_you_mean
 from zlmreport.job.contradictions import contradictions
+from zlmreport.job.defaults import Defaults
 from zlmreport.job.effects import effect_choices
 from zlmreport.job.extends import compose
 from zlmreport.job.formats import JOB, refuse_other_format
 from zlmreport.job.installed import Installed, InstalledStandard
+from zlmreport.job.instruments import instrument_choice
 from zlmreport.job.interpret import axis_in_si, tolerances_in_si
 from zlmreport.job.job import Job, SourceChoice, StandardChoice
 from zlmreport.job.model import JobKeys
 from zlmreport.job.programs import program_choices
+from zlmreport.job.step_gauge_file import with_gauge_as_instrument
 from zlmreport.job.text import quoted
 from zlmreport.job.tree import Entry, Items, Keys, Node, Scalar, keys_of, place_of, walk
 from zlmreport.job.validate import validate
@@ -24,9 +27,16 @@ _SOURCE = ("measurement", "source")
 _SOURCE_AS_FOUND = ("as_found", "measurement", "source")
 _EFFECTS = ("model", "effects")
 _PROGRAMS = ("plan", "programs")
+_PROBING_PROGRAMS = ("step_gauge", "path", "programs")
 
 
-def load(path: Path, registry: Installed, formats: tuple[str, ...] = (), content: bytes | None = None) -> Job:
+def load(
+    path: Path,
+    registry: Installed,
+    formats: tuple[str, ...] = (),
+    content: bytes | None = None,
+    defaults: Defaults | None = None,
+) -> Job:
     """Read a job file and check all that can be checked without reading measurements.
 
     Parameters
@@ -39,6 +49,8 @@ def load(path: Path, registry: Installed, formats: tuple[str, ...] = (), content
         Identifiers of installed renderers, instead of those that the job names.
     content
         What the job file is to hold, instead of what it holds: to see what a change would come to.
+    defaults
+        Keys that it builds on as if it extended a file of them.
 
     Raises
     ------
@@ -47,7 +59,7 @@ def load(path: Path, registry: Installed, formats: tuple[str, ...] = (), content
     AccessError
         If the job, or a file that it extends, cannot be read.
     """
-    composition = compose(path, content)
+    composition = compose(path, content, defaults)
     tree = composition.keys
     refuse_other_format(tree, JOB)
     problems: list[Problem] = []
@@ -56,12 +68,18 @@ def load(path: Path, registry: Installed, formats: tuple[str, ...] = (), content
     source_as_found = _source(tree, _SOURCE_AS_FOUND, registry, problems)
     standards = list(_standards(tree, registry, problems))
     effects = effect_choices(_at(tree, _EFFECTS), registry, problems, within=".".join(_EFFECTS))
-    programs = program_choices(_at(tree, _PROGRAMS), registry, problems, within=".".join(_PROGRAMS))
+    programs = program_choices(
+        _at(tree, _PROGRAMS), registry.part_program, problems, within=".".join(_PROGRAMS)
+    )
+    probing_programs = program_choices(
+        _at(tree, _PROBING_PROGRAMS), registry.probing_program, problems, within=".".join(_PROBING_PROGRAMS)
+    )
     formats = formats or _formats(tree, keys, registry, problems)
     if keys:
         problems.extend(contradictions(keys, tree))
     if problems or keys is None or source is None:
         raise InputError(sorted(set(problems)))
+    keys = with_gauge_as_instrument(keys)
     axis = axis_in_si(keys.axis)
     return Job(
         keys=keys,
@@ -74,6 +92,7 @@ def load(path: Path, registry: Installed, formats: tuple[str, ...] = (), content
         ),
         effects=effects,
         programs=programs,
+        probing_programs=probing_programs,
         formats=formats,
         directory=keys.output.directory or path.parent,
         files=(*composition.files, *axis.files),
@@ -95,8 +114,10 @@ def _source(
         problems.extend(error.problems)
         return None
     own = replace(keys.without("plugin"), place=plugin.place)
-    options = validate(source.options, own, problems, within=".".join(path), also_known=["plugin"])
-    return SourceChoice(source.identifier, options, plugin.place) if options else None
+    within = ".".join(path)
+    options = validate(source.options, own, problems, within=within, also_known=["plugin"])
+    instrument = instrument_choice(source.options, own, registry, problems, within=within)
+    return SourceChoice(source.identifier, options, plugin.place, instrument) if options else None
 
 
 def _standards(tree: Keys, registry: Installed, problems: list[Problem]) -> Iterator[StandardChoice]:

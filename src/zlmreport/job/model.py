@@ -21,9 +21,11 @@ from zlmreport.job.document_keys import (
     OpinionKeys,
     Person,
 )
+from zlmreport.job.exclusion_keys import ExclusionKeys
 from zlmreport.job.options import JobPath
 from zlmreport.job.part import JobPart
 from zlmreport.job.plan_keys import PlanKeys
+from zlmreport.job.step_gauge_keys import StepGaugeKeys
 from zlmreport.job.types import Date, Finite, InWords, Lines, Positive, Text, file_stem
 from zlmreport.job.uncertainty_keys import UncertaintyKeys
 from zlmreport.language import Language
@@ -180,6 +182,13 @@ class Measurement(JobPart):
         None,
         description="Additions to, deviations and exclusions from the method.",
         examples=["Three runs instead of five, for want of time."],
+    )
+    excluded: list[ExclusionKeys] = Field(
+        default_factory=list,
+        description="Readings that are set aside, each with its reason.",
+        examples=[
+            [{"target": 213.4, "direction": "+", "run": 3, "reason": "Air hose touched the reflector."}]
+        ],
     )
     operator: Text | None = Field(None, description="Who measured.")
     remarks: Lines | None = Field(None, description="Anything else that a reader should know.")
@@ -352,6 +361,11 @@ class JobKeys(JobPart):
     )
     instrument: Instrument | None = Field(None, description="The measuring instrument.")
     environment: Environment | None = Field(None, description="Conditions during the measurement.")
+    step_gauge: StepGaugeKeys | None = Field(
+        None,
+        description="A calibrated step gauge instead of a laser: the gauge, where it lies, how it is probed.",
+        examples=[{"calibration": "gauge.yaml", "initial_points": "initial-points.csv", "tip_radius": 2}],
+    )
     corrections: CorrectionKeys | None = Field(
         None,
         description="What the readings are corrected for; without it they are taken as they are.",

@@ -1,41 +1,45 @@
-"""The part programs that a job names, each with its own keys."""
+"""The part programs and probing programs that a job names, each with its own keys."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
+from typing import TypeAlias
 
 from zlmreport.errors import InputError, Place, Problem
-from zlmreport.job.installed import Installed
+from zlmreport.job.installed import InstalledProgram
 from zlmreport.job.job import ProgramChoice
 from zlmreport.job.tree import Entry, Items, Keys, Node, Scalar, keys_of
 from zlmreport.job.validate import validate
 
+#: Returns the writer of an identifier that is named at a place; raises `InputError` if there is none.
+Find: TypeAlias = Callable[[str, Place | None], InstalledProgram]
+
 
 def program_choices(
-    listed: Node | None, registry: Installed, problems: list[Problem], *, within: str
+    listed: Node | None, find: Find, problems: list[Problem], *, within: str
 ) -> tuple[ProgramChoice, ...]:
-    """Return the part programs of a list.
+    """Return the programs of a list.
 
     Parameters
     ----------
     listed
         The list; anything else has been refused before, and gives none.
-    registry
-        The installed plugins.
+    find
+        Finds the installed writers of their kind.
     problems
         Where mistakes are added: two that would write the same file among them.
     within
         The dotted path of the list, for messages.
     """
     items = listed.items if isinstance(listed, Items) else ()
-    choices = tuple(_choices(items, registry, problems, within))
-    problems.extend(_clashes(choices, registry))
+    choices = tuple(_choices(items, find, problems, within))
+    problems.extend(_clashes(choices, find))
     return choices
 
 
 def _choices(
-    items: Sequence[Node], registry: Installed, problems: list[Problem], within: str
+    items: Sequence[Node], find: Find, problems: list[Problem], within: str
 ) -> Iterator[ProgramChoice]:
     for item in items:
         keys = item if isinstance(item, Keys) else keys_of(item.place, (Entry("program", item.place, item),))
@@ -44,7 +48,7 @@ def _choices(
             continue
         place = named.value.place
         try:
-            program = registry.part_program(named.value.text, place)
+            program = find(named.value.text, place)
         except InputError as error:
             problems.extend(error.problems)
             continue
@@ -54,11 +58,11 @@ def _choices(
             yield ProgramChoice(program.identifier, options, place)
 
 
-def _clashes(choices: Sequence[ProgramChoice], registry: Installed) -> Iterator[Problem]:
-    """Yield part programs whose file would be that of one before them."""
+def _clashes(choices: Sequence[ProgramChoice], find: Find) -> Iterator[Problem]:
+    """Yield programs whose file would be that of one before them."""
     by_suffix: dict[str, str] = {}
     for choice in choices:
-        suffix = registry.part_program(choice.identifier).suffix
+        suffix = find(choice.identifier, None).suffix
         other = by_suffix.get(suffix)
         if other is not None:
             clash = (
@@ -71,20 +75,20 @@ def _clashes(choices: Sequence[ProgramChoice], registry: Installed) -> Iterator[
 
 
 def programs_by_name(
-    names: Sequence[str], named_at: Place, stated: Sequence[ProgramChoice], registry: Installed
+    names: Sequence[str], named_at: Place, stated: Sequence[ProgramChoice], find: Find
 ) -> tuple[ProgramChoice, ...]:
-    """Return part programs that somebody names instead of those of a job, with the keys that it states.
+    """Return programs that somebody names instead of those of a job, with the keys that it states.
 
     Parameters
     ----------
     names
-        Identifiers of installed writers of part programs.
+        Identifiers of installed writers.
     named_at
         Where they are named.
     stated
         Those of the job.
-    registry
-        The installed plugins.
+    find
+        Finds the installed writers of their kind.
 
     Raises
     ------
@@ -95,11 +99,11 @@ def programs_by_name(
     of_job = {choice.identifier: choice for choice in stated}
     items = [Scalar(named_at, name) for name in names]
     choices = [
-        of_job[item.text] if item.text in of_job else next(_choices([item], registry, problems, ""), None)
+        of_job[item.text] if item.text in of_job else next(_choices([item], find, problems, ""), None)
         for item in items
     ]
     found = tuple(choice for choice in choices if choice)
-    problems.extend(_clashes([replace(choice, place=named_at) for choice in found], registry))
+    problems.extend(_clashes([replace(choice, place=named_at) for choice in found], find))
     if problems:
         raise InputError(problems)
     return found

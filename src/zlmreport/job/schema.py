@@ -11,12 +11,15 @@ from pydantic.errors import PydanticInvalidForJsonSchema
 from zlmreport.job.installed import (
     Installed,
     InstalledEffect,
+    InstalledInstrument,
     InstalledProgram,
     InstalledSource,
     InstalledStandard,
 )
+from zlmreport.job.instruments import LiveInstrumentKeys
 from zlmreport.job.model import DecisionRuleKeys, JobKeys, SourceKeys, StandardKeys
 from zlmreport.job.plan_keys import ProgramKeys
+from zlmreport.job.step_gauge_keys import ProbingProgramKeys
 
 Schema: TypeAlias = dict[str, Any]
 
@@ -32,6 +35,11 @@ def job_schema(registry: Installed) -> Schema:
         "description": definitions[SourceKeys.__name__]["description"],
         "oneOf": [_source(source, definitions) for source in registry.sources],
     }
+    for name in [name for name in definitions if name.endswith(f".{LiveInstrumentKeys.__name__}")]:
+        definitions[name] = {
+            "description": definitions[name]["description"],
+            "oneOf": [_instrument(instrument, definitions) for instrument in registry.instruments],
+        }
     definitions[StandardKeys.__name__] = {
         "description": definitions[StandardKeys.__name__]["description"],
         "anyOf": [
@@ -50,13 +58,17 @@ def job_schema(registry: Installed) -> Schema:
             *(_effect(effect, definitions) for effect in registry.effects),
         ]
     }
-    definitions[ProgramKeys.__name__] = {
-        "description": definitions[ProgramKeys.__name__]["description"],
-        "anyOf": [
-            {"enum": [program.identifier for program in registry.part_programs]},
-            *(_program(program, definitions) for program in registry.part_programs),
-        ],
-    }
+    for keys, programs in (
+        (ProgramKeys, registry.part_programs),
+        (ProbingProgramKeys, registry.probing_programs),
+    ):
+        definitions[keys.__name__] = {
+            "description": definitions[keys.__name__]["description"],
+            "anyOf": [
+                {"enum": [program.identifier for program in programs]},
+                *(_program(program, definitions) for program in programs),
+            ],
+        }
     formats = definitions["Output"]["properties"]["formats"]
     formats["items"] = {"enum": [renderer.identifier for renderer in registry.renderers]}
     for part in _parts(schema):
@@ -74,6 +86,12 @@ def _source(source: InstalledSource, definitions: Schema) -> Schema:
     """Return the schema of a data source's keys."""
     key = {"const": source.identifier, "description": "Identifier of the data source."}
     return _with_keys(_own_keys(source.options, source.identifier, definitions), {"plugin": key})
+
+
+def _instrument(instrument: InstalledInstrument, definitions: Schema) -> Schema:
+    """Return the schema of a live instrument's keys."""
+    key = {"const": instrument.identifier, "description": "Identifier of the live instrument."}
+    return _with_keys(_own_keys(instrument.options, instrument.identifier, definitions), {"plugin": key})
 
 
 def _standard(standard: InstalledStandard, definitions: Schema) -> Schema:

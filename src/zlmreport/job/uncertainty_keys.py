@@ -12,7 +12,14 @@ from zlmreport.job.types import NotNegative, Text
 from zlmreport.measurement.axis import AxisKind
 
 #: `zlmreport.uncertainty.contribution.Acts`, by its values.
-ActsName: TypeAlias = Literal["along-the-length", "at-each-position", "at-each-reading"]
+ActsName: TypeAlias = Literal[
+    "along-the-length",
+    "between-directions",
+    "at-the-datum",
+    "at-each-position",
+    "at-each-approach",
+    "at-each-reading",
+]
 
 
 class ContributionKeys(JobPart):
@@ -29,8 +36,9 @@ class ContributionKeys(JobPart):
         None, description="Or the full range of the values that it may have, micrometres (arc seconds)."
     )
     acts: ActsName = Field(
-        description="Which readings share it: all in proportion to their distance from the first target, "
-        "those of a target, or none.",
+        description="Which readings share it: all in proportion to their distance from the first target, all "
+        "of the negative direction, all alike, those of a target, those of a target in one "
+        "direction, or none.",
         examples=["at-each-reading"],
     )
     distribution: Literal["normal", "rectangular", "triangular", "one-sided"] | None = Field(

@@ -10,7 +10,7 @@ from pydantic import BaseModel, ValidationError
 
 from zlmreport.errors import Problem
 from zlmreport.job.located import LocatedText
-from zlmreport.job.mistakes import GROUP_EXPECTED, TEXT_EXPECTED, Mistake, mistakes_in
+from zlmreport.job.mistakes import GROUP_EXPECTED, MISSING, TEXT_EXPECTED, Mistake, mistakes_in
 from zlmreport.job.sentences import problem
 from zlmreport.job.tree import Items, Keys, Node, Scalar, Step
 
@@ -45,19 +45,31 @@ def validate(
     also_known
         Keys that belong to the group and are not the model's, for messages.
     """
+    found, mistakes = _read(model, keys)
+    problems.extend(problem(mistake, model, within, also_known) for mistake in mistakes)
+    return found
+
+
+def problems_in_part(model: type[BaseModel], keys: Keys, within: str) -> list[Problem]:
+    """Return what is wrong with some keys of a group, the rest of which stands elsewhere."""
+    _, mistakes = _read(model, keys)
+    return [problem(mistake, model, within, ()) for mistake in mistakes if mistake.kinds != {MISSING}]
+
+
+def _read(model: type[Model], keys: Keys) -> tuple[Model | None, tuple[Mistake, ...]]:
+    """Return a group of keys as its model, or None and the mistakes in it."""
     readings: dict[Path, Callable[[Scalar], Any]] = {}
     try:
-        return model.model_validate(_values(keys, (), readings))
+        return model.model_validate(_values(keys, (), readings)), ()
     except ValidationError as error:
         mistakes = mistakes_in(error, keys)
     readings = {mistake.path: reading for mistake in mistakes if (reading := _other_reading(mistake))}
     if readings:
         try:
-            return model.model_validate(_values(keys, (), readings))
+            return model.model_validate(_values(keys, (), readings)), ()
         except ValidationError as error:
             mistakes = mistakes_in(error, keys)
-    problems.extend(problem(mistake, model, within, also_known) for mistake in mistakes)
-    return None
+    return None, mistakes
 
 
 def _other_reading(mistake: Mistake) -> Callable[[Scalar], Any] | None:

@@ -61,6 +61,17 @@ class MeasurementSet:
         otherwise; NaN where not logged.
     provenance
         Where the readings come from.
+    one_sided_targets
+        Whether each target can be reached in one direction only, as the faces of a step gauge: the other
+        direction is then no reading that is missing.
+    reversal_is_relative
+        Whether the readings of the two directions were brought together by means of themselves, as by a
+        probe's radius that the gauge tells: reversal values are then relative to their mean.
+    datum
+        Position at which the instrument was set to zero, m or rad; None where the source does not tell.
+    is_indication
+        Whether the deviations are errors of indication, indicated − calibrated position: x with the opposite
+        sign, as a test with an artefact states it.
     """
 
     axis: Axis
@@ -72,6 +83,10 @@ class MeasurementSet:
     time: FloatArray | None = None
     conditions: Mapping[str, FloatArray] = field(default_factory=dict)
     provenance: Provenance = field(default_factory=lambda: Provenance(source="unknown"))
+    one_sided_targets: bool = False
+    reversal_is_relative: bool = False
+    is_indication: bool = False
+    datum: float | None = None
 
     @property
     def approaches(self) -> tuple[Approach, ...]:
@@ -107,7 +122,10 @@ class MeasurementSet:
         for approach in self.approaches:
             of_approach = grid[approach.index]
             runs_taken = np.unique(self.run[self.approach == approach])
+            reachable = np.unique(self.target[self.approach == approach])
             for position, column in np.argwhere(np.isnan(of_approach)):
+                if self.one_sided_targets and position not in reachable:
+                    continue
                 if self.runs[column] in runs_taken:
                     found.append(
                         MissingReading(

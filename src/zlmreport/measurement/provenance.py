@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Self
 
 from zlmreport.language import Words
+from zlmreport.measurement.approach import Approach
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,6 +65,34 @@ class Correction:
 
 
 @dataclass(frozen=True, slots=True)
+class Exclusion:
+    """A reading that was set aside.
+
+    Attributes
+    ----------
+    reading
+        Its place in the measurement set.
+    target_position
+        m or rad.
+    approach
+        Direction of approach.
+    run
+        Number of its run, from 1.
+    deviation
+        What was read, corrected as the others are, m or rad.
+    reason
+        Why, in the words of whoever did it.
+    """
+
+    reading: int
+    target_position: float
+    approach: Approach
+    run: int
+    deviation: float
+    reason: str
+
+
+@dataclass(frozen=True, slots=True)
 class Provenance:
     """The origin of a measurement set.
 
@@ -77,9 +106,12 @@ class Provenance:
         What the reader has to say of them: units taken, columns mapped, what the file left open.
     corrections
         What this program has corrected in the readings, in its order; nothing if they are as they were read.
+    exclusions
+        Readings that were set aside: in the set they are missing.
     """
 
     source: str
     files: tuple[SourceFile, ...] = ()
     remarks: tuple[Words, ...] = ()
     corrections: tuple[Correction, ...] = ()
+    exclusions: tuple[Exclusion, ...] = ()

@@ -115,6 +115,11 @@ class Fit:
         return self.deviation - self.fitted
 
     @property
+    def open_deviation(self) -> FloatArray:
+        """Deviations less what given parameters make of them, shape (N,), m or rad."""
+        return _open(self.model, self.design, self.deviation, self.solution)
+
+    @property
     def degrees(self) -> int:
         """Readings less estimated parameters."""
         return len(self.deviation) - sum(not estimate.is_given for estimate in self.estimates)
@@ -173,7 +178,7 @@ def fit(
     for _ in range(2 if any(len(theta) for theta in solution.thetas) else 1):
         base = _jacobian(model, design, solution, problem.places(solution.thetas))
         space = contrasts_of(base, parts, noise.weights)
-        noise = _estimated(space, deviation, noise.weights)
+        noise = _estimated(space, _open(model, design, deviation, solution), noise.weights)
         problem = Problem(model, design, deviation, whitener(parts, noise))
         solution = refine(problem, problem.solution(solution.thetas))
     return _finished(problem, solution, space, noise, taken)
@@ -186,6 +191,14 @@ def _estimated(space: Contrasts, deviation: FloatArray, weights_: FloatArray) ->
     )
     by_source = {part.source: float(ratio) for part, ratio in zip(space.parts, ratios, strict=True)}
     return Noise(float(np.sqrt(variance)), by_source, weights_)
+
+
+def _open(model: AxisModel, design: Design, deviation: FloatArray, solution: Solution) -> FloatArray:
+    """Return deviations less what given parameters make of them, shape (N,)."""
+    left = deviation
+    for term, theta in zip(model.terms, solution.thetas, strict=True):
+        left = left - term.columns(design, theta)[1]
+    return left
 
 
 def _columns(model: AxisModel, design: Design, solution: Solution) -> list[FloatArray]:

@@ -77,7 +77,7 @@ class Step:
 
 def hold_contest(fitted: Fit, effects: Iterable[Effect]) -> Step:
     """Hold a contest of all effects beside a fitted model."""
-    design, deviation = fitted.design, fitted.deviation
+    design, deviation = fitted.design, fitted.open_deviation
     entered = entrants(fitted.model, design, effects)
     known = all(len(theta) == 0 for theta in fitted.solution.thetas)
     least_visible = _LEAST_VISIBLE if known else _LEAST_VISIBLE_LATER

@@ -28,20 +28,20 @@ from zlmreport.testing.expectations import (
 _CORE_KEYS = frozenset({"plugin"})
 
 
-def is_named(source: DataSource, _keys: Mapping[str, Any], _axis: Axis) -> None:
+def is_named(source: DataSource, _keys: Mapping[str, Any], _axis: Axis | SourceContext) -> None:
     """Check that it has an identifier that can be typed, and a title in every language."""
     expect_members(source, DataSource)
     expect_identifier(source.identifier, repr(source))
     expect_words(source.title, f"{source.identifier}: title")
 
 
-def options_are_described(source: DataSource, _keys: Mapping[str, Any], _axis: Axis) -> None:
+def options_are_described(source: DataSource, _keys: Mapping[str, Any], _axis: Axis | SourceContext) -> None:
     """Check that its job keys are described, and none is a key of the core."""
     expect_options(source.options, source.identifier)
     expect_own_keys(source.options, _CORE_KEYS, source.identifier)
 
 
-def reads_a_measurement_set(source: DataSource, keys: Mapping[str, Any], axis: Axis) -> None:
+def reads_a_measurement_set(source: DataSource, keys: Mapping[str, Any], axis: Axis | SourceContext) -> None:
     """Check that what it reads is whole: rising targets, directions, runs from 1, arrays of one length."""
     measurements = _read(source, keys, axis)
     where = source.identifier
@@ -69,13 +69,13 @@ def reads_a_measurement_set(source: DataSource, keys: Mapping[str, Any], axis: A
     expect(np.all(measurements.run >= 1), f"{where}: runs are numbered from 1")
 
 
-def keeps_the_axis(source: DataSource, keys: Mapping[str, Any], axis: Axis) -> None:
+def keeps_the_axis(source: DataSource, keys: Mapping[str, Any], axis: Axis | SourceContext) -> None:
     """Check that the measurement set is of the axis that the job describes."""
-    read = _read(source, keys, axis).axis
-    expect(read == axis, f"{source.identifier}: the axis read is {read}; expected the job's, {axis}")
+    read, stated = _read(source, keys, axis).axis, _context(axis).axis
+    expect(read == stated, f"{source.identifier}: the axis read is {read}; expected the job's, {stated}")
 
 
-def values_are_read_only(source: DataSource, keys: Mapping[str, Any], axis: Axis) -> None:
+def values_are_read_only(source: DataSource, keys: Mapping[str, Any], axis: Axis | SourceContext) -> None:
     """Check that nobody can alter a reading."""
     measurements = _read(source, keys, axis)
     arrays = {
@@ -90,13 +90,13 @@ def values_are_read_only(source: DataSource, keys: Mapping[str, Any], axis: Axis
         expect(not values.flags.writeable, f"{source.identifier}: {name} can be altered; make it read-only")
 
 
-def reads_the_same_again(source: DataSource, keys: Mapping[str, Any], axis: Axis) -> None:
+def reads_the_same_again(source: DataSource, keys: Mapping[str, Any], axis: Axis | SourceContext) -> None:
     """Check that the same file gives the same measurement set."""
     first, second = (_read(source, keys, axis) for _ in range(2))
     expect(same_value(first, second), f"{source.identifier}: reading the same data again gives another set")
 
 
-def names_its_files(source: DataSource, keys: Mapping[str, Any], axis: Axis) -> None:
+def names_its_files(source: DataSource, keys: Mapping[str, Any], axis: Axis | SourceContext) -> None:
     """Check that the provenance names the source, and each file read, without its folder, with its bytes."""
     provenance = _read(source, keys, axis).provenance
     expect(
@@ -119,13 +119,15 @@ def names_its_files(source: DataSource, keys: Mapping[str, Any], axis: Axis) -> 
         )
 
 
-def remarks_are_worded(source: DataSource, keys: Mapping[str, Any], axis: Axis) -> None:
+def remarks_are_worded(source: DataSource, keys: Mapping[str, Any], axis: Axis | SourceContext) -> None:
     """Check that what it has to say of the file is said in every language."""
     for number, remark in enumerate(_read(source, keys, axis).provenance.remarks, 1):
         expect_words(remark, f"{source.identifier}: provenance: remark {number}")
 
 
-def damaged_files_are_refused(source: DataSource, keys: Mapping[str, Any], axis: Axis) -> None:
+def damaged_files_are_refused(
+    source: DataSource, keys: Mapping[str, Any], axis: Axis | SourceContext
+) -> None:
     """Check that a file that is no such file is refused by name: no other exception, no measurement set."""
     for key, path in _files(source, keys):
         for damage, content in _damaged(path.read_bytes()).items():
@@ -174,12 +176,17 @@ def _files(source: DataSource, keys: Mapping[str, Any]) -> Iterator[tuple[str, P
             yield key, value
 
 
-def _read(source: DataSource, keys: Mapping[str, Any], axis: Axis) -> MeasurementSet:
+def _read(source: DataSource, keys: Mapping[str, Any], axis: Axis | SourceContext) -> MeasurementSet:
     options = source.options.model_validate(dict(keys))
-    return source.read(options, SourceContext(axis, Place("job.yaml", 1, 1)))
+    return source.read(options, _context(axis))
 
 
-#: Every check of a data source, each called with the source, its job keys, and the axis.
+def _context(axis: Axis | SourceContext) -> SourceContext:
+    return axis if isinstance(axis, SourceContext) else SourceContext(axis, Place("job.yaml", 1, 1))
+
+
+#: Every check of a data source, each called with the source, its job keys, and the axis, or the whole context
+#: where the source needs more of the job than the axis.
 SOURCE_CHECKS = (
     is_named,
     options_are_described,
@@ -193,7 +200,9 @@ SOURCE_CHECKS = (
 )
 
 
-def check_source(source: DataSource, keys: Mapping[str, Any], *, axis: Axis | None = None) -> None:
+def check_source(
+    source: DataSource, keys: Mapping[str, Any], *, axis: Axis | SourceContext | None = None
+) -> None:
     """Run every check on a data source.
 
     Parameters
@@ -203,7 +212,8 @@ def check_source(source: DataSource, keys: Mapping[str, Any], *, axis: Axis | No
     keys
         Its job keys for data that it reads without complaint, as a job file would give them.
     axis
-        The axis that the data are of; a linear one, X, if it is not given.
+        The axis that the data are of; a linear one, X, if it is not given. Or the whole context of a source
+        that needs more of the job.
 
     Raises
     ------

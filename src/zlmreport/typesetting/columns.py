@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from math import ceil
 from unicodedata import combining
 
@@ -196,6 +197,7 @@ def _longest_word(text: str) -> float:
     return min(max(map(_width, text.split()), default=0.0), _LONGEST_WORD_EM)
 
 
+@lru_cache(maxsize=4096)
 def _width(text: str) -> float:
     return sum(map(_character_width, text))
 

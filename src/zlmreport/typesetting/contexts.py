@@ -9,6 +9,12 @@ from markupsafe import Markup
 
 from zlmreport.certificate.document import Facts, Letterhead
 from zlmreport.quantities.notation import Span
+from zlmreport.typesetting.overview_contexts import (
+    OverviewContext,
+    OverviewLegendContext,
+    OverviewSectionContext,
+    OverviewTableContext,
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -210,6 +216,16 @@ class DocumentContext:
     sections: tuple[Markup, ...]
 
 
+@dataclass(frozen=True, slots=True)
+class WorkbenchContext:
+    """The page of the workbench, which its scripts fill: language, title, and what it says without them."""
+
+    template: ClassVar[str] = "workbench.html"
+    language: str
+    title: str
+    needs_script: str
+
+
 #: What a template is rendered with.
 Context: TypeAlias = (
     DocumentContext
@@ -222,4 +238,9 @@ Context: TypeAlias = (
     | NoticeContext
     | GraphContext
     | SymbolContext
+    | OverviewContext
+    | OverviewSectionContext
+    | OverviewTableContext
+    | OverviewLegendContext
+    | WorkbenchContext
 )

@@ -13,12 +13,19 @@ class Acts(Enum):
     """Which readings of a test share one error.
 
     Of a scale error all: zero at the datum, where the instrument is zeroed, and in proportion to the
-    distance from it. Of an error of position (the faces of a polygon, the nonlinearity of a sensor) all
-    readings of one target position. Of a fluctuation none: each reading has its own.
+    distance from it. Of an error that parts the directions (the radius of a probe that touches one face in
+    each of them) all of the negative direction: the datum lies in the positive one. Of an error of the datum
+    all, and alike. Of an error of position (the faces of a polygon, the nonlinearity of a sensor)
+    all readings of one target position; of a face that is touched from one side only (that of a gauge's
+    block) all readings of one target position in one direction. Of a fluctuation none: each reading has its
+    own.
     """
 
     ALONG_THE_LENGTH = "along-the-length"
+    BETWEEN_DIRECTIONS = "between-directions"
+    AT_THE_DATUM = "at-the-datum"
     AT_EACH_POSITION = "at-each-position"
+    AT_EACH_APPROACH = "at-each-approach"
     AT_EACH_READING = "at-each-reading"
 
 

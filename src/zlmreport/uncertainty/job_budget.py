@@ -27,27 +27,34 @@ _MOST_DECIMALS = 3
 _PER_KELVIN = 1e-6  # of µm/(m·K)
 
 
-def budget_of(job: Job, measurements: MeasurementSet) -> Budget | NoBudget:
+def budget_of(
+    job: Job, measurements: MeasurementSet, of_the_instrument: tuple[Contribution, ...] = ()
+) -> Budget | NoBudget:
     """Return the budget of a job's set-up; none where the job gives no number for the instrument.
+
+    Parameters
+    ----------
+    job
+        The job.
+    measurements
+        Its readings.
+    of_the_instrument
+        The instrument's own contributions where it is no device of one uncertainty, but a step gauge.
 
     Raises
     ------
     InputError
         If a figure is stated without what its formula needs beside it.
     """
-    instrument = job.keys.instrument
-    if instrument is None or not (
-        instrument.expanded_uncertainty or instrument.expanded_uncertainty_per_metre
-    ):
-        return NoBudget(wording.NO_INSTRUMENT)
-    if isinstance(instrument.expanded_uncertainty, str):
-        return NoBudget(wording.INSTRUMENT_IN_WORDS)
     set_up = SetUp.of(job, measurements)
+    instrument = of_the_instrument or _instrument(job, set_up)
+    if isinstance(instrument, NoBudget):
+        return instrument
     problems = sorted(set_up.lacks(job))
     if problems:
         raise InputError(problems)
     contributions = (
-        _device(instrument, instrument.expanded_uncertainty or 0.0, job, set_up),
+        *instrument,
         *_of_the_length(job, set_up),
         *air_contributions(job, measurements, set_up.length),
         *_fluctuations(job, measurements),
@@ -57,6 +64,18 @@ def budget_of(job: Job, measurements: MeasurementSet) -> Budget | NoBudget:
     considered = [each.name for each in contributions]
     ordered = tuple(each for acts in Acts for each in contributions if each.acts is acts)
     return Budget(ordered, tuple(words for words in usual.values() if words not in considered))
+
+
+def _instrument(job: Job, set_up: SetUp) -> tuple[Contribution, ...] | NoBudget:
+    """Return the contribution of the instrument that the job names."""
+    instrument = job.keys.instrument
+    if instrument is None or not (
+        instrument.expanded_uncertainty or instrument.expanded_uncertainty_per_metre
+    ):
+        return NoBudget(wording.NO_INSTRUMENT)
+    if isinstance(instrument.expanded_uncertainty, str):
+        return NoBudget(wording.INSTRUMENT_IN_WORDS)
+    return (_device(instrument, instrument.expanded_uncertainty or 0.0, job, set_up),)
 
 
 def _device(instrument: Instrument, constant: float, job: Job, set_up: SetUp) -> Contribution:

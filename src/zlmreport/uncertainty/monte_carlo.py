@@ -15,6 +15,7 @@ import numpy as np
 
 from zlmreport.evaluation.evaluation import Arithmetic, Evaluation
 from zlmreport.evaluation.statistics import PositionStatistics, position_statistics
+from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.quantities.arrays import FloatArray
 from zlmreport.uncertainty.budget import COVERAGE_FACTOR, COVERAGE_PROBABILITY, Budget, effect_along
@@ -91,14 +92,21 @@ def _simulated(budget: Budget, measurements: MeasurementSet, trials: int) -> Ite
     readings = measurements.deviations()
     generator = np.random.Generator(np.random.PCG64(_seed(measurements, readings)))
     along = stratified_draws(budget.acting(Acts.ALONG_THE_LENGTH), trials, generator)
+    parting = stratified_draws(budget.acting(Acts.BETWEEN_DIRECTIONS), trials, generator)
+    alike = stratified_draws(budget.acting(Acts.AT_THE_DATUM), trials, generator)
     effect = effect_along(measurements.target_positions)
+    parted = np.array([float(approach is Approach.NEGATIVE) for approach in Approach])
     at_once = max(1, _AT_ONCE // readings.size)
     for first in range(0, trials, at_once):
         count = min(at_once, trials - first)
         errors = along[first : first + count, np.newaxis] * effect
         errors += single_draws(budget.acting(Acts.AT_EACH_POSITION), errors.shape, generator)
         own = single_draws(budget.acting(Acts.AT_EACH_READING), (count, *readings.shape), generator)
-        yield readings + errors[:, np.newaxis, :, np.newaxis] + own
+        trial = slice(first, first + count)
+        common = alike[trial, np.newaxis] + np.multiply.outer(parting[trial], parted)
+        shared = errors[:, np.newaxis, :] + common[..., np.newaxis]
+        shared += single_draws(budget.acting(Acts.AT_EACH_APPROACH), shared.shape, generator)
+        yield readings + shared[..., np.newaxis] + own
 
 
 def _seed(measurements: MeasurementSet, readings: FloatArray) -> int:

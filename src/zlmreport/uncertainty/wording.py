@@ -74,8 +74,17 @@ ACTS: Mapping[Acts, Words] = MappingProxyType(
             en="all readings, in proportion to the distance from the first target",
             de="alle Messwerte, im Verhältnis zum Abstand von der ersten Sollposition",
         ),
+        Acts.BETWEEN_DIRECTIONS: Words(
+            en="all readings of the negative direction, against those of the positive one",
+            de="alle Messwerte der negativen Richtung, gegenüber denen der positiven",
+        ),
+        Acts.AT_THE_DATUM: Words(en="all readings alike", de="alle Messwerte gleich"),
         Acts.AT_EACH_POSITION: Words(
             en="all readings of a target alike", de="alle Messwerte einer Sollposition gleich"
+        ),
+        Acts.AT_EACH_APPROACH: Words(
+            en="all readings of a target in one direction alike",
+            de="alle Messwerte einer Sollposition in einer Richtung gleich",
         ),
         Acts.AT_EACH_READING: Words(en="each reading by itself", de="jeder Messwert für sich"),
     }

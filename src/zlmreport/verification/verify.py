@@ -13,7 +13,7 @@ from zlmreport.certificate.document import Certificate
 from zlmreport.errors import InputError, Place, ZlmreportError
 from zlmreport.job.loading import load
 from zlmreport.plugins import Registry
-from zlmreport.protocols import Renderer, relationship_of
+from zlmreport.protocols import Renderer, made, relationship_of
 from zlmreport.verification import files, numerals, pages, values
 from zlmreport.verification.carrier import Carrier, guarded, opened, read_file
 from zlmreport.verification.digital import digital_findings
@@ -22,7 +22,7 @@ from zlmreport.verification.signature import signature_finding
 from zlmreport.verification.stated import Results, Stated, stated_by
 from zlmreport.verification.unpacking import laid_out
 
-#: The format of what is verified.
+#: The format of a certificate whose creator is this program.
 PRINTED = "pdf"
 _PROGRAM = GENERATOR.partition(" ")[0]
 _OTHER_RELEASES = (
@@ -113,8 +113,8 @@ def _identity(results: Results) -> Identity:
 
 def _again(job_path: Path, carrier: Carrier, registry: Registry) -> _Again:
     """Load the attached job, evaluate it, and print it with all that the document carries."""
-    results, printer = registry.renderer(pipeline.RESULTS), registry.renderer(PRINTED)
-    job = load(job_path, registry, formats=(PRINTED,))
+    results, printer = registry.renderer(pipeline.RESULTS), _printer(carrier, registry)
+    job = load(job_path, registry, formats=(printer.identifier,))
     certificate = pipeline.compose(job, registry)
     others = [
         each for each in registry.renderers if each is not results and _is_carried(each, certificate, carrier)
@@ -123,9 +123,15 @@ def _again(job_path: Path, carrier: Carrier, registry: Registry) -> _Again:
     return _Again(
         certificate,
         (GENERATOR, registry.versions(job)),
-        opened(contents[PRINTED], Place(f"{carrier.place} (printed again)")),
+        opened(contents[printer.identifier], Place(f"{carrier.place} (printed again)")),
         contents[pipeline.RESULTS],
     )
+
+
+def _printer(carrier: Carrier, registry: Registry) -> Renderer:
+    """Return the renderer that made a document, as the document says."""
+    own = (each for each in registry.renderers if made(each, carrier.creator))
+    return next(own, None) or registry.renderer(PRINTED)
 
 
 def _is_carried(renderer: Renderer, certificate: Certificate, carrier: Carrier) -> bool:

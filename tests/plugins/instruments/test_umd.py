@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from random import Random
 
+import numpy as np
 import pytest
 
 from plugins.instruments.exchanges import DATA, lines
@@ -13,6 +14,7 @@ from zlmreport.emulation.emulator import Scene
 from zlmreport.emulation.faults import Planned, Trouble, Troubles
 from zlmreport.live.reading import Fault, LiveReading
 from zlmreport.live.streaming import WrongDeviceError
+from zlmreport.physics.refractive_index import index_change
 from zlmreport_plugins.instruments.umd.decoder import Setup, UmdDecoder
 from zlmreport_plugins.instruments.umd.emulator import UmdEmulator
 from zlmreport_plugins.instruments.umd.frame import AxisCounts, Frame, frame_in
@@ -298,3 +300,26 @@ def test_a_reading_that_is_not_understood_has_no_value() -> None:
     number = len(data.splitlines()) - 2
     readings = _decoded("umd1", _spoilt(data, number, b" 0 0 0 ", b" 7 0 0 "))
     assert [math.isnan(each.value) for each in readings[-3:]] == [False, True, True]
+
+
+def test_the_sensors_of_an_emulated_display_measure_what_the_scene_says() -> None:
+    room = {
+        "air_temperature": 295.65,
+        "axis_temperature": 297.15,
+        "air_pressure": 98_000.0,
+        "relative_humidity": 0.3,
+    }
+    scene = Scene(conditions=lambda _: room)
+    last = _decoded("umd1", UmdEmulator(UMD["umd1"], scene, HALF_WAVE).unasked(1.0))[-1]
+    expected = {**room, "temperature_2": room["axis_temperature"]}
+    del expected["axis_temperature"]
+    assert dict(last.conditions) == pytest.approx(expected)
+
+
+def test_an_emulated_display_counts_the_waves_in_the_air_that_there_is() -> None:
+    thin = {"air_pressure": 90_000.0}
+    scene = Scene(MovingAxis((0.0, 1.0), feed=0.5, dwell=1.0), conditions=lambda _: thin)
+    readings = _decoded("umd1", UmdEmulator(UMD["umd1"], scene, HALF_WAVE).unasked(3.9))
+    change = index_change(np.array(293.15), np.array(90_000.0), np.array(0.5))
+    # a step of the display at each end
+    assert readings[-1].value == pytest.approx(1 + float(change), abs=2 * HALF_WAVE / 256)

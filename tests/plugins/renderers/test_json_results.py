@@ -24,7 +24,7 @@ from zlmreport.language import Language, Words
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.axis import AxisKind
 from zlmreport.measurement.measurement_set import MeasurementSet
-from zlmreport.measurement.provenance import SourceFile
+from zlmreport.measurement.provenance import Exclusion, SourceFile
 from zlmreport.uncertainty.budget import Budget, NoBudget
 from zlmreport.uncertainty.contribution import Acts, Distribution
 from zlmreport.uncertainty.expanded import with_uncertainty
@@ -207,6 +207,22 @@ def test_missing_readings_are_named_and_counted() -> None:
     ]
     rows = {row["target"]: row for row in results["evaluations"][0]["positions"]}
     assert (rows[150.0]["n_fwd"], rows[150.0]["n_bwd"]) == (4, 5)
+
+
+def test_readings_that_were_set_aside_are_named_with_value_and_reason() -> None:
+    measurements = samples.measurements(missing=(3,))
+    aside = Exclusion(3, 0.15, Approach.POSITIVE, 1, 2.5e-6, "Air hose touched the reflector.")
+    provenance = replace(measurements.provenance, exclusions=(aside,))
+    results = results_of(replace(measurements, provenance=provenance))
+    assert results["measurements"]["excluded"] == [
+        {
+            "target": 150.0,
+            "direction": "fwd",
+            "run": 1,
+            "deviation": pytest.approx(2.5),
+            "reason": "Air hose touched the reflector.",
+        }
+    ]
 
 
 def test_a_rotary_axis_is_in_degrees_and_seconds_of_arc() -> None:

@@ -22,6 +22,7 @@ from weasyprint.text.line_break import create_layout
 
 from zlmreport.figures.canvas import Colour, Face, Fill, Run, Segment, Stroke
 from zlmreport.figures.figure import Figure
+from zlmreport.figures.sketch import figure_size
 from zlmreport.language import Language
 
 #: The family under which the document's style sheet brings the bundled faces in.
@@ -43,15 +44,13 @@ class PageGraph:
 
     def get_intrinsic_size(self, image_resolution: float, font_size: float) -> tuple[float, float, float]:
         """Return width and height in CSS pixels, and their ratio."""
-        from zlmreport.figures.draw import figure_size  # noqa: PLC0415 - brings matplotlib
-
         del image_resolution, font_size
         width, height = figure_size(self._figure)
         return width * _PIXELS_PER_POINT, height * _PIXELS_PER_POINT, width / height
 
     def draw(self, stream: Any, concrete_width: float, concrete_height: float, style: Any) -> None:
         """Draw the figure into the page, in the size that the document gives it."""
-        from zlmreport.figures.draw import draw, figure_size  # noqa: PLC0415 - brings matplotlib
+        from zlmreport.figures.draw import draw  # noqa: PLC0415 - brings matplotlib
 
         width, height = figure_size(self._figure)
         stream.transform(a=concrete_width / width, d=concrete_height / height)

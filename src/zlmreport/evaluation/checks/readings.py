@@ -17,6 +17,19 @@ _MEASURED = {
     (): Words("no reading at all", "kein einziger Messwert"),
 }
 
+_ONE_SIDED = Words(
+    "each target in one direction only; what needs both directions at one target is not reported",
+    "jede Sollposition nur in einer Richtung; was beide Richtungen an einer Sollposition braucht, ist nicht "
+    "angegeben",
+)
+
+_RELATIVE = Words(
+    "both directions, brought together by means of the readings themselves: reversal values are relative to "
+    "their mean",
+    "beide Richtungen, durch die Messwerte selbst zusammengeführt: Umkehrspannen sind relativ zu ihrem "
+    "Mittel",
+)
+
 
 def measured_approaches(measurements: MeasurementSet) -> tuple[Approach, ...]:
     """Return the directions in which there is a reading, the positive one first.
@@ -45,6 +58,10 @@ def both_directions(measurements: MeasurementSet, consequence: Words, basis: Bas
     )
     approaches = measured_approaches(measurements)
     measured = _MEASURED[approaches]
+    if measurements.one_sided_targets:
+        return Finding(requirement, _ONE_SIDED, met=False, basis=basis)
+    if measurements.reversal_is_relative:
+        return Finding(requirement, _RELATIVE, met=False, basis=basis)
     if len(approaches) == len(Approach):
         return Finding(requirement, measured, met=True, basis=basis)
     found = Words("{measured}; {consequence}", "{measured}; {consequence}")

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import Enum
 
 from zlmreport.language import Words
+from zlmreport.quantities.arrays import IntArray, read_only_integers
 
 
 class ResidualTest(Enum):
@@ -47,12 +48,16 @@ class Failure:
         The place, the time, the run or the condition: what stands in brackets after the statement.
     statement
         What the residuals do, in a sentence without a full stop.
+    readings : (k,) integer array
+        The readings that `where` names, by their places in the design; none where all show it, or where they
+        were set aside before.
     """
 
     test: ResidualTest
     p_value: float
     where: Words
     statement: Words
+    readings: IntArray = field(default_factory=lambda: read_only_integers([]), compare=False)
 
 
 _TITLES = {

@@ -10,7 +10,7 @@ from zlmreport.model.cells import repeats
 from zlmreport.model.distributions import f_tail
 from zlmreport.model.failures.failure import Failure, ResidualTest
 from zlmreport.model.failures.residuals import Residuals
-from zlmreport.quantities.arrays import FloatArray, IntArray
+from zlmreport.quantities.arrays import FloatArray, IntArray, read_only_integers
 
 _LACK_OF_FIT = Words(
     en="the means of the positions deviate from the model by up to {size}, more than their repeats allow",
@@ -61,7 +61,8 @@ def lack_of_fit(residuals: Residuals) -> Failure | None:
     worst = int(np.argmax(np.abs(of_cells)))
     size = wording.deviation(design.axis, abs(float(of_cells[worst])))
     where = _LARGEST_AT.given(place=wording.cell(design, worst))
-    return Failure(ResidualTest.LACK_OF_FIT, p_value, where, _LACK_OF_FIT.given(size=size))
+    readings = read_only_integers(np.flatnonzero(within.cell == within.cell[worst]))
+    return Failure(ResidualTest.LACK_OF_FIT, p_value, where, _LACK_OF_FIT.given(size=size), readings)
 
 
 def signs(residuals: Residuals) -> Failure | None:
@@ -109,7 +110,8 @@ def runs(residuals: Residuals) -> Failure | None:
     worst = int(np.argmax(np.abs(means)))
     run = int(numbers[worst])
     statement = _RUNS.given(size=wording.deviation(design.axis, abs(float(means[worst]))))
-    return Failure(ResidualTest.RUNS, residuals.p_value(membership), _RUN.given(run=run), statement)
+    where, readings = _RUN.given(run=run), read_only_integers(np.flatnonzero(design.run == run))
+    return Failure(ResidualTest.RUNS, residuals.p_value(membership), where, statement, readings)
 
 
 def _constant_gap(residuals: Residuals) -> Words:

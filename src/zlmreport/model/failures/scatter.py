@@ -13,6 +13,7 @@ from zlmreport.model.failures.failure import Failure, ResidualTest
 from zlmreport.model.failures.residuals import Residuals
 from zlmreport.model.outliers import Outliers
 from zlmreport.model.spread import SpreadFactor, SpreadTest, spread_tests
+from zlmreport.quantities.arrays import IntArray, read_only_integers
 
 _UNEQUAL = Words(
     en="the readings scatter unequally {factor}", de="die Messwerte streuen {factor} verschieden"
@@ -36,7 +37,8 @@ def spread(residuals: Residuals) -> Iterator[Failure]:
     design = residuals.design
     for test in spread_tests(design, residuals.fit.deviation):
         statement = _UNEQUAL.given(factor=test.factor.words)
-        yield Failure(ResidualTest.SPREAD, test.p_value, _widest(design, test), statement)
+        where, readings = _widest(design, test)
+        yield Failure(ResidualTest.SPREAD, test.p_value, where, statement, readings)
 
 
 def flagged(design: Design, aside: Outliers) -> Failure | None:
@@ -50,12 +52,15 @@ def flagged(design: Design, aside: Outliers) -> Failure | None:
     return Failure(ResidualTest.OUTLIERS, aside.p_value, where, _FLAGGED.given(count=len(readings)))
 
 
-def _widest(design: Design, test: SpreadTest) -> Words:
+def _widest(design: Design, test: SpreadTest) -> tuple[Words, IntArray]:
+    """Return where readings scatter most, and which these are."""
     if test.factor is SpreadFactor.DIRECTION:
-        return _UPWARDS if test.widest > 0 else _DOWNWARDS
+        chosen = np.sign(design.direction) == np.sign(test.widest)
+        return (_UPWARDS if test.widest > 0 else _DOWNWARDS), read_only_integers(np.flatnonzero(chosen))
     if test.factor is SpreadFactor.RUN:
+        chosen = design.run == test.widest
         place = _RUN.given(run=test.widest)
     else:
-        reading = int(np.argmax(design.target == test.widest))
-        place = wording.position(design.axis, float(design.position[reading]))
-    return _MOST_AT.given(place=place)
+        chosen = design.target == test.widest
+        place = wording.position(design.axis, float(design.position[int(np.argmax(chosen))]))
+    return _MOST_AT.given(place=place), read_only_integers(np.flatnonzero(chosen))

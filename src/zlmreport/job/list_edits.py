@@ -1,4 +1,4 @@
-"""Writing in the list ``model.effects`` of a file: its text with an item more, an item less, or a new list.
+"""Writing in a list of a file, such as ``model.effects``: an item more, less or changed, or a new list.
 
 Nothing else of the text changes: comments, order, quotes, indentation and line ends stay as they are. What
 is added follows its neighbours: a line of its own where they have one, in brackets where they stand in
@@ -10,12 +10,12 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 from zlmreport.job.brackets import inserted, members, with_member, without_member
 from zlmreport.job.extents import Extent, Form, Written
 from zlmreport.job.tree import Items, Node, Scalar
 
-_MODEL, _EFFECTS = "model", "effects"
 _INDENT = 2
 #: Text that means nothing but itself without quotes, wherever it stands.
 _PLAIN = re.compile(r"[A-Za-z][\w./-]*(:[\w./-]+)*", re.ASCII)
@@ -27,18 +27,35 @@ class UneditableError(Exception):
     """A list that is written in a way in which nothing can be changed without changing more."""
 
 
-def own_list(written: Written) -> Extent | None:
-    """Return the list of effects that a file holds itself; None if it holds none."""
-    model = written.root.entry(_MODEL)
-    effects = model[1].entry(_EFFECTS) if model else None
-    is_list = effects is not None and effects[1].form in {Form.LINES, Form.BRACKETS}
-    return effects[1] if effects and is_list else None
+@dataclass(frozen=True, slots=True)
+class ListKey:
+    """Where a list stands: the group of keys, and its key in it."""
+
+    group: str
+    key: str
+
+    @property
+    def path(self) -> tuple[str, str]:
+        """The keys that lead to it."""
+        return self.group, self.key
+
+    def __str__(self) -> str:
+        """Return the dotted name: ``model.effects``."""
+        return f"{self.group}.{self.key}"
 
 
-def with_item(text: str, item: Node) -> str:
-    """Return a text that has a list of effects, with one more at its end."""
+def own_list(written: Written, where: ListKey) -> Extent | None:
+    """Return the list that a file holds itself; None if it holds none."""
+    group = written.root.entry(where.group)
+    listed = group[1].entry(where.key) if group else None
+    is_list = listed is not None and listed[1].form in {Form.LINES, Form.BRACKETS}
+    return listed[1] if listed and is_list else None
+
+
+def with_item(text: str, where: ListKey, item: Node) -> str:
+    """Return a text that has a list, with one item more at its end."""
     written = Written.of(text)
-    listed = _listed(written)
+    listed = _listed(written, where)
     quote = _quote_of(text, listed.parts[-1]) if listed.parts else _quote_of(text, written.root.parts[0])
     if listed.form is Form.BRACKETS:
         return with_member(written, listed, members(listed.parts), as_text(item, quote))
@@ -48,10 +65,21 @@ def with_item(text: str, item: Node) -> str:
     return inserted(text, end, f"{written.break_at(end)}{indent}- {as_text(item, quote, in_lines=True)}")
 
 
-def without_item(text: str, index: int) -> str:
-    """Return a text that has a list of effects, without one of them."""
+def with_changed_item(text: str, where: ListKey, index: int, item: Node) -> str:
+    """Return a text that has a list, with one of its items written anew; comments within it forbid that."""
     written = Written.of(text)
-    listed = _listed(written)
+    listed = _listed(written, where)
+    old = listed.parts[index]
+    if "#" in text[old.start : old.end] or text.startswith(("&", "*"), old.start):
+        raise UneditableError
+    in_lines = listed.form is Form.LINES
+    return text[: old.start] + as_text(item, _quote_of(text, old), in_lines=in_lines) + text[old.end :]
+
+
+def without_item(text: str, where: ListKey, index: int) -> str:
+    """Return a text that has a list, without one of its items."""
+    written = Written.of(text)
+    listed = _listed(written, where)
     if listed.form is Form.BRACKETS:
         return without_member(written, listed, members(listed.parts), index)
     item = listed.parts[index]
@@ -67,34 +95,36 @@ def without_item(text: str, index: int) -> str:
     shortened = text[:start] + text[end:]
     if len(listed.parts) > 1:
         return shortened
-    model = written.root.entry(_MODEL)
-    effects = model[1].entry(_EFFECTS) if model else None
-    if effects is None or text.startswith("&", listed.start):
+    group = written.root.entry(where.group)
+    own = group[1].entry(where.key) if group else None
+    if own is None or text.startswith("&", listed.start):
         raise UneditableError
-    return inserted(shortened, written.after_colon_of(effects[0]), " []")
+    return inserted(shortened, written.after_colon_of(own[0]), " []")
 
 
-def with_list(text: str, items: Sequence[Node]) -> str:
-    """Return a text that has no list of effects, with one."""
+def with_list(text: str, where: ListKey, items: Sequence[Node]) -> str:
+    """Return a text that has no such list, with one."""
     written = Written.of(text)
     root = written.root
     quote = _quote_of(text, root.parts[0])
     bracketed = f"[{', '.join(as_text(item, quote) for item in items)}]"
-    pair = f"{_quoted(_EFFECTS, quote)}: {bracketed}"
-    model = root.entry(_MODEL)
-    if model is None:
+    pair = f"{_quoted(where.key, quote)}: {bracketed}"
+    group = root.entry(where.group)
+    if group is None:
         if root.form is Form.BRACES:
-            pair = f"{_quoted(_MODEL, quote)}: {{{pair}}}"
+            pair = f"{_quoted(where.group, quote)}: {{{pair}}}"
             return with_member(written, root, members(root.parts, 2), pair)
-        return _with_last_key(written, items, quote)
-    effects = model[1].entry(_EFFECTS)
-    if effects is None and model[1].form is Form.BRACES:
-        return with_member(written, model[1], (), pair)
-    in_braces = Form.BRACES in {root.form, model[1].form}
-    key, value = effects or model
+        return _with_last_key(written, where, items, quote)
+    listed = group[1].entry(where.key)
+    if listed is None and group[1].form is Form.BRACES:
+        return with_member(written, group[1], members(group[1].parts, 2), pair)
+    if listed is None and group[1].form is Form.INDENTED:
+        return _with_last_key_of(written, group[1], where, items)
+    in_braces = Form.BRACES in {root.form, group[1].form}
+    key, value = listed or group
     indent = written.column(key.start) + _INDENT
-    lines = [] if in_braces else _lines(items, indent, quote, with_key=effects is None)
-    return _with_value(written, key, value, bracketed if effects else f"{{{pair}}}", lines)
+    lines = [] if in_braces else _lines(items, indent, quote, key="" if listed else where.key)
+    return _with_value(written, key, value, bracketed if listed else f"{{{pair}}}", lines)
 
 
 def _with_value(written: Written, key: Extent, value: Extent, in_line: str, lines: Sequence[str]) -> str:
@@ -155,22 +185,34 @@ def _quote_of(text: str, neighbour: Extent) -> str:
     return mark if neighbour.form is Form.SCALAR and mark in {"'", '"'} else ""
 
 
-def _listed(written: Written) -> Extent:
-    listed = own_list(written)
+def _listed(written: Written, where: ListKey) -> Extent:
+    listed = own_list(written, where)
     if listed is None:
         raise UneditableError
     return listed
 
 
-def _with_last_key(written: Written, items: Sequence[Node], quote: str) -> str:
-    """Return the text with the key ``model`` after all others."""
+def _with_last_key_of(written: Written, group: Extent, where: ListKey, items: Sequence[Node]) -> str:
+    """Return the text with the list after all other keys of its group, which stand one a line."""
+    text, last = written.text, group.parts[-1]
+    if last.form is Form.ALIAS:
+        raise UneditableError
+    end = written.line_end(last.end)
+    lines = _lines(
+        items, written.column(group.parts[0].start), _quote_of(text, group.parts[0]), key=where.key
+    )
+    return inserted(text, end, "".join(f"{written.break_at(end)}{line}" for line in lines))
+
+
+def _with_last_key(written: Written, where: ListKey, items: Sequence[Node], quote: str) -> str:
+    """Return the text with the group of the list after all others."""
     text = written.text
     column = written.column(written.root.parts[0].start)
     line_break = written.break_at(len(text))
     block = line_break.join(
         [
-            f"{' ' * column}{_quoted(_MODEL, quote)}:",
-            *_lines(items, column + _INDENT, quote, with_key=True),
+            f"{' ' * column}{_quoted(where.group, quote)}:",
+            *_lines(items, column + _INDENT, quote, key=where.key),
         ]
     )
     marker = _END_OF_DOCUMENT.search(text, written.root.end)
@@ -180,10 +222,10 @@ def _with_last_key(written: Written, items: Sequence[Node], quote: str) -> str:
     return inserted(text, end, line_break + block)
 
 
-def _lines(items: Sequence[Node], column: int, quote: str, *, with_key: bool) -> list[str]:
+def _lines(items: Sequence[Node], column: int, quote: str, *, key: str) -> list[str]:
     """Return the list an item a line, below its key if that is not there yet."""
     heading = []
-    if with_key:
-        heading = [f"{' ' * column}{_quoted(_EFFECTS, quote)}:{'' if items else ' []'}"]
+    if key:
+        heading = [f"{' ' * column}{_quoted(key, quote)}:{'' if items else ' []'}"]
         column += _INDENT
     return heading + [f"{' ' * column}- {as_text(item, quote, in_lines=True)}" for item in items]

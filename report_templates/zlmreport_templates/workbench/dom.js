@@ -1,0 +1,47 @@
+// Elements from values: text is always text, never markup.
+
+const SVG = "http://www.w3.org/2000/svg";
+
+/** Return an element with attributes (functions are listeners, false and null leave one out) and children. */
+export function h(tag, attributes = {}, ...children) {
+  return filled(document.createElement(tag), attributes, children);
+}
+
+/** Return an element of a drawing. */
+export function s(tag, attributes = {}, ...children) {
+  return filled(document.createElementNS(SVG, tag), attributes, children);
+}
+
+function filled(element, attributes, children) {
+  for (const [name, value] of Object.entries(attributes)) {
+    if (typeof value === "function") element.addEventListener(name, value);
+    else if (value !== null && value !== undefined && value !== false) element.setAttribute(name, value === true ? "" : value);
+  }
+  element.append(...children.flat(Infinity).filter((child) => child !== null && child !== undefined && child !== false));
+  return element;
+}
+
+/** Return a symbol: its stretches, italic where they are quantities, lowered where they are subscripts. */
+export function symbol(spans) {
+  return h("span", { class: "symbol" }, spans.map((span) => {
+    const text = span.italic ? h("i", {}, span.text) : span.text;
+    return span.subscript ? h("sub", {}, text) : text;
+  }));
+}
+
+/** Return a phrase with values in its marked places. */
+export function said(phrase, values) {
+  return phrase.replace(/\{(\w+)\}/g, (_, name) => values[name]);
+}
+
+/** Fill an element anew; the control that had the focus has it again if it is still there. */
+export function fill(element, ...children) {
+  const focused = element.contains(document.activeElement) ? document.activeElement.dataset.key : null;
+  element.replaceChildren(...children.flat(Infinity).filter(Boolean));
+  if (focused) {
+    const again = [...element.querySelectorAll("[data-key]")].find((each) => each.dataset.key === focused);
+    const next = again ?? element.querySelector("button, a[href], select, input") ?? element.querySelector("h2");
+    if (next?.tagName === "H2") next.tabIndex = -1;
+    next?.focus();
+  }
+}

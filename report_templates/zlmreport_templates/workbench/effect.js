@@ -1,0 +1,58 @@
+// The page of an effect: equation, look, parameters, and what it cannot be told from.
+
+import { h, said, symbol } from "./dom.js";
+import { written } from "./number.js";
+import { Plot } from "./plot.js";
+import { get } from "./server.js";
+
+/** Show an effect. */
+export async function showEffect(texts, effect) {
+  let found;
+  try {
+    found = await get(`/api/effects/${effect}`);
+  } catch (error) {
+    document.body.replaceChildren(h("main", {}, back(texts), h("ul", { class: "notice" }, (error.problems ?? [texts.gone]).map((each) => h("li", {}, each)))));
+    return;
+  }
+  document.title = `${found.effect} · ${found.title}`;
+  const plot = found.sketch && drawn(texts, found);
+  document.body.replaceChildren(
+    h("header", {}, h("h1", {}, found.effect, h("span", {}, found.title)), back(texts)),
+    h("main", { class: "effect" },
+      h("section", { class: "panel" }, h("h2", {}, texts.look), h("p", {}, found.look),
+        plot && [plot.element, h("p", { class: "hint" }, found.sketch.words)]),
+      h("div", {},
+        h("section", { class: "panel" }, h("h2", {}, texts.equation), h("p", { class: "equation" }, symbol(found.equation)), table(texts, found),
+          found.contains.length > 0 && h("p", {}, said(texts.contains, { effects: found.contains.join(", ") }))),
+        found.estimates.length > 0 && h("section", { class: "panel" }, h("h2", {}, texts.estimated),
+          h("ul", { class: "parameters" }, found.estimates.map((each) => h("li", {}, symbol(each.symbol), ` = ${each.value}${each.uncertainty && ` ± ${each.uncertainty}`} ${each.unit}`)))),
+        found.keys.length > 0 && h("section", { class: "panel" }, h("h2", {}, texts.keys),
+          h("dl", { class: "keys" }, found.keys.map((each) => [h("dt", {}, h("code", {}, each.name)), h("dd", {}, each.description)]))),
+        found.confusions.length > 0 && h("section", { class: "panel" }, h("h2", {}, texts.confusions),
+          h("dl", { class: "keys" }, found.confusions.map((each) => [
+            h("dt", {}, h("a", { href: `/effects/${each.effect}${location.search}` }, each.effect), h("span", { class: "quiet" }, ` ${each.title}`)),
+            h("dd", {}, h("strong", {}, `${texts.tell}: `), each.told)]))))));
+}
+
+function back(texts) {
+  return h("a", { href: `/${location.search}`, "data-key": "back" }, texts.back);
+}
+
+function table(texts, found) {
+  const range = (each) => (each.low === null && each.high === null ? "–" : `${each.low ?? "−∞"} … ${each.high ?? "∞"}`);
+  return h("table", {},
+    h("thead", {}, h("tr", {}, [texts.parameters, "", texts.range].map((name, index) => (name ? h("th", { scope: "col", class: index === 2 ? "number" : false }, name) : h("td", {}))))),
+    h("tbody", {}, found.parameters.map((each) => h("tr", {}, h("th", { scope: "row" }, symbol(each.symbol)), h("td", {}, each.description),
+      h("td", { class: "number" }, `${range(each)} ${each.unit}`)))));
+}
+
+function drawn(texts, found) {
+  const { sketch } = found;
+  const quiet = () => {};
+  const plot = new Plot({ label: texts.look, hint: "", number: written, marked: (index) => plot.ring(index === null ? [] : [index], true), pinned: quiet, zoomed: quiet });
+  plot.show({
+    x: sketch.x, y: sketch.y, direction: sketch.direction, fitted: sketch.x.map(() => true), curves: sketch.curves, noise: null, labels: null, range: sketch.range,
+    xTitle: sketch.unit ? `${sketch.title} (${sketch.unit})` : sketch.title, yTitle: sketch.deviation_unit, alternative: `${found.look} ${sketch.words}`,
+  });
+  return plot;
+}

@@ -1,0 +1,222 @@
+// What stands beside and below the graphs. Each panel is a function from values to elements.
+
+import { h, s, said, symbol } from "./dom.js";
+
+const SIGNS = { adequate: "✓", missing: "?", unexplained: "!" };
+const DOUBTS = { doubtful: "doubtful", implausible: "implausible" };
+
+/** The verdict in words, with the error of the model; while a diagnosis is under way, for how long. */
+export function verdict(texts, job, diagnosis, number) {
+  const numbers = h("dl", { class: "numbers" }, job.error.map((each) => h("div", {}, h("dt", {}, each.name), h("dd", {}, each.value))));
+  if (!diagnosis?.diagnosis) {
+    const problems = diagnosis?.problems;
+    return [
+      h("h2", {}, texts.verdict),
+      problems
+        ? h("ul", { class: "problems" }, problems.map((each) => h("li", {}, each)))
+        : h("p", { class: "progress" }, h("progress", { "aria-label": texts.diagnosing }), ` ${texts.diagnosing} `,
+          h("span", { "aria-hidden": "true" }, said(texts.seconds, { seconds: number(diagnosis?.seconds ?? 0) }))),
+      numbers,
+    ];
+  }
+  const found = diagnosis.diagnosis;
+  return [
+    h("h2", {}, texts.verdict),
+    h("p", { class: `verdict ${found.verdict}` }, h("span", { class: "sign", "aria-hidden": "true" }, SIGNS[found.verdict]), h("span", {}, found.statement)),
+    numbers,
+  ];
+}
+
+/** Where the model fails, each failure pointing at its readings. */
+export function failures(texts, found, point) {
+  return [
+    h("h2", {}, texts.failures),
+    found.failures.length === 0 && h("p", { class: "quiet" }, texts.noFailures),
+    h("ul", { class: "failures" }, found.failures.map((each, index) => h("li", {},
+      h("button", { type: "button", class: "line", "data-key": `failure-${index}`, click: () => point(each.axis, each.readings) },
+        h("span", {}, sentence(each.statement), " "), h("span", { class: "where" }, `${each.where} · ${each.p}`),
+        h("span", { class: "unseen" }, ` – ${texts.show}`))))),
+  ];
+}
+
+/** What may be missing, best first, equals in one group. */
+export function candidates(texts, found, actions) {
+  if (found.candidates.length === 0) return [];
+  const serious = found.candidates.slice(0, Math.max(1, found.serious));
+  const rest = found.candidates.slice(serious.length);
+  return [
+    h("h2", {}, texts.candidates),
+    h("ol", { class: "candidates" }, grouped(serious).map((group) => h("li", { class: group.length > 1 ? "equal" : false },
+      group.map((each) => candidate(texts, each, actions)),
+      group[0].equals.length > 0 && h("p", { class: "equals" }, group.length > 1 ? texts.alike : `${texts.equals}: ${group[0].equals.join(", ")}.`),
+      group[0].tell && h("p", { class: "tell" }, h("strong", {}, `${texts.tell}: `), group[0].tell)))),
+    rest.length > 0 && h("ul", { class: "others" }, rest.map((each) => h("li", {},
+      about(each.effect), h("span", { class: "quiet" }, ` ${each.probability} · ${each.rmsAfter}`), add(texts, each, actions)))),
+    found.notExcluded.length > 0 && h("p", { class: "quiet" }, `${texts.notExcluded}: ${found.notExcluded.join(", ")}`),
+  ];
+}
+
+function candidate(texts, each, actions) {
+  return h("article", { class: "candidate" },
+    h("div", { class: "heading" }, h("h3", {}, about(each.effect)), h("span", { class: "quiet" }, each.title), add(texts, each, actions)),
+    h("div", { class: "gauge" }, h("span", {}, texts.probability), bar(each.share, "probability"), h("strong", {}, each.probability)),
+    h("p", { class: "predicted" }, `${texts.errorAfter}: `, each.rmsBefore, " → ", h("strong", {}, each.rmsAfter), h("span", { class: "quiet" }, ` · ${each.p}`)),
+    h("p", {}, sentence(each.explains), "."),
+    h("ul", { class: "parameters" }, each.parameters.map((own) => h("li", {}, symbol(own.symbol), ` = ${amount(own)} `, doubt(texts, own)))),
+  );
+}
+
+/** The effects of the model with their parameters. */
+export function effects(texts, job, actions) {
+  return [
+    h("h2", {}, texts.model),
+    job.effects.length === 0 && h("p", { class: "quiet" }, texts.noEffects),
+    h("ul", { class: "effects" }, job.effects.map((each) => h("li", {},
+      h("div", { class: "heading" }, h("h3", {}, about(each.effect)), h("span", { class: "quiet" }, each.title),
+        button(texts.remove, said(texts.removeEffect, { effect: each.effect }), `remove-${each.effect}`, () => actions.remove(each.effect))),
+      h("table", { class: "parameters" }, h("tbody", {}, each.parameters.map((own) => h("tr", {},
+        h("th", { scope: "row", title: own.description }, symbol(own.symbol), h("span", { class: "unseen" }, ` ${own.description}`)),
+        h("td", { class: "number" }, own.fixed && actions.fix ? value(texts, each.effect, own, actions) : own.value), h("td", { class: "number" }, own.uncertainty ? `± ${own.uncertainty}` : ""), h("td", {}, own.unit),
+        h("td", {}, own.given ? h("span", { class: "given" }, texts.given) : doubt(texts, own)),
+        h("td", {}, actions.fix && fixing(texts, each.effect, own, actions)))))),
+    ))),
+    h("form", { class: "other", submit: (event) => { event.preventDefault(); actions.add(event.target.elements.effect.value); } },
+      h("label", { for: "other" }, texts.otherEffect),
+      h("select", { id: "other", name: "effect", "data-key": "other" }, job.others.map((each) => h("option", { value: each.effect }, `${each.effect}: ${each.title}`))),
+      h("button", { type: "submit", "data-key": "add-other" }, texts.add)),
+  ];
+}
+
+function value(texts, effect, own, actions) {
+  return h("input", { type: "number", step: "any", required: true, value: own.number, "aria-label": `${effect}.${own.name} (${own.unit})`, "data-key": `value-${effect}.${own.name}`,
+    change: (event) => event.target.reportValidity() && actions.fix(effect, own.name, event.target.valueAsNumber) });
+}
+
+function fixing(texts, effect, own, actions) {
+  const parameter = `${effect}.${own.name}`;
+  if (own.given && !own.fixed) return null;
+  return own.fixed
+    ? button(texts.free, said(texts.freeParameter, { parameter }), `free-${parameter}`, () => actions.free(effect, own.name))
+    : button(texts.fix, said(texts.fixParameter, { parameter }), `fix-${parameter}`, () => actions.fix(effect, own.name, own.number));
+}
+
+/** The fall chart: the error after each effect, down to the noise floor. */
+export function fall(texts, job) {
+  const { rows, floor, unit } = job.fall;
+  const row = (name, share, rms, leftOut, look) => h("tr", { class: look },
+    h("th", { scope: "row" }, name), h("td", { class: "bar" }, bar(share, look ?? "fallen", floor?.share)), h("td", { class: "number" }, rms), h("td", { class: "number" }, leftOut));
+  return [
+    h("h2", {}, texts.fall),
+    h("table", { class: "fall" },
+      h("thead", {}, h("tr", {}, h("th", { scope: "col" }, texts.effect), h("td", {}), h("th", { scope: "col", class: "number" }, `${texts.error} (${unit})`), h("th", { scope: "col", class: "number" }, `${texts.leftOut} (${unit})`))),
+      h("tbody", {}, rows.map((each) => row(each.effect ? `+ ${each.effect}` : texts.withoutModel, each.share, each.rms, each.left_out)),
+        floor && row(texts.noiseFloor, floor.share, floor.rms, "", "floor"))),
+  ];
+}
+
+/** The parameters of the standards: now, and as forecast after compensation. */
+export function standards(texts, job) {
+  return [
+    h("h2", {}, texts.standards),
+    job.standards.map((each) => {
+      const limited = each.rows.some((row) => row.verdict);
+      return h("div", { class: "wide", tabindex: "0", role: "region", "aria-label": each.designation }, h("table", { class: "standard" },
+        h("caption", {}, `${each.designation} · ${each.unit}`),
+        h("thead", {}, h("tr", {}, [texts.parameter, texts.now, ...(limited ? [texts.limit] : []), texts.byTable, texts.byModel].map((name, index) =>
+          h("th", { scope: "col", class: index ? "number" : false }, name)))),
+        h("tbody", {}, each.rows.map((row) => h("tr", {},
+          h("th", { scope: "row", title: row.name }, symbol(row.symbol), h("span", { class: "unseen" }, ` ${row.name}`)),
+          h("td", { class: "number now" }, row.value, row.uncertainty && h("span", { class: "quiet" }, ` ± ${row.uncertainty}`)),
+          limited && h("td", { class: `number limit ${row.mark}` }, row.limit, row.verdict && h("span", {}, ` ${row.verdict}`)),
+          h("td", { class: "number" }, row.by_table), h("td", { class: "number" }, row.by_model)))),
+      ), each.unmet.length > 0 && h("ul", { class: "problems" }, each.unmet.map((one) => h("li", {}, one))));
+    }),
+    h("p", { class: "quiet" }, texts.forecast, job.moving && ` ${job.moving}`),
+  ];
+}
+
+/** What this test cannot see, and what was taken for granted. */
+export function hidden(texts, found) {
+  if (found.hidden.length + found.remarks.length === 0) return [];
+  return [h("details", {}, h("summary", {}, h("h2", {}, texts.hidden)),
+    h("ul", { class: "hidden" }, found.hidden.map((each) => h("li", {}, each.effects.map((effect, index) => [index > 0 && ", ", about(effect)]), `: ${each.reason}`))),
+    found.remarks.length > 0 && [h("h3", {}, texts.remarks), h("ul", { class: "hidden" }, found.remarks.map((each) => h("li", {}, each)))])];
+}
+
+/** The readings that are set aside, each with its reason and the way back. */
+export function excluded(texts, job, actions) {
+  if (job.excluded.length === 0) return [];
+  return [
+    h("h2", {}, texts.excluded),
+    h("ul", { class: "excluded" }, job.excluded.map((each, index) => h("li", {},
+      h("span", {}, `${each.reading}, ${texts.run} ${each.run}: ${each.deviation}`, h("br"), h("q", {}, each.reason)),
+      button(texts.bringBack, `${texts.bringBack}: ${each.reading}, ${texts.run} ${each.run}`, `include-${index}`, () => actions.include(index))))),
+  ];
+}
+
+/** The certificate: made from the page, and its files. */
+export function certificate(texts, made, number, actions) {
+  const making = made?.state === "making";
+  return [
+    h("h2", {}, texts.certificate),
+    making
+      ? h("p", { class: "progress" }, h("progress", { "aria-label": texts.making }), ` ${texts.making} `, h("span", { "aria-hidden": "true" }, said(texts.seconds, { seconds: number(made.seconds) })))
+      : button(texts.makeCertificate, texts.makeCertificate, "certificate", actions.certificate),
+    made?.state === "made" && h("ul", { class: "files" }, made.files.map((name) => h("li", {}, h("a", { href: `/documents/${name}`, download: name }, name)))),
+    made?.state === "made" && !made.current && h("p", { class: "quiet" }, texts.outOfDate),
+    made?.state === "failed" && h("ul", { class: "problems" }, made.problems.map((each) => h("li", {}, each))),
+  ];
+}
+
+/** What was done so far, the last step first. */
+export function steps(texts, job) {
+  return [
+    h("h2", {}, texts.changes),
+    job.steps.length === 0
+      ? h("p", { class: "quiet" }, texts.noChanges)
+      : h("ol", { class: "steps" }, job.steps.map((each) => h("li", {}, h("time", {}, each.at), " ", each.text))),
+  ];
+}
+
+function grouped(all) {
+  const groups = [];
+  for (const each of all) {
+    const group = groups.find((one) => one[0].equals.includes(each.effect));
+    if (group) group.push(each);
+    else groups.push([each]);
+  }
+  return groups;
+}
+
+function about(effect) {
+  return h("a", { href: `/effects/${effect}${location.search}`, "data-key": `about-${effect}` }, effect);
+}
+
+function add(texts, each, actions) {
+  return button(texts.add, said(texts.addEffect, { effect: each.effect }), `add-${each.effect}`, () => actions.add(each.argument), "strong");
+}
+
+function button(label, name, key, click, look) {
+  return h("button", { type: "button", class: look, "aria-label": name, "data-key": key, click }, label);
+}
+
+function amount(own) {
+  return `${own.value}${own.uncertainty ? ` ± ${own.uncertainty}` : ""} ${own.unit}`.trim();
+}
+
+function doubt(texts, own) {
+  if (DOUBTS[own.plausibility]) return h("span", { class: `doubt ${own.plausibility}` }, texts[own.plausibility]);
+  return own.expected ? h("span", { class: "quiet" }, said(texts.expected, { value: own.expected })) : null;
+}
+
+/** A bar of a length from 0 to 1, with a mark at the noise floor. */
+function bar(share, look, floor) {
+  return s("svg", { class: `amount ${look}`, viewBox: "0 0 100 10", preserveAspectRatio: "none", "aria-hidden": "true" },
+    s("rect", { class: "whole", x: 0, y: 0, width: 100, height: 10 }),
+    s("rect", { class: "part", x: 0, y: 0, width: Math.max(0.5, 100 * share), height: 10 }),
+    floor !== undefined && s("rect", { class: "at", x: 100 * floor - 0.3, y: 0, width: 0.6, height: 10 }));
+}
+
+function sentence(text) {
+  return text.charAt(0).toUpperCase() + text.slice(1);
+}

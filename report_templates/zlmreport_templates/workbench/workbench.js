@@ -1,0 +1,189 @@
+// The page of the workbench: shows the job as it stands in its file, and sends clicks to it.
+
+import { fill, h, said } from "./dom.js";
+import { showEffect } from "./effect.js";
+import { Graphs } from "./graphs.js";
+import { written } from "./number.js";
+import * as panels from "./panels.js";
+import { Refusal, Silence, get, post } from "./server.js";
+
+const LOOK = 1500;
+const ASK = 250;
+
+class Page {
+  constructor(texts) {
+    this.texts = texts;
+    this.number = written;
+    this.actions = {
+      add: (effect) => this.#change({ action: "add", effect }),
+      remove: (effect) => this.#change({ action: "remove", effect }),
+      fix: (effect, parameter, value) => this.#change({ action: "fix", effect, parameter, value }),
+      free: (effect, parameter) => this.#change({ action: "free", effect, parameter }),
+      include: (reading) => this.#change({ action: "include", reading }),
+      certificate: () => this.#make(),
+    };
+    this.graphs = new Graphs(texts, this.number, (reading, reason) => this.#change({ action: "exclude", reading, reason }));
+    this.notice = h("div", { class: "notice", role: "alert", hidden: true });
+    this.header = h("header", {}, h("p", { role: "status" }, texts.working));
+    this.parts = Object.fromEntries(["verdict", "failures", "candidates", "hidden", "certificate", "fall", "effects", "standards", "excluded", "steps"]
+      .map((name) => [name, h("section", { class: "panel", id: `part-${name}` })]));
+    const { verdict, failures, candidates, hidden, certificate, fall, effects, standards, excluded, steps } = this.parts;
+    document.body.replaceChildren(this.header, this.notice, h("main", {},
+      h("div", { class: "bench" }, h("div", {}, this.graphs.element, fall), h("div", { class: "findings" }, verdict, failures, candidates, hidden, certificate)),
+      h("div", { class: "results" }, effects, standards, h("div", {}, excluded, steps))));
+  }
+
+  /** Show the job as it is, and go on looking whether it still is. */
+  async begin() {
+    await this.#load();
+    setInterval(() => this.#look(), LOOK);
+  }
+
+  async #load() {
+    try {
+      this.#show(await get("/api/job"));
+      return true;
+    } catch (error) {
+      this.#tell(error, this.texts.broken);
+      return false;
+    }
+  }
+
+  #show(job) {
+    this.job = job;
+    this.stamp = job.stamp;
+    this.diagnosis = null;
+    this.graphs.show(job.graphs);
+    const { texts, parts } = this;
+    fill(this.header, ...this.#heading(job));
+    fill(parts.fall, panels.fall(texts, job));
+    fill(parts.effects, panels.effects(texts, job, this.actions));
+    fill(parts.standards, panels.standards(texts, job));
+    fill(parts.excluded, panels.excluded(texts, job, this.actions));
+    fill(parts.steps, panels.steps(texts, job));
+    this.#showCertificate();
+    this.#showDiagnosis();
+    this.#diagnose(job.stamp);
+  }
+
+  #heading(job) {
+    const { texts } = this;
+    return [
+      h("h1", {}, job.number, h("span", {}, job.subject)),
+      h("code", {}, job.file),
+      h("span", { class: "busy", "aria-hidden": "true" }, texts.working),
+      h("button", { type: "button", "data-key": "undo", disabled: job.undo === null, click: () => this.#change({ action: "undo" }) },
+        job.undo === null ? texts.undo : said(texts.undoOf, { step: job.undo })),
+      h("a", { href: `?lang=${document.documentElement.lang === "de" ? "en" : "de"}`, hreflang: document.documentElement.lang === "de" ? "en" : "de", lang: document.documentElement.lang === "de" ? "en" : "de" }, texts.language),
+    ];
+  }
+
+  #showDiagnosis() {
+    const { texts, parts, job, diagnosis } = this;
+    fill(parts.verdict, panels.verdict(texts, job, diagnosis, this.number));
+    const found = diagnosis?.diagnosis;
+    fill(parts.failures, found ? panels.failures(texts, found, (axis, places) => this.graphs.point(axis, places)) : []);
+    fill(parts.candidates, found ? panels.candidates(texts, found, this.actions) : []);
+    fill(parts.hidden, found ? panels.hidden(texts, found) : []);
+    document.body.dataset.state = found ? found.verdict : "working";
+  }
+
+  #showCertificate() {
+    const made = this.made && { ...this.made, current: this.made.stamp === this.stamp };
+    fill(this.parts.certificate, panels.certificate(this.texts, made, this.number, this.actions));
+  }
+
+  /** Have the documents made, and show how far they are. */
+  async #make() {
+    try {
+      let found = await post("/api/certificate", {});
+      while (found.state === "making") {
+        this.made = found;
+        this.#showCertificate();
+        await new Promise((resolve) => { setTimeout(resolve, ASK); });
+        found = await get("/api/certificate");
+      }
+      this.made = found;
+      this.#showCertificate();
+    } catch (error) {
+      this.#tell(error);
+    }
+  }
+
+  async #diagnose(stamp) {
+    while (this.stamp === stamp) {
+      try {
+        this.diagnosis = await get("/api/diagnosis");
+      } catch (error) {
+        if (error instanceof Silence) return;
+        this.diagnosis = { problems: error.problems };
+      }
+      if (this.stamp !== stamp) return;
+      this.#showDiagnosis();
+      if (this.diagnosis.diagnosis || this.diagnosis.problems) return;
+      await new Promise((resolve) => { setTimeout(resolve, ASK); });
+    }
+  }
+
+  /** Whether the files of the job have changed, or the program has ended. */
+  async #look() {
+    if (this.working) return;
+    try {
+      const { stamp } = await get("/api/stamp");
+      if (this.silent) this.#hush();
+      if (stamp === this.stamp || this.working) return;
+      this.stamp = stamp;
+      if (await this.#load()) this.#say(this.texts.outside);
+    } catch (error) {
+      this.#tell(error);
+    }
+  }
+
+  /** Do one thing after the other: a click while another is under way is not lost. */
+  #change(wanted) {
+    this.queue = (this.queue ?? Promise.resolve()).then(() => this.#changeNow(wanted));
+  }
+
+  async #changeNow(wanted) {
+    this.working = true;
+    document.body.setAttribute("aria-busy", "true");
+    try {
+      const job = await post("/api/change", { based_on: this.job.digest, ...wanted });
+      this.#hush();
+      this.#show(job);
+    } catch (error) {
+      if (error instanceof Refusal && error.status === 409) await this.#load();
+      this.#tell(error);
+    } finally {
+      this.working = false;
+      document.body.removeAttribute("aria-busy");
+    }
+  }
+
+  #tell(error, ...first) {
+    if (error instanceof Silence) {
+      this.silent = true;
+      this.#say(this.texts.gone);
+    } else if (error instanceof Refusal) {
+      if (error.stamp) this.stamp = error.stamp;
+      this.#say(...first, ...error.problems);
+    } else throw error;
+  }
+
+  #say(...sentences) {
+    fill(this.notice, sentences.map((each) => h("p", {}, each)),
+      h("button", { type: "button", class: "quiet", click: () => this.#hush() }, this.texts.close));
+    this.notice.hidden = false;
+  }
+
+  #hush() {
+    this.silent = false;
+    this.notice.hidden = true;
+    fill(this.notice);
+  }
+}
+
+const texts = await get("/api/texts");
+const effect = location.pathname.match(/^\/effects\/(.+)$/)?.[1];
+if (effect) await showEffect(texts, effect);
+else await new Page(texts).begin();

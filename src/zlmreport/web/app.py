@@ -1,0 +1,188 @@
+"""What the server answers: the page and its files, the job as values, changes, the certificate."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from pydantic import ValidationError
+from starlette.applications import Starlette
+from starlette.concurrency import run_in_threadpool
+from starlette.requests import Request as HttpRequest
+from starlette.responses import FileResponse, HTMLResponse, JSONResponse, Response
+from starlette.routing import Route
+
+from zlmreport.errors import InputError, Place, ZlmreportError
+from zlmreport.language import Language, Words
+from zlmreport.plugins import Registry
+from zlmreport.typesetting.contexts import WorkbenchContext
+from zlmreport.typesetting.templates import render
+from zlmreport.typesetting.workbench import page_file
+from zlmreport.web.bench import Bench
+from zlmreport.web.certificates import Certificates
+from zlmreport.web.changes import ConflictError, NothingToUndoError, Request, change
+from zlmreport.web.diagnoses import Diagnoses
+from zlmreport.web.effect_page import effect_page
+from zlmreport.web.guard import Door, Guard
+from zlmreport.web.texts import texts
+from zlmreport.web.view import view
+
+_TITLE = Words(en="Workbench", de="Werkbank")
+_NO_SCRIPT = Words(
+    en="The workbench needs JavaScript, which comes from this computer alone.",
+    de="Die Werkbank braucht JavaScript; es kommt allein von diesem Rechner.",
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Workbench:
+    """The answers for one job.
+
+    Attributes
+    ----------
+    bench
+        The job.
+    diagnoses, certificates
+        Made beside, each in a process of its own.
+    """
+
+    bench: Bench
+    diagnoses: Diagnoses
+    certificates: Certificates
+
+    @classmethod
+    def of(cls, job: Path, registry: Registry, plugins: Sequence[Path] = ()) -> Workbench:
+        """Return the answers for a job; raise what is wrong with it as `Bench.loaded` does."""
+        bench = Bench(job, registry)
+        bench.loaded()
+        return cls(bench, Diagnoses(job, plugins), Certificates(job, plugins))
+
+    def app(self, door: Door) -> Guard:
+        """Return the application behind its guard."""
+        routes = [
+            Route("/", self.page),
+            Route("/effects/{effect}", self.page),
+            Route("/files/{name}", self.file),
+            Route("/documents/{name}", self.document),
+            Route("/api/texts", self.texts),
+            Route("/api/stamp", self.stamp),
+            Route("/api/job", self.job),
+            Route("/api/diagnosis", self.diagnosis),
+            Route("/api/effects/{effect}", self.effect),
+            Route("/api/change", self.change, methods=["POST"]),
+            Route("/api/certificate", self.certificate),
+            Route("/api/certificate", self.make_certificate, methods=["POST"]),
+        ]
+        return Guard(Starlette(routes=routes), door)
+
+    async def page(self, request: HttpRequest) -> Response:
+        """Answer with the page of the job, or of an effect; it fills itself."""
+        language = await run_in_threadpool(self._language, request)
+        context = WorkbenchContext(
+            language=language.value,
+            title=f"{_TITLE.in_language(language)} · {self.bench.path.name}",
+            needs_script=_NO_SCRIPT.in_language(language),
+        )
+        return HTMLResponse(render(context))
+
+    async def file(self, request: HttpRequest) -> Response:
+        """Answer with a style sheet, a module, or a face of the typeface: one of a list, by its name."""
+        found = page_file(request.path_params["name"])
+        if found is None:
+            return Response(status_code=404)
+        return Response(found.content, media_type=found.media_type)
+
+    async def document(self, request: HttpRequest) -> Response:
+        """Answer with a document that was made from the page, by its name."""
+        path = self.certificates.file(request.path_params["name"])
+        if path is None or not path.is_file():
+            return Response(status_code=404)
+        return FileResponse(path, filename=path.name)
+
+    async def texts(self, request: HttpRequest) -> Response:
+        """Answer with the words of the page."""
+        return JSONResponse(texts(await run_in_threadpool(self._language, request)))
+
+    async def stamp(self, _: HttpRequest) -> Response:
+        """Answer with the state of the job's files: a page that shows another one asks for the job anew."""
+        return JSONResponse({"stamp": await run_in_threadpool(self.bench.stamp)})
+
+    async def job(self, request: HttpRequest) -> Response:
+        """Answer with the job as values."""
+        return await self._answered(request, lambda: self._view(request))
+
+    async def diagnosis(self, request: HttpRequest) -> Response:
+        """Answer with the diagnosis of the job, or with the seconds for which it has been under way."""
+
+        def found() -> dict[str, Any]:
+            answer = self.diagnoses.of(self.bench.loaded().stamp)
+            if "diagnosis" in answer:
+                return {**answer, "diagnosis": answer["diagnosis"][self._language(request).value]}
+            return answer
+
+        return await self._answered(request, found)
+
+    async def effect(self, request: HttpRequest) -> Response:
+        """Answer with what there is to say of an effect."""
+
+        def found() -> dict[str, Any]:
+            effect = request.path_params["effect"]
+            values = effect_page(self.bench, self.bench.loaded(), effect, self._language(request))
+            if values is None:
+                raise InputError.at(Place("workbench"), f"there is no effect {effect[:60]!r}")
+            return values
+
+        return await self._answered(request, found)
+
+    async def certificate(self, request: HttpRequest) -> Response:
+        """Answer with how far the documents are."""
+        return await self._answered(request, self.certificates.state)
+
+    async def make_certificate(self, request: HttpRequest) -> Response:
+        """Begin to make the documents."""
+
+        def begun() -> dict[str, Any]:
+            self.certificates.make(self.bench.loaded().stamp)
+            return self.certificates.state()
+
+        return await self._answered(request, begun)
+
+    async def change(self, request: HttpRequest) -> Response:
+        """Do what a click asks for, and answer with the job as it is then."""
+        try:
+            wanted = Request.model_validate_json(await request.body())
+        except ValidationError:
+            return JSONResponse({"problems": ["the request is none of a page of this version"]}, 400)
+
+        def changed() -> dict[str, Any]:
+            change(self.bench, wanted)
+            return self._view(request)
+
+        return await self._answered(request, changed)
+
+    async def _answered(self, request: HttpRequest, work: Callable[[], dict[str, Any]]) -> Response:
+        try:
+            return JSONResponse(await run_in_threadpool(work))
+        except (ConflictError, NothingToUndoError) as error:
+            language = await run_in_threadpool(self._language, request)
+            return JSONResponse({"problems": [error.words.in_language(language)]}, 409)
+        except ZlmreportError as error:
+            problems = [str(each) for each in error.problems]
+            return JSONResponse({"problems": problems, "stamp": self.bench.stamp()}, 422)
+
+    def _view(self, request: HttpRequest) -> dict[str, Any]:
+        return view(self.bench, self.bench.loaded(), self._language(request))
+
+    def _language(self, request: HttpRequest) -> Language:
+        """Return the language of the page: that of its address, of the browser, or else of the job."""
+        stated = request.query_params.get("lang", "")
+        accepted = [part.strip()[:2] for part in request.headers.get("accept-language", "").split(",")]
+        for each in (stated, *accepted):
+            if each in set(Language):
+                return Language(each)
+        try:
+            return self.bench.loaded().job.keys.certificate.language
+        except ZlmreportError:
+            return Language.ENGLISH

@@ -1,0 +1,178 @@
+"""The job on the bench: read again whenever a file of it changes, and fitted no more often than needed."""
+
+from __future__ import annotations
+
+import hashlib
+from collections import OrderedDict
+from collections.abc import Iterable
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from threading import RLock
+
+from zlmreport import pipeline
+from zlmreport.certificate.results import Evaluated
+from zlmreport.job.effects import EffectChoice
+from zlmreport.job.job import Job
+from zlmreport.job.loading import load
+from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.model.axis_model import AxisModel
+from zlmreport.model.study import Fitted, Study
+from zlmreport.plugins import Registry
+
+#: Fits that are kept: more than anybody tries in an hour, and few enough for any memory.
+_KEPT_FITS = 64
+
+
+@dataclass(frozen=True, slots=True)
+class Loaded:
+    """The job as it stands in its files.
+
+    Attributes
+    ----------
+    job
+        The job.
+    study
+        Its readings with its model.
+    evaluated
+        What its standards say of the readings.
+    basis
+        Names what the readings follow from: all but the model.
+    stamp
+        Names the state of all files behind it: another state, another stamp; empty for a job that is not
+        written yet.
+    """
+
+    job: Job
+    study: Study
+    evaluated: tuple[Evaluated, ...]
+    basis: str
+    stamp: str = ""
+
+    @property
+    def measurements(self) -> MeasurementSet:
+        """The readings."""
+        return self.study.measurements
+
+    @property
+    def digest(self) -> str:
+        """SHA-256 of the job file: what a change says that it was made from."""
+        return self.job.files[0].sha256
+
+
+@dataclass(slots=True)
+class _Readings:
+    """What follows from the job without its model."""
+
+    basis: str
+    measurements: MeasurementSet
+    evaluated: tuple[Evaluated, ...]
+
+
+@dataclass(slots=True)
+class Bench:
+    """A job file that is worked on.
+
+    Attributes
+    ----------
+    path
+        The job file.
+    registry
+        The installed plugins.
+    lock
+        Held while the job is read or changed: pages ask from several threads.
+    """
+
+    path: Path
+    registry: Registry
+    lock: RLock = field(default_factory=RLock)
+    _loaded: Loaded | None = None
+    _readings: _Readings | None = None
+    _watched: tuple[Path, ...] = ()
+    _fits: OrderedDict[tuple[object, ...], Fitted] = field(default_factory=OrderedDict)
+
+    def stamp(self) -> str:
+        """Return the name of the state in which the files are now, without reading the job."""
+        return _stamp([self.path, *self._watched])
+
+    def loaded(self) -> Loaded:
+        """Return the job as it stands in its files now.
+
+        Raises
+        ------
+        InputError, AccessError
+            As from the main job: with every mistake that somebody has written into the files.
+        """
+        with self.lock:
+            if self._loaded is not None and self._loaded.stamp == self.stamp():
+                return self._loaded
+            self._loaded = None
+            self._watched = ()
+            job = load(self.path, self.registry)
+            found = self.tried(job)
+            files = (*job.files, *found.measurements.provenance.files)
+            self._watched = tuple(dict.fromkeys(each.path for each in files if each.path is not None))
+            self._loaded = replace(found, stamp=self.stamp())
+            return self._loaded
+
+    def tried(self, job: Job) -> Loaded:
+        """Return a job with its readings, whether or not it is written already."""
+        with self.lock:
+            readings = self._read(job)
+            study = Study.of(job, readings.measurements, self.registry.effects)
+            return Loaded(job, study, readings.evaluated, readings.basis)
+
+    def history(self, loaded: Loaded) -> tuple[Fitted, ...]:
+        """Return the fits of no effect, of the first, of the first two …: each is made only once."""
+        with self.lock:
+            terms = loaded.study.model.terms
+            effects = loaded.job.effects
+            return tuple(
+                self._fitted(
+                    loaded.basis, replace(loaded.study, model=AxisModel(terms[:count])), effects[:count]
+                )
+                for count in range(len(terms) + 1)
+            )
+
+    def _read(self, job: Job) -> _Readings:
+        """Return the readings with their evaluations: as before, if only the model has changed."""
+        before = self._readings
+        if before is None or before.basis != _basis(job, before.measurements):
+            measurements = pipeline.read(job, self.registry)
+            found = pipeline.evaluated(job, measurements, self.registry)
+            self._readings = before = _Readings(_basis(job, measurements), measurements, found)
+        return before
+
+    def _fitted(self, basis: str, study: Study, effects: tuple[EffectChoice, ...]) -> Fitted:
+        key = (
+            basis,
+            *((each.identifier, each.settings, tuple(sorted(each.values.items()))) for each in effects),
+        )
+        found = self._fits.get(key)
+        if found is None:
+            found = study.fitted()
+            self._fits[key] = found
+            if len(self._fits) > _KEPT_FITS:
+                self._fits.popitem(last=False)
+        self._fits.move_to_end(key)
+        return found
+
+
+def _basis(job: Job, measurements: MeasurementSet) -> str:
+    """Return what readings and evaluations follow from: all keys but the model, and all other files."""
+    stated = job.keys.model_copy(update={"model": None})
+    files = (*job.files[1:], *measurements.provenance.files)
+    state = _stamp(each.path for each in files if each.path is not None)
+    return hashlib.sha256(f"{stated!r} {state}".encode()).hexdigest()
+
+
+def _stamp(paths: Iterable[Path]) -> str:
+    """Return a name of the state of files, from what the file system says of them."""
+    states = []
+    for path in paths:
+        try:
+            found = path.resolve().stat()
+        except OSError:
+            states.append(f"{path.name} is gone")
+        else:
+            states.append(f"{path.name} {found.st_mtime_ns} {found.st_size} {found.st_ino}")
+    return hashlib.sha256("\n".join(states).encode()).hexdigest()[:16]

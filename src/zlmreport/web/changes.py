@@ -1,0 +1,232 @@
+"""What a click does to the job file: tried first, then written, then recorded.
+
+Each change carries the digest of the file that its page showed. If the file is another one now, nothing is
+written: two windows, or a window and an editor, never overwrite each other silently.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import Annotated
+
+from pydantic import BaseModel, ConfigDict, StringConstraints, ValidationError
+
+from zlmreport.errors import InputError, Place, Problem
+from zlmreport.job.edit import Edit, edit_effects
+from zlmreport.job.edit_effect import ParameterChoice, edit_parameter
+from zlmreport.job.edit_excluded import exclude, include
+from zlmreport.job.exclusion_keys import ExclusionKeys
+from zlmreport.job.loading import load
+from zlmreport.language import Words
+from zlmreport.model.changing import addition, refuse_useless
+from zlmreport.model.study import Fitted
+from zlmreport.web.bench import Bench, Loaded
+from zlmreport.web.journal import UNDO, Journal, entry, undoable
+
+_PLACE = Place("workbench")
+_KEY = "model.effects"
+#: Of a target position in mm or degrees: finer than any control is told.
+_DECIMALS = 6
+
+_CONFLICT = Words(
+    en="The job was changed elsewhere: in another window, or in an editor. Nothing was overwritten. The page "
+    "now shows the job as it is; do it again if it still makes sense.",
+    de="Der Auftrag wurde an anderer Stelle geändert: in einem anderen Fenster oder in einem Editor. Nichts "
+    "wurde überschrieben. Die Seite zeigt jetzt den Auftrag, wie er ist; wiederholen Sie den Schritt, wenn "
+    "er noch sinnvoll ist.",
+)
+_NOTHING_TO_UNDO = Words(
+    en="There is nothing to take back: the job is not as the last step on this page left it.",
+    de="Es gibt nichts zurückzunehmen: Der Auftrag ist nicht so, wie ihn der letzte Schritt auf dieser Seite "
+    "hinterlassen hat.",
+)
+
+ShortText = Annotated[str, StringConstraints(max_length=500)]
+
+
+class ConflictError(Exception):
+    """The job is no longer the one that the page showed; `words` says so to people."""
+
+    words = _CONFLICT
+
+
+class NothingToUndoError(Exception):
+    """The job is not as the last change left it; `words` says so to people."""
+
+    words = _NOTHING_TO_UNDO
+
+
+class Request(BaseModel):
+    """A click, as the page sends it.
+
+    Attributes
+    ----------
+    based_on
+        SHA-256 of the job file that the page showed.
+    action
+        One of `ACTIONS`.
+    effect
+        Of add and remove, fix and free: an effect; of add as in a job, with its keys.
+    parameter
+        Of fix and free.
+    value
+        Of fix: in the unit of the page.
+    reading
+        Of exclude the place of the reading in the measurement set; of include in the job's list.
+    reason
+        Of exclude.
+    """
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    based_on: ShortText
+    action: ShortText
+    effect: ShortText = ""
+    parameter: ShortText = ""
+    value: float | None = None
+    reading: int = -1
+    reason: ShortText = ""
+
+
+@dataclass(frozen=True, slots=True)
+class _Step:
+    """A change that makes sense: what is written, and what the record says of it."""
+
+    edit: Edit
+    subject: str
+
+
+def change(bench: Bench, request: Request) -> None:
+    """Do what a click asks for.
+
+    Raises
+    ------
+    ConflictError
+        If the job is no longer the one that the page showed.
+    NothingToUndoError
+        If there is nothing to take back.
+    InputError, AccessError
+        If the change makes no sense, or the file cannot be written.
+    """
+    with bench.lock:
+        loaded = bench.loaded()
+        if request.based_on != loaded.digest:
+            raise ConflictError
+        if request.action not in ACTIONS:
+            raise InputError.at(_PLACE, f"there is no action {request.action[:60]!r}")
+        before = bench.history(loaded)[-1]
+        content = loaded.job.files[0].content or b""
+        step = ACTIONS[request.action](bench, loaded, request)
+        step.edit.write()
+        after = bench.history(bench.loaded())[-1]
+        Journal.beside(bench.path).append(
+            entry(request.action, step.subject, (content, step.edit.content), (_rms(before), _rms(after)))
+        )
+
+
+def _add(bench: Bench, loaded: Loaded, request: Request) -> _Step:
+    registry = bench.registry
+    named, removed = addition(request.effect, loaded.job, registry, registry.effects, _PLACE)
+    edit = edit_effects(bench.path, loaded.job, registry, add=named, remove=removed)
+    added = named.choice.identifier
+    refuse_useless(added, bench.history(loaded)[-1], _tried(bench, loaded, edit), loaded.job)
+    return _Step(edit, request.effect)
+
+
+def _remove(bench: Bench, loaded: Loaded, request: Request) -> _Step:
+    if request.effect not in {each.identifier for each in loaded.job.effects}:
+        raise InputError.at(loaded.job.place_of(_KEY), f"{request.effect!r} does not stand in the model")
+    edit = edit_effects(bench.path, loaded.job, bench.registry, remove=(request.effect,))
+    _tried(bench, loaded, edit)
+    return _Step(edit, request.effect)
+
+
+def _fix(bench: Bench, loaded: Loaded, request: Request) -> _Step:
+    if request.value is None or not math.isfinite(request.value):
+        raise InputError.at(_PLACE, "a parameter is fixed at a number; write one, such as 4.2")
+    return _with_parameter(bench, loaded, request, request.value)
+
+
+def _free(bench: Bench, loaded: Loaded, request: Request) -> _Step:
+    return _with_parameter(bench, loaded, request, None)
+
+
+def _with_parameter(bench: Bench, loaded: Loaded, request: Request, value: float | None) -> _Step:
+    choice = ParameterChoice(request.effect, request.parameter, value)
+    edit = edit_parameter(bench.path, loaded.job, bench.registry, choice)
+    _tried(bench, loaded, edit)
+    return _Step(edit, f"{request.effect}.{request.parameter}")
+
+
+def _exclude(bench: Bench, loaded: Loaded, request: Request) -> _Step:
+    measurements, reading = loaded.measurements, request.reading
+    if not 0 <= reading < len(measurements.deviation):
+        raise InputError.at(_PLACE, f"there is no reading {reading}")
+    target = measurements.target_positions[measurements.target[reading]]
+    values = {
+        "target": round(measurements.axis.position_unit.from_si(float(target)), _DECIMALS),
+        "direction": "+" if measurements.approach[reading] > 0 else "-",
+        "run": int(measurements.run[reading]),
+        "reason": request.reason,
+    }
+    try:
+        exclusion = ExclusionKeys.model_validate(values)
+    except ValidationError as error:
+        raise InputError.at(
+            _PLACE, "a reading is set aside for a reason: one line that others can read"
+        ) from error
+    edit = exclude(bench.path, loaded.job, bench.registry, exclusion)
+    _tried(bench, loaded, edit)
+    return _Step(edit, _named(exclusion))
+
+
+def _include(bench: Bench, loaded: Loaded, request: Request) -> _Step:
+    listed = loaded.job.keys.measurement.excluded
+    if not 0 <= request.reading < len(listed):
+        raise InputError.at(_PLACE, "this reading is not set aside")
+    edit = include(bench.path, loaded.job, bench.registry, request.reading)
+    _tried(bench, loaded, edit)
+    return _Step(edit, _named(listed[request.reading]))
+
+
+def _undo(bench: Bench, loaded: Loaded, _: Request) -> _Step:
+    last = undoable(Journal.beside(bench.path).entries(), loaded.digest)
+    if last is None:
+        raise NothingToUndoError
+    job = load(bench.path, bench.registry, content=last.content)
+    return _Step(Edit(bench.path, loaded.digest, last.content, job), f"{last.action} {last.subject}")
+
+
+def _tried(bench: Bench, loaded: Loaded, edit: Edit) -> Fitted:
+    """Return the fit of the job as it is to become; refuse one that makes no sense."""
+    try:
+        return bench.history(bench.tried(edit.job))[-1]
+    except InputError as error:  # its places are those of the job as it would be
+        place = loaded.job.place_of(_KEY)
+        raise InputError(Problem(place, each.message) for each in error.problems) from error
+
+
+def _named(exclusion: ExclusionKeys) -> str:
+    """Return a reading as the record names it: ``213.4 + 3``."""
+    return f"{exclusion.target:.10g} {exclusion.direction} {exclusion.run}"
+
+
+def _rms(fitted: Fitted) -> float:
+    return fitted.fit.design.axis.deviation_unit.from_si(fitted.error.rms)
+
+
+#: What a page can ask for.
+ACTIONS: Mapping[str, Callable[[Bench, Loaded, Request], _Step]] = MappingProxyType(
+    {
+        "add": _add,
+        "remove": _remove,
+        "fix": _fix,
+        "free": _free,
+        "exclude": _exclude,
+        "include": _include,
+        UNDO: _undo,
+    }
+)

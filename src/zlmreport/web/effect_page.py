@@ -1,0 +1,194 @@
+"""The page of an effect: its equation, its look in the residuals, and what it cannot be told from."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from zlmreport.job.fields import keys_in
+from zlmreport.language import Language, Words
+from zlmreport.measurement.approach import Approach
+from zlmreport.measurement.axis import Axis
+from zlmreport.model.anywhere import at_positions
+from zlmreport.model.design import Design
+from zlmreport.model.effect import Effect, Shape
+from zlmreport.model.parameter import Parameter, unit_of
+from zlmreport.plugins import Registry
+from zlmreport.quantities.arrays import FloatArray
+from zlmreport.quantities.formatting import general_number
+from zlmreport.testing.designs import full_designs
+from zlmreport.web.bench import Bench, Loaded
+from zlmreport.web.panels import parameter, symbol
+
+_OVER_TIME = frozenset({Shape.TIME, Shape.RUN})
+_POSITION = Words(en="Position", de="Position")
+_TIME = Words(en="Time", de="Zeit")
+_READING = Words(en="Reading", de="Messwert")
+_HERE = Words(
+    en="As this test would see it: an effect of 1 {unit} rms, its mean taken away.",
+    de="Wie diese Messung ihn sähe: ein Einfluss von 1 {unit} quadratischem Mittel, ohne seinen Mittelwert.",
+)
+_CONSTANT = Words(
+    en="The same at every reading: here 1 {unit}.", de="Bei jedem Messwert gleich: hier 1 {unit}."
+)
+_ELSEWHERE = Words(
+    en="As a complete test would see it; this one cannot show it: {reason}.",
+    de="Wie eine vollständige Messung ihn sähe; diese kann ihn nicht zeigen: {reason}.",
+)
+_DECIMALS = 6
+_POINTS = 600
+_ROUNDING = 1e-9
+#: Of an effect that repeats along the axis, so many are drawn.
+_PERIODS = 6.0
+
+
+def effect_page(bench: Bench, loaded: Loaded, identifier: str, language: Language) -> dict[str, Any] | None:
+    """Return what there is to say of an effect; None if it is not installed."""
+    effect = next((each for each in bench.registry.effects if each.identifier == identifier), None)
+    if effect is None:
+        return None
+    fit = bench.history(loaded)[-1].fit
+    present = identifier in fit.model.identifiers
+    return {
+        "effect": identifier,
+        "title": effect.title.in_language(language),
+        "equation": symbol(effect.equation),
+        "look": effect.look.in_language(language),
+        "parameters": [
+            _described(each, loaded.job.axis, language) for each in (*effect.linear, *effect.searched)
+        ],
+        "keys": [
+            {"name": name, "description": field.description}
+            for name, field in keys_in(effect.options).items()
+        ],
+        "estimates": [
+            parameter(each, fit.design, language) for each in fit.estimates if each.effect == identifier
+        ],
+        "confusions": [
+            {
+                "effect": each.effect,
+                "title": _title(bench.registry, each.effect, language),
+                "told": each.told_apart_by.in_language(language),
+            }
+            for each in effect.confusions
+        ],
+        "contains": list(effect.contains),
+        "present": present,
+        "sketch": sketch(effect, loaded.study.observed.design, language),
+    }
+
+
+def sketch(effect: Effect, design: Design, language: Language) -> dict[str, Any] | None:
+    """Return the effect alone as the residuals of a test show it: over position or time, by direction.
+
+    Parameters
+    ----------
+    effect
+        The effect; its searched parameters are in the middle of their values.
+    design
+        Of the test at hand; a complete one is taken instead if that cannot show the effect.
+    language
+        Of the words.
+    """
+    reason = effect.untestable(design)
+    words = _HERE.given(unit=design.axis.deviation_unit.symbol)
+    if reason is not None:
+        complete = [each for each in full_designs().values() if effect.untestable(each) is None]
+        if not complete:
+            return None
+        design, words = complete[0], _ELSEWHERE.given(reason=reason)
+    grid = effect.grid(design)
+    theta = grid[len(grid) // 2]
+    values = _alone(effect, design, theta)
+    mean, size = float(values.mean()), float(np.std(values))
+    if size <= _ROUNDING * abs(mean):
+        mean, size, words = 0.0, mean, _CONSTANT.given(unit=design.axis.deviation_unit.symbol)
+    x, title, unit = _along(effect.shape, design)
+    span = _shown(effect, theta, design)
+    return {
+        "x": _rounded(x),
+        "y": _rounded((values - mean) / size),
+        "direction": np.where(design.direction > 0, 1, -1).tolist(),
+        "curves": [
+            {
+                "direction": int(approach),
+                "x": _rounded(along),
+                "y": _rounded((_alone(effect, between, theta) - mean) / size),
+            }
+            for approach, along, between in _between(effect.shape, design, span)
+        ],
+        "range": None if span == design.span else [design.axis.position_unit.from_si(end) for end in span],
+        "title": title.in_language(language),
+        "unit": unit,
+        "deviation_unit": design.axis.deviation_unit.symbol,
+        "words": words.in_language(language),
+    }
+
+
+def _alone(effect: Effect, design: Design, theta: FloatArray) -> FloatArray:
+    """Return what an effect makes of readings, all its linear parameters alike."""
+    return np.asarray(effect.columns(design, theta) @ np.ones(len(effect.linear)), dtype=np.float64)
+
+
+def _shown(effect: Effect, theta: FloatArray, design: Design) -> tuple[float, float]:
+    """Return the part of the travel that is drawn: a few periods of what repeats often."""
+    first, last = design.span
+    periods = [
+        value for each, value in zip(effect.searched, theta.tolist(), strict=True) if each.name == "period"
+    ]
+    if effect.shape in _OVER_TIME or not periods:
+        return first, last
+    return first, min(last, first + _PERIODS * periods[0])
+
+
+def _between(
+    shape: Shape, design: Design, span: tuple[float, float]
+) -> Iterator[tuple[Approach, FloatArray, Design]]:
+    """Yield positions between the targets, by direction; nothing for an effect that changes with time."""
+    if shape in _OVER_TIME:
+        return
+    for approach in Approach:
+        if np.any(design.direction == approach):
+            positions = np.linspace(*span, _POINTS)
+            yield (
+                approach,
+                design.axis.position_unit.from_si(positions),
+                at_positions(design, positions, approach),
+            )
+
+
+def _rounded(values: FloatArray) -> list[float]:
+    return [float(each) for each in np.round(values, _DECIMALS)]
+
+
+def _along(shape: Shape, design: Design) -> tuple[FloatArray, Words, str]:
+    """Return that along which an effect shows itself best."""
+    if shape not in _OVER_TIME:
+        unit = design.axis.position_unit
+        return unit.from_si(design.position), _POSITION, unit.symbol
+    if design.time_is_counted:
+        return 1.0 + design.time, _READING, ""
+    return design.time / 60.0, _TIME, "min"
+
+
+def _described(own: Parameter, axis: Axis, language: Language) -> dict[str, Any]:
+    unit = unit_of(own.dimension, axis.kind)
+    bounds = [
+        None if bound is None else general_number(float(f"{bound * unit.per_si:.3g}"), language.decimal_sign)
+        for bound in (own.smallest, own.largest)
+    ]
+    return {
+        "name": own.name,
+        "symbol": symbol(own.notation),
+        "description": own.description.in_language(language),
+        "low": bounds[0],
+        "high": bounds[1],
+        "unit": unit.symbol,
+    }
+
+
+def _title(registry: Registry, identifier: str, language: Language) -> str:
+    titles = {each.identifier: each.title for each in registry.effects}
+    return titles[identifier].in_language(language) if identifier in titles else ""

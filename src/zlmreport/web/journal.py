@@ -1,0 +1,130 @@
+"""What was clicked, line by line in a file beside the job: for people who ask, and for undo.
+
+A line is never altered. An undo is a line of its own, and puts back the bytes that were replaced; it is
+offered only while the job is still as the last change left it.
+"""
+
+from __future__ import annotations
+
+import base64
+import datetime as dt
+import hashlib
+import json
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+from zlmreport.errors import AccessError, Place
+
+SUFFIX = ".history.jsonl"
+SCHEMA = "zlmreport/workbench-history/1"
+UNDO = "undo"
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """One change of the job.
+
+    Attributes
+    ----------
+    at
+        When, ISO 8601 with the offset of the local time.
+    action
+        What was done: ``add``, ``remove``, ``fix``, ``free``, ``exclude``, ``include`` or ``undo``.
+    subject
+        To what: an effect, a parameter, a reading as ``target direction run``; of an undo what it undoes.
+    before, after
+        SHA-256 of the job file.
+    rms_before, rms_after
+        Error of the model, µm or ″.
+    replaced
+        The job file as it was, base64.
+    """
+
+    at: str
+    action: str
+    subject: str
+    before: str
+    after: str
+    rms_before: float
+    rms_after: float
+    replaced: str
+
+    @property
+    def content(self) -> bytes:
+        """The job file as it was before."""
+        return base64.b64decode(self.replaced)
+
+
+@dataclass(frozen=True, slots=True)
+class Journal:
+    """The record beside a job.
+
+    Attributes
+    ----------
+    path
+        Of the record.
+    """
+
+    path: Path
+
+    @classmethod
+    def beside(cls, job: Path) -> Journal:
+        """Return the record of a job: ``job.yaml`` has ``job.history.jsonl``."""
+        return cls(job.with_suffix(SUFFIX))
+
+    def entries(self) -> tuple[Entry, ...]:
+        """Return all changes, the oldest first; lines that are none are passed over."""
+        try:
+            lines = self.path.read_text("utf-8").splitlines()
+        except FileNotFoundError:
+            return ()
+        except (OSError, UnicodeDecodeError) as error:
+            raise AccessError.at(Place(str(self.path)), f"cannot be read: {error}") from error
+        return tuple(found for line in lines if (found := _entry(line)))
+
+    def append(self, entry: Entry) -> None:
+        """Write a change behind the others."""
+        line = json.dumps({"schema": SCHEMA, **asdict(entry)}, ensure_ascii=False)
+        try:
+            with self.path.open("a", encoding="utf-8") as file:
+                file.write(f"{line}\n")
+        except OSError as error:
+            reason = (error.strerror or str(error)).lower()
+            raise AccessError.at(Place(str(self.path)), f"cannot be written: {reason}") from error
+
+
+def entry(action: str, subject: str, contents: tuple[bytes, bytes], errors: tuple[float, float]) -> Entry:
+    """Return the record of a change made now: contents of the job and its errors, before and after."""
+    before, after = contents
+    return Entry(
+        at=dt.datetime.now().astimezone().isoformat(timespec="seconds"),
+        action=action,
+        subject=subject,
+        before=hashlib.sha256(before).hexdigest(),
+        after=hashlib.sha256(after).hexdigest(),
+        rms_before=errors[0],
+        rms_after=errors[1],
+        replaced=base64.b64encode(before).decode("ascii"),
+    )
+
+
+def undoable(entries: Sequence[Entry], digest: str) -> Entry | None:
+    """Return the change that an undo would take back; None if the job is not as that change left it."""
+    standing: list[Entry] = []
+    for each in entries:
+        if each.action != UNDO:
+            standing.append(each)
+        elif standing:
+            standing.pop()
+    return standing[-1] if standing and standing[-1].after == digest else None
+
+
+def _entry(line: str) -> Entry | None:
+    try:
+        values = json.loads(line)
+        if values.pop("schema") != SCHEMA:
+            return None
+        return Entry(**values)
+    except (ValueError, TypeError, KeyError, AttributeError):
+        return None

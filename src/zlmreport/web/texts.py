@@ -1,0 +1,149 @@
+"""The words of the page that do not depend on a job: headings, buttons, what a reading is described by."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from types import MappingProxyType
+
+from zlmreport.language import Language, Words
+
+TEXTS: Mapping[str, Words] = MappingProxyType(
+    {
+        "measured": Words(en="Measured against the model", de="Messung gegen Modell"),
+        "residuals": Words(en="Residuals", de="Residuen"),
+        "over": Words(en="over", de="über"),
+        "verdict": Words(en="Verdict", de="Befund"),
+        "failures": Words(en="Where the model fails", de="Wo das Modell versagt"),
+        "noFailures": Words(
+            en="No test of the residuals fails.", de="Keine Prüfung der Residuen schlägt an."
+        ),
+        "candidates": Words(en="What may be missing", de="Was fehlen kann"),
+        "otherEffect": Words(en="Add another effect", de="Anderen Einfluss hinzufügen"),
+        "fall": Words(en="How the error falls", de="Wie die Abweichung sinkt"),
+        "model": Words(en="The model's effects", de="Die Einflüsse des Modells"),
+        "noEffects": Words(
+            en="The model has no effect yet. Begin with offset.",
+            de="Das Modell hat noch keinen Einfluss. Beginnen Sie mit offset.",
+        ),
+        "standards": Words(en="What the standards say", de="Was die Normen sagen"),
+        "certificate": Words(en="Certificate", de="Kalibrierschein"),
+        "makeCertificate": Words(en="Make the certificate", de="Kalibrierschein erstellen"),
+        "making": Words(en="The certificate is being made …", de="Der Kalibrierschein entsteht …"),
+        "excluded": Words(en="Readings set aside", de="Beiseite gelegte Messwerte"),
+        "changes": Words(en="Steps so far", de="Bisherige Schritte"),
+        "noChanges": Words(en="None on this page yet.", de="Auf dieser Seite noch keine."),
+        "undo": Words(en="Undo", de="Zurücknehmen"),
+        "undoOf": Words(en="Undo: {step}", de="Zurücknehmen: {step}"),
+        "add": Words(en="Add", de="Hinzufügen"),
+        "addEffect": Words(en="Add {effect} to the model", de="{effect} zum Modell hinzufügen"),
+        "remove": Words(en="Remove", de="Entfernen"),
+        "removeEffect": Words(en="Remove {effect} from the model", de="{effect} aus dem Modell entfernen"),
+        "fix": Words(en="Fix", de="Festhalten"),
+        "fixParameter": Words(
+            en="Fix {parameter} at this value", de="{parameter} auf diesem Wert festhalten"
+        ),
+        "free": Words(en="Free", de="Freigeben"),
+        "freeParameter": Words(
+            en="Estimate {parameter} from the readings", de="{parameter} aus den Messwerten schätzen"
+        ),
+        "given": Words(en="given", de="vorgegeben"),
+        "show": Words(en="Show the readings", de="Messwerte zeigen"),
+        "probability": Words(en="Probability", de="Wahrscheinlichkeit"),
+        "errorAfter": Words(en="Error after it", de="Abweichung danach"),
+        "alike": Words(
+            en="These readings cannot tell them apart.",
+            de="Diese Messwerte können sie nicht unterscheiden.",
+        ),
+        "equals": Words(en="Not to be told from", de="Nicht zu unterscheiden von"),
+        "tell": Words(en="What would tell them apart", de="Was sie unterscheiden würde"),
+        "diagnosing": Words(
+            en="Every installed effect is being tried …", de="Jeder installierte Einfluss wird geprüft …"
+        ),
+        "seconds": Words(en="{seconds} s", de="{seconds} s"),
+        "working": Words(en="Working …", de="Einen Moment …"),
+        "point": Words(
+            en="Point at a reading, or go from one to the next with the arrow keys.",
+            de="Zeigen Sie auf einen Messwert, oder gehen Sie mit den Pfeiltasten von einem zum nächsten.",
+        ),
+        "target": Words(en="Target", de="Sollposition"),
+        "run": Words(en="Run", de="Durchlauf"),
+        "deviation": Words(en="Deviation", de="Abweichung"),
+        "modelValue": Words(en="Model", de="Modell"),
+        "residual": Words(en="Residual", de="Residuum"),
+        "flagged": Words(en="stands off; not fitted", de="steht ab; nicht angepasst"),
+        "upwards": Words(en="upwards ↑", de="aufwärts ↑"),
+        "downwards": Words(en="downwards ↓", de="abwärts ↓"),
+        "modelUp": Words(en="model ↑ with U", de="Modell ↑ mit U"),
+        "modelDown": Words(en="model ↓ with U", de="Modell ↓ mit U"),
+        "noise": Words(en="± 2σ of single readings", de="± 2σ einzelner Messwerte"),
+        "setAside": Words(en="Set this reading aside", de="Diesen Messwert beiseite legen"),
+        "reason": Words(
+            en="Reason, as the certificate will state it", de="Grund, wie ihn der Kalibrierschein nennt"
+        ),
+        "bringBack": Words(en="Bring back", de="Zurückholen"),
+        "effect": Words(en="Effect", de="Einfluss"),
+        "error": Words(en="Error", de="Abweichung"),
+        "noiseFloor": Words(en="Noise floor", de="Grundrauschen"),
+        "withoutModel": Words(en="without model", de="ohne Modell"),
+        "leftOut": Words(en="Runs left out", de="Durchläufe ausgelassen"),
+        "parameter": Words(en="Parameter", de="Kenngröße"),
+        "now": Words(en="Now", de="Jetzt"),
+        "limit": Words(en="Limit", de="Grenzwert"),
+        "byTable": Words(en="Compensated by a table", de="Mit Positionstabelle kompensiert"),
+        "byModel": Words(en="By the whole model", de="Mit dem ganzen Modell"),
+        "forecast": Words(
+            en="The last two columns are forecasts: the readings of this test less what the model explains.",
+            de="Die letzten beiden Spalten sind Vorhersagen: die Messwerte dieser Prüfung abzüglich dessen, "
+            "was das Modell erklärt.",
+        ),
+        "outside": Words(
+            en="The job was changed outside of this page; it shows the job as it is now.",
+            de="Der Auftrag wurde außerhalb dieser Seite geändert; sie zeigt ihn, wie er jetzt ist.",
+        ),
+        "broken": Words(
+            en="The job cannot be read as it is. Mend it in the editor; this page goes on by itself.",
+            de="Der Auftrag ist so nicht lesbar. Berichtigen Sie ihn im Editor; die Seite fährt von selbst "
+            "fort.",
+        ),
+        "gone": Words(
+            en="zlmreport no longer answers. Start it again on the terminal: zlmreport workbench.",
+            de="zlmreport antwortet nicht mehr. Starten Sie es im Terminal neu: zlmreport workbench.",
+        ),
+        "close": Words(en="Close", de="Schließen"),
+        "hidden": Words(en="What this test cannot see", de="Was diese Messung nicht sieht"),
+        "notExcluded": Words(
+            en="Not excluded, for they could not be tried", de="Nicht auszuschließen, da nicht prüfbar"
+        ),
+        "remarks": Words(en="Taken for granted", de="Angenommen"),
+        "outOfDate": Words(
+            en="Made before the last step: make it again.",
+            de="Vor dem letzten Schritt erstellt: neu erstellen.",
+        ),
+        "back": Words(en="Back to the workbench", de="Zurück zur Werkbank"),
+        "equation": Words(en="Equation", de="Gleichung"),
+        "look": Words(en="Its look in the residuals", de="Sein Bild in den Residuen"),
+        "parameters": Words(en="Parameters", de="Parameter"),
+        "range": Words(en="Plausible", de="Plausibel"),
+        "estimated": Words(en="In this model", de="In diesem Modell"),
+        "keys": Words(en="Keys in a job", de="Schlüssel im Auftrag"),
+        "confusions": Words(en="What it is taken for", de="Womit er verwechselt wird"),
+        "contains": Words(
+            en="It contains {effects}, which cannot stand beside it in a model.",
+            de="Er enthält {effects}; daneben kann das nicht im Modell stehen.",
+        ),
+        "language": Words(en="Deutsch", de="English"),
+        "implausible": Words(en="implausible", de="unplausibel"),
+        "doubtful": Words(en="doubtful", de="zweifelhaft"),
+        "expected": Words(en="expected {value}", de="erwartet {value}"),
+        "reset": Words(en="Whole axis", de="Ganze Achse"),
+        "zoom": Words(
+            en="Drag to look closer; double-click for the whole axis.",
+            de="Ziehen vergrößert; Doppelklick zeigt wieder die ganze Achse.",
+        ),
+    }
+)
+
+
+def texts(language: Language) -> dict[str, str]:
+    """Return all of them in one language."""
+    return {name: words.in_language(language) for name, words in TEXTS.items()}

@@ -1,0 +1,82 @@
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+pytest.importorskip("playwright", reason="playwright is not installed")
+pytest.importorskip("starlette", reason="the workbench's extra is not installed")
+
+from playwright.sync_api import Browser, BrowserContext, Page, sync_playwright
+
+ROOT = Path(__file__).parents[2]
+EXAMPLE = ROOT / "configs" / "hidden-effect"
+_NAMES = ("chromium", "chromium-browser", "google-chrome-stable", "google-chrome")
+_ARGUMENTS = ["--no-sandbox", "--disable-gpu", "--disable-background-networking"]
+_ADDRESS = re.compile(r"http://127\.0\.0\.1:\d+/\?token=\S+")
+
+
+@pytest.fixture(scope="session")
+def chromium() -> Iterator[Browser]:
+    """Return the system's browser, without a window."""
+    path = next((found for name in _NAMES if (found := shutil.which(name))), None)
+    if path is None:
+        pytest.skip("no Chromium is installed (Debian, Ubuntu: apt-get install chromium)")
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=path, args=_ARGUMENTS)
+        yield browser
+        browser.close()
+
+
+@pytest.fixture
+def job(tmp_path: Path) -> Path:
+    """Return the job of an axis whose model lacks the error of its screw."""
+    shutil.copy(EXAMPLE / "x-axis.csv", tmp_path)
+    path = tmp_path / "job.yaml"
+    text = (EXAMPLE / "job.yaml").read_text(encoding="utf-8")
+    path.write_text(text.replace("../../out", "out"), encoding="utf-8")
+    return path
+
+
+@pytest.fixture
+def address(job: Path) -> Iterator[str]:
+    """Return what the command prints: where the page of the job is."""
+    command = [sys.executable, "-m", "zlmreport", "workbench", str(job), "--no-browser"]
+    with subprocess.Popen(
+        command, stdout=subprocess.PIPE, encoding="utf-8", env={**os.environ, "OPENBLAS_NUM_THREADS": "1"}
+    ) as process:
+        assert process.stdout is not None
+        found = _ADDRESS.search(process.stdout.readline())
+        assert found
+        yield found[0]
+        process.terminate()
+        assert process.wait(20) == 0
+
+
+@pytest.fixture
+def window(chromium: Browser) -> Iterator[Callable[..., Page]]:
+    """Return what opens a window of its own: of another person, in another language, in the dark."""
+    contexts: list[BrowserContext] = []
+    complaints: list[str] = []
+
+    def opened(address: str, **settings: Any) -> Page:
+        usual = {"viewport": {"width": 1280, "height": 900}, "locale": "en-GB", "reduced_motion": "reduce"}
+        context = chromium.new_context(**{**usual, **settings})
+        contexts.append(context)
+        page = context.new_page()
+        page.on("pageerror", lambda error: complaints.append(str(error)))
+        page.on("console", lambda message: message.type == "error" and complaints.append(message.text))
+        page.goto(address)
+        return page
+
+    yield opened
+    for context in contexts:
+        context.close()
+    assert [each for each in complaints if "status of 4" not in each] == []

@@ -1,0 +1,164 @@
+"""The loop of the error model by clicks alone, in a browser as people use it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from pathlib import Path
+
+from axe_playwright_python.sync_playwright import Axe
+from playwright.sync_api import Page, expect
+
+from browser.pictures import picture
+
+Window = Callable[..., Page]
+
+
+def diagnosed(page: Page, verdict: str) -> None:
+    """Wait until the diagnosis of the job as it is has come."""
+    expect(page.locator("body")).to_have_attribute("data-state", verdict, timeout=30_000)
+
+
+def plots(page: Page) -> list[int]:
+    """Return how many readings are marked in each graph."""
+    return [page.locator(".plot").nth(index).locator(".ring").count() for index in range(2)]
+
+
+def test_the_hidden_effect_is_found_by_clicks_alone(address: str, job: Path, window: Window) -> None:
+    page = window(address)
+    diagnosed(page, "missing")
+    expect(page.get_by_text("The model lacks something: screw-pitch explains the rest.")).to_be_visible()
+    picture(page, "missing")
+
+    page.get_by_role("button", name="The means of the positions deviate").click()
+    assert plots(page) == [5, 5]
+    page.get_by_label("over").select_option(label="Run")
+    assert plots(page) == [5, 5]
+    page.get_by_role("button", name="The residual repeats every 10.0 mm").click()
+    expect(page.get_by_label("over")).to_have_value("position")
+
+    page.get_by_role("link", name="screw-pitch").first.click()
+    expect(page.get_by_role("heading", name="Equation")).to_be_visible()
+    expect(page.locator(".plot .curve").first).to_be_visible()
+    picture(page, "effect")
+    page.get_by_role("link", name="Back to the workbench").click()
+
+    page.get_by_role("button", name="Add screw-pitch to the model").click()
+    diagnosed(page, "adequate")
+    fall = page.locator("#part-fall tbody tr")
+    assert fall.locator("th").all_inner_texts() == [
+        "without model",
+        "+ offset",
+        "+ scale-error",
+        "+ backlash",
+        "+ screw-pitch",
+        "Noise floor",
+    ]
+    errors = [float(each) for each in fall.locator("td:nth-child(3)").all_inner_texts()]
+    assert errors == sorted(errors, reverse=True)
+    assert errors[-2] < 1.2 * errors[-1]
+    picture(page, "adequate")
+    assert "    - screw-pitch\n" in job.read_text(encoding="utf-8")
+
+    page.get_by_role("button", name="Make the certificate").click()
+    with page.expect_download(timeout=60_000) as download:
+        page.get_by_role("link", name="EXAMPLE-2026-0007.pdf").click(timeout=60_000)
+    assert Path(download.value.path()).read_bytes().startswith(b"%PDF")
+
+    page.reload()
+    diagnosed(page, "adequate")
+    page.get_by_role("button", name="Undo: screw-pitch added").click()
+    diagnosed(page, "missing")
+    assert "screw-pitch" not in job.read_text(encoding="utf-8").partition("model:")[2]
+
+
+def test_a_reading_is_found_set_aside_and_brought_back_with_the_keyboard(
+    address: str, job: Path, window: Window
+) -> None:
+    page = window(address)
+    expect(page.locator(".plot .mark").first).to_be_visible()
+    page.locator(".plot").first.focus()
+    page.keyboard.press("End")
+    page.keyboard.press("ArrowLeft")
+    assert plots(page) == [1, 1]
+    page.keyboard.press("Enter")
+    details = page.locator(".reading").inner_text()
+    for name in ("Target", "Run", "Deviation", "Model", "Residual", "Time", "Air temperature"):
+        assert name in details
+    page.keyboard.press("Tab")
+    page.get_by_label("Reason, as the certificate will state it").focus()
+    page.keyboard.type("Air hose touched the reflector.")
+    page.keyboard.press("Enter")
+    expect(page.get_by_role("heading", name="Readings set aside")).to_be_visible()
+    assert "Air hose touched the reflector." in job.read_text(encoding="utf-8")
+    back = page.get_by_role("button", name=re.compile("^Bring back"))
+    back.focus()
+    page.keyboard.press("Enter")
+    expect(page.get_by_role("heading", name="Readings set aside")).to_be_hidden()
+    assert "excluded: []" in job.read_text(encoding="utf-8")
+
+
+def test_a_parameter_is_fixed_at_a_value_and_freed(address: str, job: Path, window: Window) -> None:
+    page = window(address)
+    page.get_by_role("button", name="Fix backlash.lost_motion at this value").click()
+    page.get_by_label("backlash.lost_motion (µm)").fill("-3.5")
+    page.get_by_label("backlash.lost_motion (µm)").press("Tab")
+    expect(page.locator("#part-steps li")).to_have_count(2)
+    assert "- backlash: {lost_motion: -3.5}" in job.read_text(encoding="utf-8")
+    page.get_by_role("button", name="Estimate backlash.lost_motion from the readings").click()
+    expect(page.get_by_role("button", name="Fix backlash.lost_motion at this value")).to_be_visible()
+    assert "    - backlash\n" in job.read_text(encoding="utf-8")
+
+
+def test_a_window_sees_what_an_editor_and_another_window_did(address: str, job: Path, window: Window) -> None:
+    first, second = window(address), window(address)
+    for page in (first, second):
+        expect(page.get_by_role("button", name="Remove backlash from the model")).to_be_visible()
+    first.evaluate("() => { globalThis.setInterval = () => 0 }")
+    first.get_by_role("button", name="Remove backlash from the model").click()
+    expect(first.get_by_role("button", name="Remove backlash from the model")).to_be_hidden()
+    expect(second.get_by_role("alert")).to_contain_text("changed outside of this page", timeout=15_000)
+    expect(second.get_by_role("button", name="Remove backlash from the model")).to_be_hidden()
+
+    job.write_text(
+        job.read_text(encoding="utf-8").replace("    - offset\n", "    - ofset\n"), encoding="utf-8"
+    )
+    expect(second.get_by_role("alert")).to_contain_text("did you mean 'offset'?", timeout=15_000)
+    job.write_text(
+        job.read_text(encoding="utf-8").replace("    - ofset\n", "    - offset\n"), encoding="utf-8"
+    )
+    expect(second.get_by_role("alert")).to_contain_text("changed outside of this page", timeout=15_000)
+
+
+def test_the_page_can_be_used_by_everybody(address: str, window: Window) -> None:
+    found = []
+    for scheme in ("light", "dark"):
+        page = window(address, color_scheme=scheme, bypass_csp=True)  # the checker is a script of its own
+        diagnosed(page, "missing")
+        page.locator(".plot").first.focus()
+        page.keyboard.press("Home")
+        page.keyboard.press("Enter")
+        found.append(Axe().run(page))
+        page.get_by_role("link", name="screw-pitch").first.click()
+        expect(page.get_by_role("heading", name="Equation")).to_be_visible()
+        found.append(Axe().run(page))
+    assert [each.generate_report() for each in found if each.violations_count] == []
+
+
+def test_a_tablet_in_the_dark_shows_it_all_in_german(address: str, window: Window) -> None:
+    page = window(
+        address,
+        viewport={"width": 820, "height": 1180},
+        color_scheme="dark",
+        locale="de-DE",
+        has_touch=True,
+    )
+    diagnosed(page, "missing")
+    expect(page.get_by_text("Dem Modell fehlt etwas: screw-pitch erklärt den Rest.")).to_be_visible()
+    assert page.evaluate("() => document.documentElement.scrollWidth <= innerWidth")
+    controls = page.locator("button:visible, select:visible").all()
+    heights = [box["height"] for each in controls if (box := each.bounding_box())]
+    assert min(heights) >= 40
+    picture(page, "tablet")
+    page.get_by_role("link", name="English").click()
+    expect(page.get_by_role("heading", name="Where the model fails")).to_be_visible(timeout=30_000)

@@ -1,0 +1,314 @@
+"""``zlmreport capture``: what an operator sees, and what is left behind."""
+
+from __future__ import annotations
+
+import fcntl
+import json
+import os
+import pty
+import struct
+import subprocess
+import sys
+import termios
+from pathlib import Path
+
+import pytest
+
+from cli.commands import Run
+from environments import ROOT
+from zlmreport.capture.history import read_history
+from zlmreport.cli import main
+
+PLUGIN = Path(__file__).with_name("scripted.py")
+WHOLE = "0 20 t25 20 0"
+JOB = """\
+schema: zlmreport/job/1
+certificate: {number: CAP-1, kind: report}
+axis: {name: X, travel: [-10, 30]}
+measurement:
+  feed: 6000
+  dwell: 3
+  source:
+    plugin: serial-interferometer
+    journal: x.journal
+    instrument: {plugin: scripted, moves: MOVES}
+plan: {targets: {positions: [0, 20]}, runs: 1, overrun: 5}
+evaluate: [iso230-2:2014]
+output: {formats: [json]}
+"""
+
+
+class Bench:
+    """A folder with a job, and a command line in it."""
+
+    def __init__(self, capture: pytest.CaptureFixture[str]) -> None:
+        self._capture = capture
+        self.journal = Path("x.journal")
+
+    def job(self, moves: str, *changes: tuple[str, str]) -> None:
+        text = JOB.replace("MOVES", moves)
+        for old, new in changes:
+            assert old in text
+            text = text.replace(old, new)
+        Path("job.yaml").write_text(text, encoding="utf-8")
+
+    def run(self, *arguments: str) -> Run:
+        self._capture.readouterr()
+        code = main([*arguments, "--plugin", str(PLUGIN)])
+        return Run(code, *self._capture.readouterr())
+
+    def taken(self) -> int:
+        history = read_history(self.journal)
+        assert history is not None
+        return history.progress.taken
+
+
+@pytest.fixture
+def bench(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Bench:
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("NO_COLOR", "1")
+    return Bench(capsys)
+
+
+def test_a_test_is_captured_and_evaluated(bench: Bench) -> None:
+    bench.job(WHOLE)
+    done = bench.run("capture", "job.yaml")
+    assert (done.code, done.messages) == (0, "")
+    assert done.output == (
+        "CAP-1  axis X, linear, 4 visits, less than a minute\n"
+        "1. let the axis stand still at −5.000 mm, for the datum\n"
+        "2. start the program at visit 1: 0.000 mm from below, run 1\n"
+        "datum    the reading is taken for −5.000 mm\n"
+        "1/4      run 1 ↑     0.000 mm      +0.00 µm  range 0.00 µm\n"
+        "2/4      run 1 ↑    20.000 mm      +3.00 µm  range 0.00 µm\n"
+        "3/4      run 1 ↓    20.000 mm      +3.00 µm  range 0.00 µm\n"
+        "4/4      run 1 ↓     0.000 mm      +0.00 µm  range 0.00 µm\n"
+        "next: zlmreport job.yaml\n"
+    )
+    assert bench.run("job.yaml").code == 0
+    results = json.loads(Path("CAP-1.json").read_text(encoding="utf-8"))
+    assert results["evaluations"][0]["positions"][1]["mean_fwd"] == pytest.approx(3.0, abs=1e-6)
+
+
+def test_before_the_capture_the_job_can_be_checked_and_planned(bench: Bench) -> None:
+    bench.job(WHOLE)
+    checked = bench.run("check", "job.yaml")
+    assert (checked.code, checked.messages) == (0, "")
+    assert "the job is sound; its readings are still to be captured" in checked.output
+    assert "At least 5 runs in each direction: 1 run" in checked.output
+    assert checked.output.endswith("next: zlmreport capture job.yaml\n")
+    bench.job(WHOLE, ("runs: 1", "runs: 5"))
+    assert bench.run("plan", "job.yaml").code == 0
+
+
+def test_a_check_before_the_capture_asks_for_an_instrument(bench: Bench) -> None:
+    bench.job(WHOLE, ("    instrument: {plugin: scripted, moves: " + WHOLE + "}\n", ""))
+    checked = bench.run("check", "job.yaml")
+    assert (checked.code, "measurement.source.instrument is missing" in checked.messages) == (2, True)
+
+
+def test_after_an_interruption_the_check_says_how_to_go_on(bench: Bench) -> None:
+    bench.job("0 lost")
+    bench.run("capture", "job.yaml")
+    assert bench.run("check", "job.yaml").output.endswith("next: zlmreport capture job.yaml --resume\n")
+
+
+def test_a_check_before_the_capture_finds_limits_that_make_no_sense(bench: Bench) -> None:
+    bench.job(WHOLE, ("dwell: 3", "dwell: 1"))
+    checked = bench.run("check", "job.yaml")
+    assert checked.code == 2
+    assert "job.yaml:6:10: measurement.dwell: the axis rests 1 s" in checked.messages
+
+
+def test_without_a_terminal_the_main_job_names_the_command(bench: Bench) -> None:
+    bench.job(WHOLE)
+    done = bench.run("job.yaml")
+    assert done.code == 3
+    assert (
+        "x.journal: there is no such journal: nothing was captured yet; 'zlmreport capture" in done.messages
+    )
+
+
+def test_an_unfinished_journal_makes_no_certificate(bench: Bench) -> None:
+    bench.job("0 20")
+    bench.run("capture", "job.yaml")
+    done = bench.run("job.yaml")
+    assert done.code == 3
+    assert "the capture is not finished: 2 of 4 visits" in done.messages
+
+
+def test_an_instrument_that_goes_leaves_what_was_taken_and_says_how_to_go_on(bench: Bench) -> None:
+    bench.job("0 20")
+    done = bench.run("capture", "job.yaml")
+    assert done.code == 3
+    assert done.messages == (
+        "the port: the instrument is gone; look at its cable; go on with: zlmreport capture job.yaml "
+        "--resume\n"
+    )
+    assert bench.taken() == 2
+
+
+def test_the_capture_goes_on_after_the_datum_was_checked(bench: Bench) -> None:
+    bench.job("0 20")
+    bench.run("capture", "job.yaml")
+    bench.job("t15 20 t25 20 0")
+    done = bench.run("capture", "job.yaml", "--resume")
+    assert done.code == 0
+    assert done.output.splitlines()[1:5] == [
+        "1. let the axis come once more to 20.000 mm from below, to check the datum",
+        "2. go on with the program at visit 3: 20.000 mm from above, run 1",
+        "datum    holds: +0.00 µm against visit 2",
+        "3/4      run 1 ↓    20.000 mm      +3.00 µm  range 0.00 µm",
+    ]
+
+
+def test_ctrl_c_leaves_a_journal_and_says_how_to_go_on(bench: Bench) -> None:
+    bench.job("0 interrupt")
+    done = bench.run("capture", "job.yaml")
+    assert done.code == 130
+    assert done.output.endswith("ended; go on with: zlmreport capture job.yaml --resume\n")
+    assert bench.taken() == 1
+
+
+def test_a_lost_beam_says_what_is_void_and_what_to_do(bench: Bench) -> None:
+    bench.job("0 20 lost t25 20 0")
+    done = bench.run("capture", "job.yaml")
+    assert done.code == 3
+    assert done.messages == (
+        "zlmreport capture: the beam is broken. The datum is gone: visits 3 to 4 are void, from 20.000 mm ↓ "
+        "of run 1 on. What was taken before stays; let the axis stand still at −5.000 mm, for the datum, "
+        "then start the program at visit 1: 0.000 mm from below, run 1, attempt 2; go on with: zlmreport "
+        "capture job.yaml --resume\n"
+    )
+
+
+def test_a_run_whose_zero_was_lost_is_taken_again(bench: Bench) -> None:
+    bench.job("0 20 lost")
+    bench.run("capture", "job.yaml")
+    bench.job(WHOLE)
+    assert bench.run("capture", "job.yaml", "--resume").code == 0
+    done = bench.run("job.yaml")
+    assert done.code == 0
+
+
+def test_readings_that_come_too_seldom_are_refused_with_what_helps(bench: Bench) -> None:
+    bench.job("slow")
+    done = bench.run("capture", "job.yaml")
+    assert done.code == 3
+    assert "let the instrument send more often (its key rate)" in done.messages
+
+
+def test_a_long_silence_ends_the_capture(bench: Bench) -> None:
+    bench.job("0 silent")
+    done = bench.run("capture", "job.yaml")
+    assert done.code == 3
+    assert "no sound reading came for 100.0 s" in done.messages
+    assert "let the axis come once more to 0.000 mm from below, to check the datum, then" in done.messages
+
+
+def test_a_capture_that_is_closed_has_missing_readings(bench: Bench) -> None:
+    bench.job("0 20 t25 20")
+    bench.run("capture", "job.yaml")
+    done = bench.run("capture", "job.yaml", "--end")
+    assert (done.code, done.output.splitlines()[0]) == (
+        0,
+        "closed after 3 of 4 visits; what was not taken is missing",
+    )
+    done = bench.run("job.yaml")
+    assert done.code == 0
+    assert "missing" in done.output
+
+
+def test_a_second_capture_does_not_write_over_the_first(bench: Bench) -> None:
+    bench.job(WHOLE)
+    bench.run("capture", "job.yaml")
+    before = bench.journal.read_bytes()
+    done = bench.run("capture", "job.yaml")
+    assert done.code == 3
+    assert "x.journal: holds the finished capture of CAP-1; name another journal" in done.messages
+    assert bench.journal.read_bytes() == before
+
+
+def test_a_finished_capture_is_not_gone_on_with(bench: Bench) -> None:
+    bench.job(WHOLE)
+    bench.run("capture", "job.yaml")
+    for option in ("--resume", "--end"):
+        done = bench.run("capture", "job.yaml", option)
+        assert (done.code, "the capture is finished" in done.messages) == (3, True)
+
+
+def test_the_command_line_may_name_another_journal(bench: Bench) -> None:
+    bench.job(WHOLE)
+    assert bench.run("capture", "job.yaml", "--journal", "again.journal").code == 0
+    assert Path("again.journal").exists()
+    assert not bench.journal.exists()
+
+
+def test_another_program_reads_what_happens_as_the_journal_has_it(bench: Bench) -> None:
+    bench.job(WHOLE)
+    done = bench.run("capture", "job.yaml", "--json")
+    lines = [json.loads(line) for line in done.output.splitlines()]
+    assert [line["record"] for line in lines] == ["datum", *["reading"] * 4, "finished"]
+    assert lines[2]["deviation"] == pytest.approx(3e-6)
+
+
+def test_a_damaged_journal_names_its_line(bench: Bench) -> None:
+    bench.job("0 20")
+    bench.run("capture", "job.yaml")
+    lines = bench.journal.read_text().splitlines(keepends=True)
+    lines[2] = lines[2].replace("reading", "missed ")
+    bench.journal.write_text("".join(lines))
+    done = bench.run("capture", "job.yaml", "--resume")
+    assert done.code == 3
+    assert done.messages.startswith("x.journal:3:1: the journal was altered or damaged from this line on;")
+
+
+def test_a_port_that_is_not_there_leaves_no_journal(bench: Bench) -> None:
+    bench.job(WHOLE, ("{plugin: scripted, moves: " + WHOLE + "}", "{plugin: umd1, port: /dev/nothing}"))
+    done = bench.run("capture", "job.yaml")
+    assert done.code == 3
+    assert done.messages.startswith("/dev/nothing: there is no such port")
+    assert not bench.journal.exists()
+
+
+def test_going_on_and_closing_exclude_each_other(bench: Bench) -> None:
+    bench.job(WHOLE)
+    done = bench.run("capture", "job.yaml", "--end", "--resume")
+    assert (done.code, "take one of them" in done.messages) == (2, True)
+
+
+def _in_a_terminal(*arguments: str, answers: bytes = b"") -> str:
+    """Run a command in a terminal of 80 columns; return all that it wrote there."""
+    ours, theirs = pty.openpty()
+    fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", 24, 80, 0, 0))
+    process = subprocess.Popen(
+        [sys.executable, "-m", "zlmreport", *arguments, "--plugin", str(PLUGIN)],
+        env={**os.environ, "TERM": "xterm", "PYTHONPATH": str(ROOT / "tests")},
+        stdin=theirs,
+        stdout=theirs,
+        stderr=theirs,
+    )
+    os.close(theirs)
+    os.write(ours, answers)
+    written = b""
+    while True:
+        try:
+            written += os.read(ours, 65536)
+        except OSError:  # the other end is closed
+            break
+    process.wait()
+    os.close(ours)
+    return written.decode()
+
+
+def test_at_a_terminal_the_main_job_captures_first_and_the_operator_sees_to_troubles(bench: Bench) -> None:
+    bench.job(f"0 lost wait {WHOLE}")
+    screen = _in_a_terminal("job.yaml", answers=b"\n")
+    assert "Press Enter when that is done" in screen
+    assert screen.count("\a") == 5
+    assert "CAP-1.json" in screen
+    shown = [
+        line for line in screen.replace("\x1b[J", "").split("\n") if line.startswith(("next", "now", "done"))
+    ]
+    assert shown
+    assert max(map(len, shown)) <= 80

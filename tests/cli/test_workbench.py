@@ -1,0 +1,51 @@
+"""The command of the workbench, up to where a browser takes over."""
+
+from __future__ import annotations
+
+import socket
+import sys
+from pathlib import Path
+
+import pytest
+
+from zlmreport.cli import main
+from zlmreport.cli.arguments import parse
+
+EXAMPLE = Path(__file__).parents[2] / "configs" / "hidden-effect" / "job.yaml"
+
+
+@pytest.mark.parametrize("package", ["starlette", "uvicorn"])
+def test_an_extra_that_is_missing_is_said_with_how_to_install_it(
+    package: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for name in [name for name in sys.modules if name.partition(".")[0] == package]:
+        monkeypatch.delitem(sys.modules, name)
+    for name in ("app", "guard", "serve"):
+        monkeypatch.delitem(sys.modules, f"zlmreport.web.{name}", raising=False)
+    monkeypatch.setitem(sys.modules, package, None)
+    assert main(["workbench", str(EXAMPLE)]) == 3
+    assert f"{package} is not installed" in (message := capsys.readouterr().err)
+    assert "pip install 'zlmreport[workbench]'" in message
+
+
+def test_a_port_that_is_taken_is_said(capsys: pytest.CaptureFixture[str]) -> None:
+    pytest.importorskip("uvicorn", reason="the workbench's extra is not installed")
+    with socket.create_server(("127.0.0.1", 0)) as taken:
+        port = taken.getsockname()[1]
+        assert main(["workbench", str(EXAMPLE), "--no-browser", "--port", str(port)]) == 3
+    assert f"port {port} cannot be used: address already in use" in capsys.readouterr().err
+
+
+def test_a_job_that_is_wrong_is_said_before_any_page_opens(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    pytest.importorskip("uvicorn", reason="the workbench's extra is not installed")
+    job = tmp_path / "job.yaml"
+    job.write_text("schema: zlmreport/job/1\n", encoding="utf-8")
+    assert main(["workbench", str(job), "--no-browser"]) == 2
+    assert "job.yaml:1:1" in capsys.readouterr().err
+
+
+def test_a_browser_is_opened_unless_that_is_not_wanted() -> None:
+    assert not parse(["workbench", "x.yaml"])[1].no_browser
+    assert parse(["workbench", "x.yaml", "--no-browser", "--port", "8420"])[1].port == 8420

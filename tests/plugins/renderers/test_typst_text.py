@@ -1,0 +1,158 @@
+"""What a PDF by Typst says is what the certificate says, letter for letter as in the PDF by WeasyPrint."""
+
+from __future__ import annotations
+
+import unicodedata
+from collections import Counter
+from collections.abc import Iterator
+from io import BytesIO
+from pathlib import Path
+
+import pytest
+from pypdf import PdfReader
+
+from environments import ROOT
+from plugins.renderers import pdf_pages
+from plugins.renderers.pdf_pages import numbers_of, printed_numbers, texts
+from plugins.renderers.typst_pages import read, sample
+from typesetting import samples
+from zlmreport import pipeline
+from zlmreport.certificate.document import Certificate, Facts, Formulas, Graph, Notice, Paragraph, Table
+from zlmreport.errors import InputError
+from zlmreport.job.loading import load
+from zlmreport.language import Language
+from zlmreport.plugins import find_plugins
+
+
+def _letters(reader: PdfReader, running: tuple[str, ...]) -> Counter[str]:
+    """All characters of all pages but spaces, without what stands at the head and foot of each.
+
+    Two writers share out a document among pages each in its own way.
+    """
+    found: Counter[str] = Counter()
+    for number, text in enumerate(texts(reader), start=1):
+        found += Counter(_unspaced(text))
+        of_page = running[-1].format(number, len(reader.pages))
+        found -= Counter(_unspaced("".join((of_page, *running[: 1 if number == 1 else -1]))))
+    return found
+
+
+def _body(reader: PdfReader, running: tuple[str, ...]) -> str:
+    """All text of all pages without spaces, and without what stands at the head and foot of each."""
+    pages = []
+    for number, text in enumerate(texts(reader), start=1):
+        page = _unspaced(text)
+        for each in (*running[:-1], running[-1].format(number, len(reader.pages))):
+            page = page.replace(_unspaced(each), "", 1)
+        pages.append(page)
+    return "".join(pages)
+
+
+def _sentences(certificate: Certificate) -> Iterator[str]:
+    """All running text of a certificate, and the values of its facts."""
+    blocks = (*certificate.cover, *(block for section in certificate.sections for block in section.blocks))
+    for block in blocks:
+        match block:
+            case Paragraph(text):
+                yield text
+            case Notice(heading, items):
+                yield from (heading, *items)
+            case Facts(pairs):
+                yield from (value for _, value in pairs)
+            case Table(caption) | Formulas(caption):
+                yield caption
+            case Graph(figure):
+                yield figure.title.in_language(certificate.language)
+
+
+def _running(certificate: Certificate) -> tuple[str, ...]:
+    """The texts of every page, those of the following ones, and the number of the page."""
+    words = certificate.page_words
+    laboratory = certificate.letterhead.laboratory.name if certificate.letterhead else ""
+    return words.number, laboratory, certificate.subtitle, f"{words.page}{{}}{words.of}{{}}"
+
+
+@pytest.mark.parametrize("language", Language)
+def test_it_says_what_the_other_says_letter_for_letter(language: Language) -> None:
+    running = _running(samples.certificate(language))
+    assert _letters(sample(language), running) == _letters(pdf_pages.sample(language), running)
+
+
+@pytest.mark.parametrize("job", ["german/messbericht.yaml", "as-found/certificate.yaml"])
+def test_every_number_and_every_sentence_of_a_real_certificate_stands_in_both(job: str) -> None:
+    registry = find_plugins()
+    certificate = pipeline.compose(load(Path(ROOT, "configs", job), registry, ("pdf",)), registry)
+    sentences = list(_sentences(certificate))
+    assert len(sentences) > 20
+    for identifier in ("pdf", "pdf-typst"):
+        reader = PdfReader(BytesIO(registry.renderer(identifier).render(certificate)))
+        body = _body(reader, _running(certificate))
+        assert [sentence for sentence in sentences if _unspaced(sentence) not in body] == []
+        assert not numbers_of(certificate) - printed_numbers("\n".join(texts(reader)))
+
+
+@pytest.mark.parametrize("paper", ["A4", "Letter"])
+@pytest.mark.parametrize("language", Language)
+def test_every_number_of_every_table_is_printed(language: Language, paper: str) -> None:
+    expected = numbers_of(samples.certificate(language, paper))
+    assert expected.total() > 700
+    assert not expected - printed_numbers("\n".join(texts(sample(language, paper))))
+
+
+def test_rows_of_numbers_are_read_in_order() -> None:
+    text = "\n".join(texts(sample()))
+    assert "\n4 150.000 5 5 3.3 0.6 1.9 0.7 0.8 2.6 2.9 3.3\n" in text
+
+
+def test_a_letter_with_a_bar_is_read_as_such_and_one_without_is_not() -> None:
+    text = "".join("".join(texts(sample())).split())
+    assert "max[x̄i]" in text
+    assert "xi1↑" in text
+    assert "x̄i1↑" not in text
+
+
+def test_graphs_carry_their_words_as_text() -> None:
+    text = "\n".join(texts(sample(Language.GERMAN)))
+    assert text.count("Zielposition in mm") == 4
+    assert text.count("Abweichung in µm") == 4
+
+
+@pytest.mark.parametrize(
+    "customer",
+    [
+        '#read("/etc/passwd") #{ panic() }',
+        "$x^2$ *bold* _italic_ `raw` @label <label> // = - + /",
+        "\\u{41} \\# \"quoted\" 'quoted' -- --- ... ~",
+        "{{ 7 * 7 }} &amp; <b>x</b>",
+        "x̄ é ñ q̈",
+        "Ελληνικά Русский Türkçe",
+    ],
+)
+def test_a_customers_name_is_printed_as_it_is_typed(customer: str) -> None:
+    text = "".join(texts(read(samples.certificate(standards=0, customer=customer))))
+    assert _unspaced(customer) in _unspaced(text)
+
+
+def test_a_name_of_500_characters_is_printed_whole_and_parts_without_a_sign() -> None:
+    customer = "".join(chr(ord("a") + n % 26) for n in range(500))
+    text = "".join(texts(read(samples.certificate(standards=0, customer=customer))))
+    assert customer in "".join(text.split())
+
+
+@pytest.mark.parametrize(
+    ("customer", "told"), [("中文", "'中' (U+4E2D"), ("🙂", "U+1F642"), ("a\x01b", "U+0001 a control")]
+)
+def test_a_letter_that_the_typeface_lacks_is_refused_by_name(customer: str, told: str) -> None:
+    with pytest.raises(InputError) as refused:
+        read(samples.certificate(standards=0, customer=customer))
+    assert told in str(refused.value)
+    assert "ask for the format pdf" in str(refused.value)
+
+
+def test_line_ends_of_a_value_are_kept() -> None:
+    cover, *_ = texts(sample())
+    assert "Werkstraße 7\n70565 Stuttgart\nDeutschland" in cover
+
+
+def _unspaced(text: str) -> str:
+    return "".join(unicodedata.normalize("NFC", text).split())

@@ -1,0 +1,24 @@
+"""A PDF by Typst, read again."""
+
+from __future__ import annotations
+
+from functools import cache
+from io import BytesIO
+
+from pypdf import PdfReader
+
+from typesetting import samples
+from zlmreport.certificate.document import Certificate
+from zlmreport.language import Language
+from zlmreport_plugins.renderers.pdf_typst import TypstRenderer
+
+
+def read(certificate: Certificate) -> PdfReader:
+    """Print a certificate and open it."""
+    return PdfReader(BytesIO(TypstRenderer().render(certificate)))
+
+
+@cache
+def sample(language: Language = Language.ENGLISH, paper: str = "A4") -> PdfReader:
+    """The sample certificate, printed once for all tests that only look."""
+    return read(samples.certificate(language, paper))

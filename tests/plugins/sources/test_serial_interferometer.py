@@ -1,0 +1,133 @@
+"""Readings of a journal, and which of them count."""
+
+from __future__ import annotations
+
+from itertools import chain
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from capture.moves import MM, UM, Axis, listed, planned
+from capture.recording import recorded, written
+from plugins.sources.reading import DATA, JOB, said
+from zlmreport.capture.events import Ended, Resumed
+from zlmreport.capture.journal import Journal
+from zlmreport.errors import AccessError, InputError
+from zlmreport.language import Language
+from zlmreport.live.reading import Fault
+from zlmreport.measurement import axis as axes
+from zlmreport.measurement.approach import Approach
+from zlmreport.measurement.measurement_set import MeasurementSet, MissingReading
+from zlmreport.protocols import SourceContext
+from zlmreport_plugins.sources.serial_interferometer.source import SerialInterferometer
+
+#: The last reading before an axis is quite there may be among the hundred of a mean, m.
+ARRIVAL = 1 * UM / 100
+LINEAR = DATA / "sources" / "linear.journal"
+
+
+def read(journal: Path, name: str = "X") -> MeasurementSet:
+    source = SerialInterferometer()
+    options = source.options.model_validate({"journal": journal})
+    return source.read(options, SourceContext(axes.Axis(name), JOB))
+
+
+def beam_lost(axis: Axis) -> chain:
+    return axis.stand(0.01, faults=Fault.BEAM_LOST, value=float("nan"), message="the beam is broken")
+
+
+def broken_in_run_1(path: Path, *, until: float) -> Path:
+    """Write a capture whose zero was lost after 100 mm; its second attempt goes up to a target, 4 µm off."""
+    axis = Axis(error={0: 0.001, 100: 0.002})
+    written(path, chain(axis.stand(), axis.go(0, 100), beam_lost(axis)), datum=-5 * MM)
+    axis = Axis(time=axis.time + 500, error=dict.fromkeys((0, 100, 200), 0.004))
+    targets = [target for target in (0, 100, 200) if target <= until]
+    with Journal.continued(path) as journal:
+        journal.append(Resumed(), axis.time - 100)
+        recorded(chain(axis.stand(), axis.go(*targets)), journal)
+        journal.append(Ended(), journal.elapsed)
+    return path
+
+
+def test_deviations_directions_runs_and_times_are_those_of_the_capture() -> None:
+    measurements = read(LINEAR)
+    assert measurements.target_positions.tolist() == [0.0, 100 * MM, 200 * MM]
+    assert measurements.run.tolist() == [1] * 6 + [2] * 6
+    assert measurements.approach.tolist() == [1, 1, 1, -1, -1, -1] * 2
+    taken = np.delete(measurements.deviation, 10)
+    expected = np.delete(np.tile([1.1, -2.3, 4.7, 4.7, -2.3, 1.1], 2), 10) * UM
+    np.testing.assert_allclose(taken, expected, rtol=0, atol=1e-15)
+    assert np.all(np.diff(np.delete(measurements.time, 10)) > 3.0)
+
+
+def test_conditions_stand_beside_each_reading() -> None:
+    air = read(LINEAR).conditions["air_temperature"]
+    assert air[0] == 293.45
+    assert np.isnan(air[10])
+
+
+def test_the_datum_of_the_capture_is_that_of_the_readings() -> None:
+    assert read(LINEAR).datum == -5e-3
+
+
+def test_a_missed_visit_is_a_missing_reading() -> None:
+    measurements = read(LINEAR)
+    assert measurements.missing() == (MissingReading(100 * MM, Approach.NEGATIVE, 2),)
+    assert "1 of 12 visits of the plan have no reading." in said(measurements)
+
+
+def test_a_repeated_run_counts_whole_and_is_not_mixed_with_the_first_attempt(tmp_path: Path) -> None:
+    measurements = read(broken_in_run_1(tmp_path / "x.journal", until=200))
+    np.testing.assert_allclose(measurements.deviation[:3], 4 * UM, rtol=0, atol=1e-12)
+    assert any("attempt 2, the most complete, counts; 2 readings" in remark for remark in said(measurements))
+
+
+def test_an_attempt_that_came_less_far_does_not_count(tmp_path: Path) -> None:
+    measurements = read(broken_in_run_1(tmp_path / "x.journal", until=0))
+    np.testing.assert_allclose(measurements.deviation[:2], [1 * UM, 2 * UM], rtol=0, atol=ARRIVAL)
+    assert np.all(np.isnan(measurements.deviation[2:]))
+
+
+def test_of_attempts_that_came_as_far_the_last_counts(tmp_path: Path) -> None:
+    measurements = read(broken_in_run_1(tmp_path / "x.journal", until=100))
+    np.testing.assert_allclose(measurements.deviation[:2], 4 * UM, rtol=0, atol=1e-12)
+
+
+def test_what_happened_to_the_datum_is_said(tmp_path: Path) -> None:
+    remarks = said(read(broken_in_run_1(tmp_path / "x.journal", until=200)))
+    assert "The instrument's zero was lost (times: 1)" in " ".join(remarks)
+    assert any("−5 mm was taken for that position" in remark for remark in remarks)
+
+
+def test_a_difference_at_the_check_of_the_datum_is_said(tmp_path: Path) -> None:
+    axis, path = Axis(), tmp_path / "x.journal"
+    written(path, chain(axis.stand(), axis.go(0, 100)))
+    axis = Axis(position=95, time=axis.time + 500, error={100: 0.0031})
+    with Journal.continued(path) as journal:
+        journal.append(Resumed(), axis.time - 100)
+        recorded(axis.go(100), journal)
+        journal.append(Ended(), journal.elapsed)
+    assert any("largest difference: 3.1 µm" in remark for remark in said(read(path)))
+
+
+def test_remarks_are_said_in_german_with_a_decimal_comma() -> None:
+    (first, *_) = read(LINEAR).provenance.remarks
+    assert "höchstens 1 mm vom Sollwert" in first.in_language(Language.GERMAN)
+
+
+def test_a_capture_that_is_not_finished_says_how_to_go_on(tmp_path: Path) -> None:
+    axis = Axis()
+    path = written(tmp_path / "x.journal", chain(axis.stand(), axis.go(0)))
+    with pytest.raises(AccessError, match=r"1 of 6 visits; .* --resume' goes on, .* --end' closes it"):
+        read(path)
+
+
+def test_a_journal_of_another_axis_is_refused() -> None:
+    with pytest.raises(InputError, match=r"journal of the linear axis X .* the linear axis Y"):
+        read(LINEAR, "Y")
+
+
+def test_the_sample_is_the_plan_that_it_says() -> None:
+    assert planned(runs=2).targets.tolist() == read(LINEAR).target_positions.tolist()
+    assert len(listed(runs=2)) == len(read(LINEAR).deviation)

@@ -1,0 +1,57 @@
+from __future__ import annotations
+
+import shutil
+import warnings
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+pytest.importorskip("starlette", reason="the workbench's extra is not installed")
+
+with warnings.catch_warnings():
+    warnings.simplefilter("ignore")  # it asks for a successor of httpx that is not packaged everywhere
+    from starlette.testclient import TestClient
+
+from web.jobs import EXAMPLE, registry
+from zlmreport.web.app import Workbench
+from zlmreport.web.guard import Door
+
+PORT = 8420
+
+
+@pytest.fixture
+def job(tmp_path: Path) -> Path:
+    """Return the job of an axis whose model lacks the error of its screw."""
+    shutil.copy(EXAMPLE / "x-axis.csv", tmp_path)
+    path = tmp_path / "job.yaml"
+    text = (EXAMPLE / "job.yaml").read_text(encoding="utf-8")
+    path.write_text(text.replace("../../out", "out"), encoding="utf-8")
+    return path
+
+
+@pytest.fixture
+def workbench(job: Path) -> Iterator[Workbench]:
+    made = Workbench.of(job, registry())
+    yield made
+    made.diagnoses.end()
+    made.certificates.end()
+
+
+@pytest.fixture
+def door() -> Door:
+    return Door.at(PORT)
+
+
+@pytest.fixture
+def stranger(workbench: Workbench, door: Door) -> TestClient:
+    """Return a browser that has not been given the token."""
+    return TestClient(workbench.app(door), base_url=f"http://127.0.0.1:{PORT}", follow_redirects=False)
+
+
+@pytest.fixture
+def browser(stranger: TestClient, door: Door) -> TestClient:
+    """Return a browser that came by the address on the terminal."""
+    assert stranger.get(door.address).status_code == 303
+    stranger.headers["Origin"] = f"http://127.0.0.1:{PORT}"
+    return stranger

@@ -1,0 +1,166 @@
+"""What is clicked stands in the job file, and what others wrote there stays."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+from starlette.testclient import TestClient
+
+from web.jobs import registry
+from zlmreport.job.loading import load
+
+
+@pytest.fixture
+def before(browser: TestClient) -> dict[str, Any]:
+    """Return the job as the page shows it."""
+    found: dict[str, Any] = browser.get("/api/job").json()
+    return found
+
+
+def click(browser: TestClient, before: dict[str, Any], **wanted: Any) -> dict[str, Any]:
+    answer = browser.post("/api/change", json={"based_on": before["digest"], **wanted})
+    assert answer.status_code == 200, answer.text
+    found: dict[str, Any] = answer.json()
+    return found
+
+
+def refused(browser: TestClient, before: dict[str, Any], **wanted: Any) -> str:
+    answer = browser.post("/api/change", json={"based_on": before["digest"], **wanted})
+    assert answer.status_code == 422
+    return "\n".join(answer.json()["problems"])
+
+
+def effects(path: Path) -> dict[str, dict[str, float]]:
+    return {each.identifier: dict(each.values) for each in load(path, registry()).effects}
+
+
+def test_an_effect_is_added_and_the_error_falls(
+    job: Path, browser: TestClient, before: dict[str, Any]
+) -> None:
+    after = click(browser, before, action="add", effect="screw-pitch")
+    assert list(effects(job)) == ["offset", "scale-error", "backlash", "screw-pitch"]
+    shares = [row["share"] for row in after["fall"]["rows"]]
+    assert shares == sorted(shares, reverse=True)
+    assert len(shares) == 1 + 4
+
+
+def test_comments_and_layout_stay(job: Path, browser: TestClient, before: dict[str, Any]) -> None:
+    text = job.read_text(encoding="utf-8")
+    click(browser, before, action="add", effect="screw-pitch")
+    assert job.read_text(encoding="utf-8") == text.replace(
+        "    - backlash\n", "    - backlash\n    - screw-pitch\n"
+    )
+
+
+def test_an_effect_is_removed(job: Path, browser: TestClient, before: dict[str, Any]) -> None:
+    click(browser, before, action="remove", effect="backlash")
+    assert list(effects(job)) == ["offset", "scale-error"]
+
+
+def test_an_effect_that_explains_nothing_is_refused(
+    job: Path, browser: TestClient, before: dict[str, Any]
+) -> None:
+    text = job.read_text(encoding="utf-8")
+    after = click(browser, before, action="add", effect="screw-pitch")
+    assert "explains nothing here" in refused(browser, after, action="add", effect="backlash-bow")
+    click(browser, after, action="undo")
+    assert job.read_text(encoding="utf-8") == text
+
+
+def test_a_parameter_is_fixed_and_freed(job: Path, browser: TestClient, before: dict[str, Any]) -> None:
+    text = job.read_text(encoding="utf-8")
+    after = click(browser, before, action="fix", effect="backlash", parameter="lost_motion", value=-4)
+    assert effects(job)["backlash"] == {"lost_motion": -4.0}
+    (found,) = (each for each in after["effects"] if each["effect"] == "backlash")
+    assert found["parameters"][0] | {"given": True, "fixed": True} == found["parameters"][0]
+    click(browser, after, action="free", effect="backlash", parameter="lost_motion")
+    assert job.read_text(encoding="utf-8") == text
+
+
+def test_a_parameter_that_there_is_not_is_refused(browser: TestClient, before: dict[str, Any]) -> None:
+    assert "no parameter 'backlash.gain'" in refused(
+        browser, before, action="fix", effect="backlash", parameter="gain", value=1
+    )
+
+
+def test_a_reading_is_set_aside_for_a_reason_and_comes_back(
+    job: Path, browser: TestClient, before: dict[str, Any]
+) -> None:
+    after = click(browser, before, action="exclude", reading=12, reason="Air hose")
+    (excluded,) = load(job, registry()).keys.measurement.excluded
+    assert excluded.reason == "Air hose"
+    assert len(after["graphs"]["readings"]["place"]) == len(before["graphs"]["readings"]["place"]) - 1
+    assert 12 not in after["graphs"]["readings"]["place"]
+    assert after["excluded"][0]["reason"] == "Air hose"
+    back = click(browser, after, action="include", reading=0)
+    assert back["excluded"] == []
+    assert back["graphs"] == before["graphs"]
+
+
+@pytest.mark.parametrize("reason", ["", "  ", "two\nlines"])
+def test_no_reading_is_set_aside_without_a_reason(
+    browser: TestClient, before: dict[str, Any], reason: str
+) -> None:
+    assert "for a reason" in refused(browser, before, action="exclude", reading=12, reason=reason)
+
+
+@pytest.mark.parametrize(("action", "reading"), [("exclude", 210), ("exclude", -1), ("include", 0)])
+def test_a_reading_that_there_is_not_is_refused(
+    browser: TestClient, before: dict[str, Any], action: str, reading: int
+) -> None:
+    refused(browser, before, action=action, reading=reading, reason="because")
+
+
+def test_undo_puts_back_what_was(job: Path, browser: TestClient, before: dict[str, Any]) -> None:
+    text = job.read_text(encoding="utf-8")
+    once = click(browser, before, action="add", effect="screw-pitch")
+    twice = click(browser, once, action="remove", effect="offset")
+    assert twice["undo"] == "offset removed"
+    back = click(browser, twice, action="undo")
+    assert back["undo"] == "screw-pitch added"
+    start = click(browser, back, action="undo")
+    assert start["undo"] is None
+    assert job.read_text(encoding="utf-8") == text
+
+
+def test_what_somebody_else_wrote_is_not_undone(
+    job: Path, browser: TestClient, before: dict[str, Any]
+) -> None:
+    click(browser, before, action="add", effect="screw-pitch")
+    job.write_text(job.read_text(encoding="utf-8") + "# mine\n", encoding="utf-8")
+    outside = browser.get("/api/job").json()
+    assert outside["undo"] is None
+    answer = browser.post("/api/change", json={"based_on": outside["digest"], "action": "undo"})
+    assert answer.status_code == 409
+    assert job.read_text(encoding="utf-8").endswith("# mine\n")
+
+
+def test_a_second_window_does_not_overwrite_the_first(
+    job: Path, browser: TestClient, before: dict[str, Any]
+) -> None:
+    click(browser, before, action="add", effect="screw-pitch")
+    text = job.read_text(encoding="utf-8")
+    second = browser.post(
+        "/api/change", json={"based_on": before["digest"], "action": "remove", "effect": "offset"}
+    )
+    assert second.status_code == 409
+    assert "changed elsewhere" in second.json()["problems"][0]
+    assert job.read_text(encoding="utf-8") == text
+
+
+def test_a_conflict_is_told_in_the_language_of_the_page(browser: TestClient) -> None:
+    answer = browser.post("/api/change?lang=de", json={"based_on": "", "action": "undo"})
+    assert "an anderer Stelle geändert" in answer.json()["problems"][0]
+
+
+@pytest.mark.parametrize(
+    "body", [{}, {"based_on": "x"}, {"based_on": "x", "action": "add", "path": "/etc/passwd"}, [], "add"]
+)
+def test_what_no_page_sends_is_refused(browser: TestClient, body: Any) -> None:
+    assert browser.post("/api/change", json=body).status_code == 400
+
+
+def test_an_action_that_there_is_not_is_refused(browser: TestClient, before: dict[str, Any]) -> None:
+    assert "there is no action 'delete'" in refused(browser, before, action="delete")

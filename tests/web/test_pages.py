@@ -1,0 +1,185 @@
+"""What the page of a job and those of effects are told."""
+
+from __future__ import annotations
+
+import json
+import math
+import time
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from starlette.testclient import TestClient
+
+from web.jobs import EXAMPLE, registry
+from zlmreport import pipeline
+from zlmreport.job.loading import load
+from zlmreport.language import Language, same
+from zlmreport.model.failures.failure import Failure, ResidualTest
+from zlmreport.model.study import Study
+from zlmreport.testing.designs import full_designs
+from zlmreport.web.app import Workbench
+from zlmreport.web.diagnosed import chance, diagnosed, percent
+from zlmreport.web.effect_page import sketch
+from zlmreport.web.texts import TEXTS, texts
+from zlmreport.web.view import view
+
+
+@pytest.fixture(scope="module")
+def page() -> dict[str, Any]:
+    """Return the example's job as the page is told of it."""
+    workbench = Workbench.of(EXAMPLE / "job.yaml", registry())
+    return view(workbench.bench, workbench.bench.loaded(), Language.ENGLISH)
+
+
+@pytest.fixture(scope="module")
+def study() -> Study:
+    job = load(EXAMPLE / "job.yaml", registry())
+    return Study.of(job, pipeline.read(job, registry()), registry().effects)
+
+
+def test_deviation_is_model_and_residual(page: dict[str, Any], study: Study) -> None:
+    readings = page["graphs"]["readings"]
+    fitted = 1e6 * study.fitted().fit.fitted
+    assert readings["deviation"] == pytest.approx(1e6 * study.measurements.deviation, abs=1e-6)
+    assert np.subtract(readings["deviation"], readings["residual"]) == pytest.approx(fitted, abs=2e-6)
+
+
+def test_residuals_can_be_laid_out_over_everything_that_was_logged(page: dict[str, Any]) -> None:
+    assert [axis["key"] for axis in page["graphs"]["axes"]] == [
+        "position",
+        "time",
+        "run",
+        "direction",
+        "axis_temperature",
+        "screw_temperature",
+        "air_temperature",
+        "air_pressure",
+        "relative_humidity",
+    ]
+
+
+def test_the_model_is_drawn_with_its_uncertainty_in_both_directions(page: dict[str, Any]) -> None:
+    assert [curve["direction"] for curve in page["graphs"]["model"]] == [1, -1]
+    for curve in page["graphs"]["model"]:
+        assert np.all(np.less(curve["low"], curve["y"]))
+        assert np.all(np.less(curve["y"], curve["high"]))
+
+
+def test_standards_say_what_is_and_what_would_be(page: dict[str, Any]) -> None:
+    (standard,) = page["standards"]
+    accuracy = standard["rows"][0]
+    assert (accuracy["value"], accuracy["by_model"]) == ("17.41", "7.98")
+
+
+def test_the_page_is_plain_values(page: dict[str, Any]) -> None:
+    assert json.loads(json.dumps(page, allow_nan=False)) == page
+
+
+def test_the_page_is_told_of_in_german(workbench: Workbench) -> None:
+    german = view(workbench.bench, workbench.bench.loaded(), Language.GERMAN)
+    assert german["subject"] == "Achse X"
+    assert german["error"][1] == {"name": "Grundrauschen", "value": "0,48 µm"}
+
+
+@pytest.mark.parametrize("language", Language)
+def test_every_word_of_the_page_exists(language: Language) -> None:
+    assert all(texts(language).values())
+    assert texts(language).keys() == TEXTS.keys()
+
+
+def test_no_word_is_there_for_nothing() -> None:
+    folder = Path(__file__).parents[2] / "report_templates" / "zlmreport_templates" / "workbench"
+    scripts = "\n".join(file.read_text(encoding="utf-8") for file in folder.glob("*.js"))
+    assert [name for name in TEXTS if f"texts.{name}" not in scripts and f'"{name}"' not in scripts] == []
+
+
+@pytest.mark.parametrize("effect", registry().effects, ids=lambda effect: effect.identifier)
+def test_every_effect_has_a_sketch_of_one_unit(effect: Any) -> None:
+    for design in (each for each in full_designs().values() if effect.untestable(each) is None):
+        found = sketch(effect, design, Language.ENGLISH)
+        assert found is not None
+        assert np.mean(np.square(found["y"])) == pytest.approx(1.0, abs=1e-4)
+        break
+
+
+def test_an_effect_has_its_page(browser: TestClient) -> None:
+    found = browser.get("/api/effects/screw-pitch?lang=de").json()
+    assert found["title"] == "Periodischer Steigungsfehler der Spindel"
+    assert found["confusions"][0]["effect"] == "periodic"
+    assert browser.get("/api/effects/none-such").status_code == 422
+
+
+def test_a_diagnosis_is_made_beside_and_says_how_long_it_has_been_under_way(browser: TestClient) -> None:
+    found = browser.get("/api/diagnosis").json()
+    assert found.keys() == {"seconds"}
+    while "diagnosis" not in found:
+        time.sleep(0.1)
+        found = browser.get("/api/diagnosis").json()
+    diagnosis = found["diagnosis"]
+    assert diagnosis["verdict"] == "missing"
+    assert diagnosis["candidates"][0]["argument"] == "screw-pitch"
+    first, second, _ = diagnosis["failures"]
+    readings = browser.get("/api/job").json()["graphs"]
+    places = [readings["readings"]["place"].index(each) for each in first["readings"]]
+    assert {round(readings["axes"][0]["values"][each], 1) for each in places} == {213.4}
+    assert second["axis"] == "position"
+
+
+def test_a_job_that_has_become_wrong_is_said_with_its_place(job: Path, browser: TestClient) -> None:
+    job.write_text(job.read_text(encoding="utf-8").replace("backlash", "backlsh"), encoding="utf-8")
+    answer = browser.get("/api/job")
+    assert answer.status_code == 422
+    assert "did you mean 'backlash'?" in answer.json()["problems"][0]
+
+
+def test_any_file_behind_the_job_changes_the_stamp(job: Path, browser: TestClient) -> None:
+    before = browser.get("/api/job").json()["stamp"]
+    readings = job.with_name("x-axis.csv")
+    readings.write_text(readings.read_text(encoding="utf-8") + "# later\n", encoding="utf-8")
+    assert browser.get("/api/stamp").json()["stamp"] != before
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [(1e-9, "p < 10⁻⁶"), (2.34e-5, "p = 2,3·10⁻⁵"), (0.0123, "p = 0,012"), (0.4, "p = 0,400")],
+)
+def test_a_chance_is_written_as_far_as_it_is_known(value: float, text: str) -> None:
+    assert chance(value, Language.GERMAN).replace("\xa0", " ") == text
+
+
+def test_an_extrapolated_chance_is_about_so_much() -> None:
+    assert chance(2.34e-5, Language.ENGLISH, is_extrapolated=True).replace("\xa0", " ") == "p ≈ 2·10⁻⁵"
+
+
+@pytest.mark.parametrize(("share", "text"), [(0.0, "0 %"), (0.001, "< 1 %"), (0.976, "98 %"), (1.0, "100 %")])
+def test_a_probability_is_written_in_whole_per_cent(share: float, text: str) -> None:
+    assert percent(share) == text
+    assert math.isfinite(share)
+
+
+def test_the_language_is_that_of_the_address_then_of_the_browser_then_of_the_job(browser: TestClient) -> None:
+    assert 'lang="de"' in browser.get("/?lang=de", headers={"Accept-Language": "en"}).text
+    assert 'lang="de"' in browser.get("/", headers={"Accept-Language": "fr, de;q=0.8, en"}).text
+    assert 'lang="en"' in browser.get("/", headers={"Accept-Language": "fr"}).text
+
+
+def test_a_condition_that_the_residuals_follow_is_named_and_is_their_axis(study: Study) -> None:
+    """The name is that of pages, the axis that of the logged column."""
+    diagnosis = study.diagnosis(registry().effects)
+    follows = Failure(ResidualTest.CONDITION, 1e-9, same("screw_temperature"), same("they follow"))
+    found = diagnosed(replace(diagnosis, failures=(follows,)), study, registry().effects, Language.ENGLISH)
+    (failure,) = found["failures"]
+    assert failure["axis"] == "screw_temperature"
+    assert failure["where"] == "Temperature of the screw"
+    assert failure["readings"] == []
+
+
+def test_readings_that_were_set_aside_by_the_diagnosis_are_pointed_at(study: Study) -> None:
+    diagnosis = study.diagnosis(registry().effects)
+    off = Failure(ResidualTest.OUTLIERS, 1e-9, same("here"), same("it stands off"))
+    flagged = replace(diagnosis, failures=(off,), outliers=np.array([7, 9]))
+    found = diagnosed(flagged, study, registry().effects, Language.ENGLISH)
+    assert found["failures"][0]["readings"] == [7, 9]
