@@ -125,6 +125,7 @@ def modelled(job: Job, measurements: MeasurementSet, registry: Registry) -> Mode
         diagnosis,
         forecasts(standards(job, registry), study, history),
         {effect.identifier: effect.title for effect in registry.effects},
+        study,
     )
 
 

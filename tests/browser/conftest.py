@@ -23,9 +23,13 @@ _ARGUMENTS = ["--no-sandbox", "--disable-gpu", "--disable-background-networking"
 _ADDRESS = re.compile(r"http://127\.0\.0\.1:\d+/\?token=\S+")
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture
 def chromium() -> Iterator[Browser]:
-    """Return the system's browser, without a window."""
+    """Return the system's browser, without a window.
+
+    Each test starts its own: Playwright keeps an event loop running in the thread as long as it lives, and
+    other tests that the same process takes in turn have loops of their own.
+    """
     path = next((found for name in _NAMES if (found := shutil.which(name))), None)
     if path is None:
         pytest.skip("no Chromium is installed (Debian, Ubuntu: apt-get install chromium)")

@@ -15,13 +15,14 @@ from starlette.testclient import TestClient
 
 from web.jobs import EXAMPLE, registry
 from zlmreport import pipeline
+from zlmreport.certificate.linked_failures import chance
 from zlmreport.job.loading import load
 from zlmreport.language import Language, same
 from zlmreport.model.failures.failure import Failure, ResidualTest
 from zlmreport.model.study import Study
 from zlmreport.testing.designs import full_designs
 from zlmreport.web.app import Workbench
-from zlmreport.web.diagnosed import chance, diagnosed, percent
+from zlmreport.web.diagnosed import diagnosed, percent
 from zlmreport.web.effect_page import sketch
 from zlmreport.web.texts import TEXTS, texts
 from zlmreport.web.view import view

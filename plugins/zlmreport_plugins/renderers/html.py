@@ -1,4 +1,8 @@
-"""One self-contained page of HTML: style, typeface and graphs inside, no script, nothing loaded."""
+"""One self-contained page of HTML: style, typeface and graphs inside, nothing loaded.
+
+A certificate with an error model also has linked graphs, which a script inside the page draws; the page's
+own content security policy lets this script run and no other. Everything can be read without it.
+"""
 
 from __future__ import annotations
 
@@ -8,6 +12,16 @@ from functools import cache
 from zlmreport.certificate.document import Certificate
 from zlmreport.hookspecs import hookimpl
 from zlmreport.language import Words
+
+#: The drawings set their look in attributes, so styles inside the page are allowed.
+_ALLOWED = (
+    "default-src 'none'",
+    "style-src 'unsafe-inline'",
+    "img-src data:",
+    "font-src data:",
+    "base-uri 'none'",
+    "form-action 'none'",
+)
 
 
 class HtmlRenderer:
@@ -24,20 +38,39 @@ class HtmlRenderer:
 
         letterhead = certificate.letterhead
         logo = letterhead.logo if letterhead else None
+        script = _script() if certificate.linked else ""
         setting = Setting(
-            style=_style(certificate.paper),
+            style=_style(certificate.paper, with_linked=bool(script)),
             drawings=tuple(to_svg(figure, certificate.language) for figure in certificate.figures),
             logo=_data_address(logo, letterhead.logo_type) if letterhead and logo else "",
+            policy=_policy(script),
+            script=script,
         )
         return compose(certificate, setting).encode()
 
 
 @cache
-def _style(paper: str) -> str:
+def _style(paper: str, *, with_linked: bool) -> str:
+    from zlmreport.typesetting.linked import style  # noqa: PLC0415 (brings Jinja)
     from zlmreport.typesetting.resources import font, font_faces, style_sheet  # noqa: PLC0415 (brings Jinja)
 
     faces = font_faces(lambda face: _data_address(font(f"{face.stem}.woff2"), "font/woff2"))
-    return f"{faces}\n{style_sheet('certificate', 'screen', paper)}"
+    sheets = f"{faces}\n{style_sheet('certificate', 'screen', paper)}"
+    return f"{sheets}\n{style()}" if with_linked else sheets
+
+
+def _script() -> str:
+    from zlmreport.typesetting.linked import script  # noqa: PLC0415 (brings Jinja)
+
+    return script()
+
+
+def _policy(script: str) -> str:
+    """Return what the page may do: use what it contains, and run this script or none."""
+    from zlmreport.typesetting.linked import fingerprint  # noqa: PLC0415 (brings Jinja)
+
+    allowed = [f"script-src {fingerprint(script)}"] if script else []
+    return "; ".join([*_ALLOWED, *allowed])
 
 
 def _data_address(content: bytes, media_type: str) -> str:

@@ -21,6 +21,7 @@ from zlmreport.certificate.as_found import beside_as_found, readings_as_found, u
 from zlmreport.certificate.attachments import sources
 from zlmreport.certificate.document import Certificate, Letterhead, PageWords, Party, Section
 from zlmreport.certificate.identity import lines
+from zlmreport.certificate.linked import Linked
 from zlmreport.certificate.logo import Logo, read_logo
 from zlmreport.certificate.marks import Marks
 from zlmreport.certificate.model_annex import Modelled
@@ -107,6 +108,7 @@ def build(
         keywords=designations,
         plugins=plugins,
         diagnosis=modelled.diagnosis if modelled else None,
+        linked=_linked(job, modelled, scribe),
         budget=evaluated[0].budget,
         job=job,
         sources=made_from,
@@ -129,6 +131,13 @@ def _uncertainty(
     if job.keys.as_found:
         return uncertainty_beside_as_found(job.keys.as_found, as_found, evaluated, scribe)
     return iter([uncertainty.section(evaluated[0].budget, job.axis, scribe)])
+
+
+def _linked(job: Job, modelled: Modelled | None, scribe: Scribe) -> Linked | None:
+    """Return the readings beside the model, one by one; nothing where single readings are not to be shown."""
+    if modelled is None or job.keys.agreement.simplified or not job.keys.certificate.readings_on_graphs:
+        return None
+    return model_annex.linked_graphs(modelled, scribe)
 
 
 def _readings(

@@ -13,6 +13,7 @@ from enum import Enum
 from typing import TypeAlias
 
 from zlmreport.certificate.attachments import Attachment, Source
+from zlmreport.certificate.linked import Linked
 from zlmreport.evaluation.evaluation import Evaluation
 from zlmreport.figures.figure import Figure
 from zlmreport.job.job import Job
@@ -213,6 +214,9 @@ class Certificate:
     measurements, evaluations, diagnosis
         What the sections were made of, for renderers of data; the diagnosis is None where the job names no
         error model.
+    linked
+        The readings beside the error model, one by one, for documents in which they can be pointed at; None
+        without a model, or where single readings are not to be shown.
     budget
         Of the uncertainties of the evaluations, or why there is none; None where nobody asked for it.
     job
@@ -246,6 +250,7 @@ class Certificate:
     keywords: tuple[str, ...] = ()
     plugins: Mapping[str, str] = field(default_factory=dict)
     diagnosis: Diagnosis | None = None
+    linked: Linked | None = None
     evaluations_as_found: tuple[Evaluation, ...] = ()
     budget: Budget | NoBudget | None = None
     job: Job | None = None

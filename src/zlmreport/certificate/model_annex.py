@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 from zlmreport.certificate.document import Block, Facts, Graph, Notice, Paragraph, Section
 from zlmreport.certificate.forecast import Forecast
+from zlmreport.certificate.linked import Linked, linked
 from zlmreport.certificate.model_tables import ModelTables
 from zlmreport.certificate.opinions import OPINION
 from zlmreport.certificate.scribe import Scribe
@@ -24,8 +25,9 @@ from zlmreport.model.correction import moves_with_time
 from zlmreport.model.diagnosis import Diagnosis, Verdict
 from zlmreport.model.failures.failure import Failure, ResidualTest
 from zlmreport.model.statements import verdict_statement
-from zlmreport.model.study import Fitted
+from zlmreport.model.study import Fitted, Study
 
+_KEY = "model"
 _TITLE = Words(
     en="Annex: error model – opinion and interpretation",
     de="Anhang: Fehlermodell – Meinung und Interpretation",
@@ -76,12 +78,15 @@ class Modelled:
         What each standard would say of a corrected axis.
     titles
         What all installed effects are called, by identifier.
+    study
+        The model and the readings that it was held against.
     """
 
     history: tuple[Fitted, ...]
     diagnosis: Diagnosis
     forecasts: tuple[Forecast, ...]
     titles: Mapping[str, Words]
+    study: Study
 
 
 def section(modelled: Modelled, scribe: Scribe) -> Section:
@@ -112,7 +117,12 @@ def section(modelled: Modelled, scribe: Scribe) -> Section:
         blocks.append(Notice(scribe.say(_NOT_TRIED), not_tried))
     if diagnosis.remarks:
         blocks.append(Notice(scribe.say(_ASSUMED), tuple(map(scribe.say, diagnosis.remarks))))
-    return Section("model", scribe.say(_TITLE), tuple(blocks), new_page=True)
+    return Section(_KEY, scribe.say(_TITLE), tuple(blocks), new_page=True)
+
+
+def linked_graphs(modelled: Modelled, scribe: Scribe) -> Linked:
+    """Return the annex's graphs as values, for documents in which readings can be pointed at."""
+    return linked(_KEY, modelled.study, modelled.history[-1], modelled.diagnosis, scribe.language)
 
 
 def _error(whole: Fitted, scribe: Scribe) -> Facts:

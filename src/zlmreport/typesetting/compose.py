@@ -27,11 +27,13 @@ from zlmreport.typesetting.contexts import (
     FactsContext,
     GraphContext,
     LetterheadContext,
+    LinkedContext,
     NoticeContext,
     ParagraphContext,
     SectionContext,
 )
 from zlmreport.typesetting.facts import GatheredBlock, gather_facts, side_by_side
+from zlmreport.typesetting.linked import values
 from zlmreport.typesetting.tables import formulas_context, table_context
 from zlmreport.typesetting.templates import render
 
@@ -52,11 +54,17 @@ class Setting:
         The graphs as markup, in reading order; empty where they stand at ``graph:0``, ``graph:1`` …
     logo
         Address of the logo.
+    policy
+        Content security policy; empty where the document is none for a browser.
+    script
+        Shows the linked graphs; empty where nothing is run, and then the document has none.
     """
 
     style: str = ""
     drawings: tuple[str, ...] = ()
     logo: str = LOGO_ADDRESS
+    policy: str = ""
+    script: str = ""
 
 
 def compose(certificate: Certificate, setting: Setting = Setting()) -> str:
@@ -81,6 +89,8 @@ def compose(certificate: Certificate, setting: Setting = Setting()) -> str:
             of=words.of,
             end=words.end,
             style=Markup(setting.style),  # noqa: S704 (the renderer's own style sheets)
+            policy=setting.policy,
+            script=Markup(setting.script),  # noqa: S704 (the renderer's own script)
             letterhead=compositor.letterhead(),
             cover=compositor.blocks(certificate.cover),
             sections=tuple(
@@ -113,12 +123,24 @@ class _Compositor:
                 number=number,
                 title=section.title,
                 new_page=section.new_page,
-                blocks=self.blocks(section.blocks),
+                blocks=self._section_blocks(section),
             )
         )
 
     def blocks(self, blocks: Iterable[Block]) -> tuple[Markup, ...]:
         return tuple(render(self._context(block)) for block in gather_facts(blocks))
+
+    def _section_blocks(self, section: Section) -> tuple[Markup, ...]:
+        """Return the blocks of a section, the linked graphs before the first that cannot be pointed at."""
+        linked = self._certificate.linked
+        if not self._setting.script or linked is None or linked.section != section.key:
+            return self.blocks(section.blocks)
+        first = next(at for at, block in enumerate(section.blocks) if isinstance(block, Graph))
+        return (
+            *self.blocks(section.blocks[:first]),
+            render(LinkedContext(values(linked))),
+            *self.blocks(section.blocks[first:]),
+        )
 
     def _context(self, block: GatheredBlock) -> Context:
         match block:

@@ -168,6 +168,14 @@ class SectionContext:
 
 
 @dataclass(frozen=True, slots=True)
+class LinkedContext:
+    """The place of the linked graphs, which a script fills; `values` is what they show, as JSON."""
+
+    template: ClassVar[str] = "linked.html"
+    values: Markup
+
+
+@dataclass(frozen=True, slots=True)
 class LetterheadContext:
     """Who issues the document; `logo` is the address of the logo, empty without one."""
 
@@ -192,6 +200,8 @@ class DocumentContext:
         Words of the page margins, and of the mark at the end.
     style
         Style sheets in the document's head; empty where the renderer hands them over otherwise.
+    policy, script
+        The only script and the content security policy that names it; empty where nothing is run.
     letterhead, cover, sections
         Markup, in this order.
     """
@@ -211,6 +221,8 @@ class DocumentContext:
     of: str
     end: str
     style: Markup
+    policy: str
+    script: Markup
     letterhead: Markup
     cover: tuple[Markup, ...]
     sections: tuple[Markup, ...]
@@ -237,6 +249,7 @@ Context: TypeAlias = (
     | ParagraphContext
     | NoticeContext
     | GraphContext
+    | LinkedContext
     | SymbolContext
     | OverviewContext
     | OverviewSectionContext

@@ -5,18 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from types import MappingProxyType
 
+from zlmreport.certificate.linked_texts import GRAPH_TEXTS
 from zlmreport.language import Language, Words
 
 TEXTS: Mapping[str, Words] = MappingProxyType(
     {
-        "measured": Words(en="Measured against the model", de="Messung gegen Modell"),
-        "residuals": Words(en="Residuals", de="Residuen"),
-        "over": Words(en="over", de="über"),
+        **GRAPH_TEXTS,
         "verdict": Words(en="Verdict", de="Befund"),
-        "failures": Words(en="Where the model fails", de="Wo das Modell versagt"),
-        "noFailures": Words(
-            en="No test of the residuals fails.", de="Keine Prüfung der Residuen schlägt an."
-        ),
         "candidates": Words(en="What may be missing", de="Was fehlen kann"),
         "otherEffect": Words(en="Add another effect", de="Anderen Einfluss hinzufügen"),
         "fall": Words(en="How the error falls", de="Wie die Abweichung sinkt"),
@@ -47,7 +42,6 @@ TEXTS: Mapping[str, Words] = MappingProxyType(
             en="Estimate {parameter} from the readings", de="{parameter} aus den Messwerten schätzen"
         ),
         "given": Words(en="given", de="vorgegeben"),
-        "show": Words(en="Show the readings", de="Messwerte zeigen"),
         "probability": Words(en="Probability", de="Wahrscheinlichkeit"),
         "errorAfter": Words(en="Error after it", de="Abweichung danach"),
         "alike": Words(
@@ -61,21 +55,6 @@ TEXTS: Mapping[str, Words] = MappingProxyType(
         ),
         "seconds": Words(en="{seconds} s", de="{seconds} s"),
         "working": Words(en="Working …", de="Einen Moment …"),
-        "point": Words(
-            en="Point at a reading, or go from one to the next with the arrow keys.",
-            de="Zeigen Sie auf einen Messwert, oder gehen Sie mit den Pfeiltasten von einem zum nächsten.",
-        ),
-        "target": Words(en="Target", de="Sollposition"),
-        "run": Words(en="Run", de="Durchlauf"),
-        "deviation": Words(en="Deviation", de="Abweichung"),
-        "modelValue": Words(en="Model", de="Modell"),
-        "residual": Words(en="Residual", de="Residuum"),
-        "flagged": Words(en="stands off; not fitted", de="steht ab; nicht angepasst"),
-        "upwards": Words(en="upwards ↑", de="aufwärts ↑"),
-        "downwards": Words(en="downwards ↓", de="abwärts ↓"),
-        "modelUp": Words(en="model ↑ with U", de="Modell ↑ mit U"),
-        "modelDown": Words(en="model ↓ with U", de="Modell ↓ mit U"),
-        "noise": Words(en="± 2σ of single readings", de="± 2σ einzelner Messwerte"),
         "setAside": Words(en="Set this reading aside", de="Diesen Messwert beiseite legen"),
         "reason": Words(
             en="Reason, as the certificate will state it", de="Grund, wie ihn der Kalibrierschein nennt"
@@ -135,11 +114,6 @@ TEXTS: Mapping[str, Words] = MappingProxyType(
         "implausible": Words(en="implausible", de="unplausibel"),
         "doubtful": Words(en="doubtful", de="zweifelhaft"),
         "expected": Words(en="expected {value}", de="erwartet {value}"),
-        "reset": Words(en="Whole axis", de="Ganze Achse"),
-        "zoom": Words(
-            en="Drag to look closer; double-click for the whole axis.",
-            de="Ziehen vergrößert; Doppelklick zeigt wieder die ganze Achse.",
-        ),
     }
 )
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
+from zlmreport.certificate.linked_graphs import graphs
 from zlmreport.job.job import Job
 from zlmreport.language import Language, Words, same
 from zlmreport.web.bench import Bench, Loaded
-from zlmreport.web.graphs import graphs
 from zlmreport.web.journal import UNDO, Entry, Journal, undoable
 from zlmreport.web.panels import Panels
 

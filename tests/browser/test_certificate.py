@@ -1,0 +1,102 @@
+"""A certificate in a browser, from disk: its readings can be pointed at, and nothing else happens."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from axe_playwright_python.sync_playwright import Axe
+from playwright.sync_api import Browser, Page, expect
+
+from model.hidden_effect import job, registry, written
+from zlmreport import pipeline
+from zlmreport_plugins.renderers.html import HtmlRenderer
+
+Window = Callable[..., Page]
+
+
+@pytest.fixture(scope="module")
+def file(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return the certificate of the example whose model lacks an effect."""
+    folder = tmp_path_factory.mktemp("certificate")
+    certificate = pipeline.compose(job(written(folder)), registry())
+    made = folder / "certificate.html"
+    made.write_bytes(HtmlRenderer().render(certificate))
+    return made
+
+
+def marked(page: Page) -> list[int]:
+    """Return how many readings are marked in each graph."""
+    return [page.locator(".plot").nth(index).locator(".ring").count() for index in range(2)]
+
+
+def test_a_reading_pointed_at_is_marked_in_both_graphs(window: Window, file: Path) -> None:
+    page = window(file.as_uri())
+    x, y = page.locator(".plot").first.evaluate(
+        """plot => {
+            const [, x, y] = plot.querySelector(".mark").getAttribute("d").match(/^M([^,]+),([^h]+)h/);
+            return [Number(x) + 4, Number(y) - 3];
+        }"""
+    )
+    page.locator(".plot").first.hover(position={"x": x, "y": y})
+    assert marked(page) == [1, 1]
+    details = page.get_by_role("status").inner_text()
+    for name in ("Target", "Run", "Deviation", "Model", "Residual", "Time", "Air temperature"):
+        assert name in details
+
+
+def test_a_reading_is_reached_by_the_keyboard_too(window: Window, file: Path) -> None:
+    page = window(file.as_uri())
+    page.locator(".plot").nth(1).focus()
+    page.keyboard.press("End")
+    assert marked(page) == [1, 1]
+    assert "598.035 mm" in page.get_by_role("status").inner_text()
+
+
+def test_a_failure_points_at_its_readings_over_what_shows_them(window: Window, file: Path) -> None:
+    page = window(file.as_uri())
+    page.get_by_label("over", exact=True).select_option(label="Run")
+    page.get_by_role("button", name="The means of the positions deviate").click()
+    expect(page.get_by_label("over", exact=True)).to_have_value("position")
+    assert marked(page) == [5, 5]
+
+
+def test_nothing_is_loaded(window: Window, file: Path) -> None:
+    page = window("about:blank")
+    asked: list[str] = []
+    page.on("request", lambda request: asked.append(request.url))
+    page.goto(file.as_uri())
+    expect(page.locator(".plot .mark").first).to_be_visible()
+    assert [url for url in asked if not url.startswith("data:")] == [file.as_uri()]
+
+
+def test_its_policy_lets_no_other_script_run(chromium: Browser, file: Path) -> None:
+    foreign = file.with_name("changed.html")
+    text = file.read_text(encoding="utf-8")
+    foreign.write_text(text.replace("<main>", "<main><b onclick='document.title = 1'>x</b>"), "utf-8")
+    page = chromium.new_page()
+    page.goto(foreign.as_uri())
+    before = page.title()
+    page.locator("main > b").dispatch_event("click")
+    assert page.title() == before
+    page.close()
+
+
+def test_without_script_it_is_the_document_that_is_printed(window: Window, file: Path) -> None:
+    page = window(file.as_uri(), java_script_enabled=False)
+    expect(page.locator("#linked")).to_be_hidden()
+    expect(page.locator("#model figure").first).to_be_visible()
+
+
+def test_nobody_is_left_out(window: Window, file: Path) -> None:
+    page = window(file.as_uri())
+    expect(page.locator(".plot .mark").first).to_be_visible()
+    found = Axe().run(page, context="#linked")
+    assert found.violations_count == 0, found.generate_report()
+
+
+def test_on_paper_there_is_nothing_to_point_at(window: Window, file: Path) -> None:
+    page = window(file.as_uri())
+    page.emulate_media(media="print")
+    expect(page.locator("#linked")).to_be_hidden()
