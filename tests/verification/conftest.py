@@ -28,7 +28,7 @@ def verified(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[[bytes
     def known(job: Path, carrier: Any, plugins: Any) -> Any:
         unpacked = sorted(path for path in job.parents[1].rglob("*") if path.is_file())
         files = tuple((path.relative_to(job.parents[1]), path.read_bytes()) for path in unpacked)
-        key = files, tuple(carrier.carried)
+        key = files, tuple(carrier.carried), carrier.creator
         if key not in _made_again:
             _made_again[key] = made_again(job, carrier, plugins)
         return _made_again[key]

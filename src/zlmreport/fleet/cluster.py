@@ -16,6 +16,17 @@ _AHEAD = 2
 _LONGEST_MESSAGE = 400
 
 
+@dataclass(frozen=True, slots=True)
+class _Lost:
+    """No worker came back with a task; why, in the words of the scheduler."""
+
+    reason: str
+
+    def failed(self, task: Task) -> Failed:
+        message = " ".join(f"no worker lived to make this certificate: {self.reason}".split())
+        return Failed((Problem(Place(str(task.job)), message[:_LONGEST_MESSAGE]),))
+
+
 @dataclass(slots=True)
 class Cluster:
     """The workers of a scheduler; it is left as a context manager, which takes leave of them.
@@ -54,7 +65,22 @@ class Cluster:
             self._client = None
 
     def results(self, tasks: Iterable[Task]) -> Iterator[tuple[Task, Made | Failed]]:
-        """Yield what became of each task, as it is done; tasks are taken as workers have time for them."""
+        """Yield what became of each task, as it is done; tasks are taken as workers have time for them.
+
+        A worker that is killed takes with it what waited there, too, and a scheduler suspects them all. So
+        each of them is tried once more, alone, when nothing else is under way.
+        """
+        suspected = []
+        for task, result in self._done(tasks):
+            if isinstance(result, _Lost):
+                suspected.append(task)
+            else:
+                yield task, result
+        for suspect in suspected:
+            for task, result in self._done([suspect]):
+                yield task, result.failed(task) if isinstance(result, _Lost) else result
+
+    def _done(self, tasks: Iterable[Task]) -> Iterator[tuple[Task, Made | Failed | _Lost]]:
         from distributed import as_completed  # noqa: PLC0415 - as above
 
         waiting = iter(tasks)
@@ -63,7 +89,7 @@ class Cluster:
         self._send(waiting, under_way, done)
         for future in done:
             task = under_way.pop(future.key)
-            result = self._result(task, future)
+            result = self._result(future)
             future.release()
             self._send(waiting, under_way, done)
             yield task, result
@@ -76,11 +102,10 @@ class Cluster:
             under_way[future.key] = task
             done.add(future)
 
-    def _result(self, task: Task, future: Any) -> Made | Failed:
+    def _result(self, future: Any) -> Made | Failed | _Lost:
         if future.status == "finished":
             result: Made | Failed = future.result()
             return result
         if future.status == "error":
-            message = " ".join(f"no worker lived to make this certificate: {future.exception()}".split())
-            return Failed((Problem(Place(str(task.job)), message[:_LONGEST_MESSAGE]),))
+            return _Lost(str(future.exception()))
         raise AccessError.at(self.named_at, f"the scheduler {self.scheduler} is gone")
