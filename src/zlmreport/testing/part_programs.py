@@ -6,7 +6,6 @@ that runs it. So every reading is seen to be approached from its stated side, wh
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any, TypeAlias
@@ -16,47 +15,30 @@ from zlmreport.foresight.motion import Motion
 from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.planning.methods import Method
 from zlmreport.protocols import PartProgram
-from zlmreport.testing.expectations import (
-    expect,
-    expect_identifier,
-    expect_members,
-    expect_options,
-    expect_own_keys,
-    expect_words,
-    run_all,
-)
+from zlmreport.testing.expectations import expect, run_all
 from zlmreport.testing.motions import NUMBER, PLACE, sample_motion
+from zlmreport.testing.program_expectations import (
+    expect_defaults,
+    expect_named,
+    expect_plain_text,
+    expect_same_deeds,
+)
 
 #: From the text of a program to the stops: the position, mm or °, and the time at rest there, s.
 Interpreter: TypeAlias = Callable[[str], Sequence[tuple[float, float]]]
 
-_CORE_KEYS = frozenset({"program"})
-_SUFFIX = re.compile(r"\.[a-z0-9]+(\.[a-z0-9]+)*")
-_LONGEST_LINE = 200
 #: Names that would become commands if they were taken as they are.
 _HOSTILE = ("X) G0 X9999 (", "X\nG0 X9999\n", "X;G0 X9999", "MSG,%\rM3 S9999", "Ä" * 300)
 
 
 def is_named(program: PartProgram, _interpreter: Interpreter, _keys: Mapping[str, Any]) -> None:
     """Check that it has an identifier that can be typed, a title in every language, and a file suffix."""
-    expect_members(program, PartProgram)
-    expect_identifier(program.identifier, repr(program))
-    expect_words(program.title, f"{program.identifier}: title")
-    expect(
-        _SUFFIX.fullmatch(program.suffix),
-        f"{program.identifier}: suffix {program.suffix!r} must be like '.ngc'",
-    )
+    expect_named(program, PartProgram, ".ngc")
 
 
 def options_are_described(program: PartProgram, _interpreter: Interpreter, _keys: Mapping[str, Any]) -> None:
     """Check that its job keys are described, none is a key of the core, and all have defaults."""
-    expect_options(program.options, program.identifier)
-    expect_own_keys(program.options, _CORE_KEYS, program.identifier)
-    required = [key for key, field in program.options.model_fields.items() if field.is_required()]
-    expect(
-        not required,
-        f"{program.identifier}: job keys {', '.join(required)} need a default: --program has no keys",
-    )
+    expect_defaults(program)
 
 
 def leads_to_every_reading_from_its_side(
@@ -79,17 +61,7 @@ def leads_to_every_reading_from_its_side(
 
 def is_plain_text(program: PartProgram, _interpreter: Interpreter, keys: Mapping[str, Any]) -> None:
     """Check that the program is ASCII in lines that a control can hold, and ends with a line."""
-    text = _written(program, sample_motion(), keys)
-    where = program.identifier
-    expect(isinstance(text, str) and text, f"{where}: write must return the text of a program")
-    expect(text.isascii(), f"{where}: the program holds characters beyond ASCII")
-    expect(
-        all(line.isprintable() for line in text.splitlines()),
-        f"{where}: the program holds control characters",
-    )
-    expect(text.endswith("\n"), f"{where}: the last line has no end")
-    longest = max(len(line) for line in text.splitlines())
-    expect(longest <= _LONGEST_LINE, f"{where}: a line has {longest} characters; {_LONGEST_LINE} at most")
+    expect_plain_text(_written(program, sample_motion(), keys), program.identifier)
 
 
 def names_the_job(program: PartProgram, _interpreter: Interpreter, keys: Mapping[str, Any]) -> None:
@@ -121,13 +93,7 @@ def takes_no_name_for_a_command(
         except InputError:
             continue
         where = f"{program.identifier}: with an axis called {name[:20]!r}"
-        expect(text.isascii(), f"{where}, the program holds characters beyond ASCII")
-        try:
-            run = list(interpreter(text))
-        except Exception as error:
-            message = f"{where}, the program cannot be run: {error!r}"
-            raise AssertionError(message) from error
-        expect(run == plain, f"{where}, the program does something else")
+        expect_same_deeds(text, interpreter, plain, where, "run")
 
 
 def refuses_what_it_cannot_program(

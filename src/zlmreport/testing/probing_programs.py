@@ -6,7 +6,6 @@ machine makes of it. So the tip is seen to go the planned way, whatever the synt
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, TypeAlias
@@ -16,20 +15,15 @@ from zlmreport.protocols import ProbingProgram
 from zlmreport.quantities.units import MILLIMETRE
 from zlmreport.step_gauge.path import Probing, ProbingPath
 from zlmreport.step_gauge.path_settings import PathKind
-from zlmreport.testing.expectations import (
-    expect,
-    expect_identifier,
-    expect_members,
-    expect_options,
-    expect_own_keys,
-    expect_words,
-    run_all,
-)
+from zlmreport.testing.expectations import expect, run_all
 from zlmreport.testing.probing_paths import PLACE, sample_path
+from zlmreport.testing.program_expectations import (
+    expect_defaults,
+    expect_named,
+    expect_plain_text,
+    expect_same_deeds,
+)
 
-_CORE_KEYS = frozenset({"program"})
-_SUFFIX = re.compile(r"\.[a-z0-9]+(\.[a-z0-9]+)*")
-_LONGEST_LINE = 200
 #: Half a unit of the last digit that the coarsest language writes, mm.
 _NEAR = 5.1e-4
 #: Of a direction: a millionth.
@@ -63,24 +57,12 @@ Recogniser: TypeAlias = Callable[[str], Sequence[Stated]]
 
 def is_named(program: ProbingProgram, _recogniser: Recogniser, _keys: Mapping[str, Any]) -> None:
     """Check that it has an identifier that can be typed, a title in every language, and a file suffix."""
-    expect_members(program, ProbingProgram)
-    expect_identifier(program.identifier, repr(program))
-    expect_words(program.title, f"{program.identifier}: title")
-    expect(
-        _SUFFIX.fullmatch(program.suffix),
-        f"{program.identifier}: suffix {program.suffix!r} must be like '.dmi'",
-    )
+    expect_named(program, ProbingProgram, ".dmi")
 
 
 def options_are_described(program: ProbingProgram, _recogniser: Recogniser, _keys: Mapping[str, Any]) -> None:
     """Check that its job keys are described, none is a key of the core, and all have defaults."""
-    expect_options(program.options, program.identifier)
-    expect_own_keys(program.options, _CORE_KEYS, program.identifier)
-    required = [key for key, field in program.options.model_fields.items() if field.is_required()]
-    expect(
-        not required,
-        f"{program.identifier}: job keys {', '.join(required)} need a default: --program has no keys",
-    )
+    expect_defaults(program)
 
 
 def leads_along_the_path(program: ProbingProgram, recogniser: Recogniser, keys: Mapping[str, Any]) -> None:
@@ -104,17 +86,7 @@ def leads_along_the_path(program: ProbingProgram, recogniser: Recogniser, keys: 
 
 def is_plain_text(program: ProbingProgram, _recogniser: Recogniser, keys: Mapping[str, Any]) -> None:
     """Check that the program is ASCII in lines that a machine can hold, and ends with a line."""
-    text = _written(program, sample_path(), keys)
-    where = program.identifier
-    expect(isinstance(text, str) and text, f"{where}: write must return the text of a program")
-    expect(text.isascii(), f"{where}: the program holds characters beyond ASCII")
-    expect(
-        all(line.isprintable() for line in text.splitlines()),
-        f"{where}: the program holds control characters",
-    )
-    expect(text.endswith("\n"), f"{where}: the last line has no end")
-    longest = max(len(line) for line in text.splitlines())
-    expect(longest <= _LONGEST_LINE, f"{where}: a line has {longest} characters; {_LONGEST_LINE} at most")
+    expect_plain_text(_written(program, sample_path(), keys), program.identifier)
 
 
 def writes_the_same_again(program: ProbingProgram, _recogniser: Recogniser, keys: Mapping[str, Any]) -> None:
@@ -131,13 +103,7 @@ def takes_no_name_for_a_statement(
     for name in _HOSTILE:
         text = _written(program, sample_path(number=name, gauge=name), keys)
         where = f"{program.identifier}: with a gauge called {name[:20]!r}"
-        expect(text.isascii(), f"{where}, the program holds characters beyond ASCII")
-        try:
-            stated = list(recogniser(text))
-        except Exception as error:
-            message = f"{where}, the program cannot be read: {error!r}"
-            raise AssertionError(message) from error
-        expect(stated == plain, f"{where}, the program does something else")
+        expect_same_deeds(text, recogniser, plain, where, "read")
 
 
 def minds_the_radius(program: ProbingProgram, _recogniser: Recogniser, keys: Mapping[str, Any]) -> None:

@@ -21,6 +21,8 @@ from zlmreport.certificate.document import (
     Section,
     Table,
 )
+from zlmreport.figures.canvas import Face
+from zlmreport.figures.metrics import advance
 from zlmreport.language import Language
 
 _POINTS = 72 / 25.4
@@ -32,12 +34,12 @@ def with_blocks(*sections: Section) -> Certificate:
 
 
 def _ends(reader: PdfReader) -> float:
-    """The rightmost place at which a stretch of text begins, in points."""
+    """The rightmost place at which a stretch of text ends, in points."""
     places = []
 
-    def visit(text: str, _cm: object, matrix: list[float], _font: object, _size: object) -> None:
-        if text.strip():
-            places.append(matrix[4])
+    def visit(text: str, _cm: object, matrix: list[float], _font: object, size: float) -> None:
+        widest = max(advance(line, Face.REGULAR) for line in text.strip().split("\n"))
+        places.append(matrix[4] + abs(matrix[0]) * size * widest)
 
     for page in reader.pages:
         page.extract_text(visitor_text=visit)
@@ -65,21 +67,8 @@ def test_each_page_has_the_number_of_the_certificate_and_its_own(
         assert page_of_pages.format(count, len(pages)) in text
 
 
-def test_following_pages_name_the_laboratory_and_the_subject() -> None:
-    for text in texts(sample())[1:]:
-        assert "Laboratory for Machine Metrology" in text
-        assert "Positioning of the X axis" in text
-
-
 def test_the_end_is_marked_once_on_the_last_page() -> None:
     assert page_of(sample(), "End of the calibration certificate") == len(sample().pages)
-
-
-def test_a_table_over_several_pages_repeats_its_headings() -> None:
-    _, *pages = texts(read(samples.certificate(standards=0, readings=samples.measurements(targets=150))))
-    assert len(pages) > 2
-    for text in pages:
-        assert text.count("xi1↑") == text.count("xi5↓") == 1
 
 
 def test_a_row_is_never_split() -> None:
@@ -128,30 +117,6 @@ def test_a_title_stays_with_what_follows(lines: int) -> None:
     table = Table("a caption", (Column("heading"),), (rows,))
     reader = read(with_blocks(Section("a", "Filler", filler), Section("b", "A title", (table,))))
     assert len({page_of(reader, text) for text in ("A title", "a caption", "row 00")}) == 1
-
-
-def test_a_caption_stays_with_its_graph() -> None:
-    for text in texts(sample()):
-        assert text.count("Figure ") == text.count("Target position in mm")
-
-
-@pytest.mark.parametrize("groups", [1, 4])
-def test_facts_of_any_length_are_all_printed(groups: int) -> None:
-    facts = tuple(
-        Facts(tuple((f"name{g}-{n:02d}", "value " * 80 + f"end{g}-{n:02d}") for n in range(12)), f"group {g}")
-        for g in range(groups)
-    )
-    text = "".join(texts(read(with_blocks(Section("facts", "Facts", facts)))))
-    for g in range(groups):
-        for n in range(12):
-            assert text.count(f"end{g}-{n:02d}") == 1
-
-
-def test_a_notice_of_any_length_is_all_printed() -> None:
-    notice = Notice("heading", tuple(f"item{n:03d} " + "words " * 40 for n in range(60)))
-    text = "".join(texts(read(with_blocks(Section("notice", "Notice", (notice,))))))
-    for n in range(60):
-        assert text.count(f"item{n:03d}") == 1
 
 
 @pytest.mark.parametrize("word", ["0ff1ce" * 40, "Positioniergenauigkeitsmessunsicherheitsbilanz"])
