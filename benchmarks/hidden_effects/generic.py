@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 import numpy as np
+from zlmreport.physics.refractive_index import index_change
 
 from hidden_effects import kernel_search
 from hidden_effects.cases import Case
@@ -23,7 +24,6 @@ from hidden_effects.stepwise import stepwise
 from hidden_effects.trial import Trial
 from zlmreport.model.design import Design
 from zlmreport.model.observe import Observations
-from zlmreport.physics.refractive_index import index_change
 from zlmreport.planning.methods import Method
 from zlmreport.quantities.arrays import FloatArray
 from zlmreport.simulation.visibility import base_columns, beyond

@@ -11,8 +11,8 @@ import pytest
 
 from certificate.documents import COMPLETE, certificate, job, registry, text_of
 from zlmreport.correction.of_job import corrections_of
+from zlmreport.correction.refractive_index import refractive_index
 from zlmreport.errors import InputError
-from zlmreport.physics.refractive_index import refractive_index
 from zlmreport.pipeline import read
 
 HEAD = "target,direction,run,deviation,air_temperature,air_pressure,relative_humidity,material_temperature\n"

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from zlmreport.correction.refractive_index import index_change
 from zlmreport.measurement.conditions import STATE_OF_AIR
 from zlmreport.model.design import Design
-from zlmreport.physics.refractive_index import index_change
 from zlmreport.quantities.arrays import FloatArray
 
 LOGS = STATE_OF_AIR

@@ -13,8 +13,8 @@ from zlmreport.model import needs
 from zlmreport.model.design import Design
 from zlmreport.model.effect import Confusion, Effect, Shape
 from zlmreport.model.parameter import Dimension, Parameter
-from zlmreport.physics.temperature import above_reference
 from zlmreport.quantities.arrays import FloatArray
+from zlmreport.quantities.temperature import above_reference
 from zlmreport_plugins.effects import told_apart
 
 _LOG = "screw_temperature"

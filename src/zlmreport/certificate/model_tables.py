@@ -15,12 +15,13 @@ from zlmreport.model.amplitudes import Wave, waves
 from zlmreport.model.design import Design
 from zlmreport.model.diagnosis import Diagnosis
 from zlmreport.model.estimate import Estimate, Plausibility
-from zlmreport.model.parameter import ParameterUnit, unit_of
+from zlmreport.model.parameter import unit_of
 from zlmreport.model.statements import serious_candidates
 from zlmreport.model.study import Fitted
 from zlmreport.model.visibility import Visibility
 from zlmreport.quantities.formatting import fixed_number
 from zlmreport.quantities.uncertain import rounded_pair
+from zlmreport.quantities.units import Unit
 
 _EFFECT = Words(en="Effect", de="Einfluss")
 _PERCENT = 100.0
@@ -301,7 +302,7 @@ class ModelTables:
         return fixed_number(_PERCENT * share, 0, self.scribe.language.decimal_sign)
 
 
-def unit_symbol(unit: ParameterUnit, language: Language) -> str:
+def unit_symbol(unit: Unit, language: Language) -> str:
     """Return a parameter's unit as it is printed: a number of readings is a word."""
     return _READINGS.in_language(language) if unit.symbol == _READINGS.en else unit.symbol
 

@@ -14,6 +14,7 @@ from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.quantities.arrays import FloatArray
 from zlmreport.quantities.decimals import decimals_of
 from zlmreport.quantities.formatting import fixed_number, general_number
+from zlmreport.quantities.temperature import ZERO_CELSIUS
 from zlmreport.quantities.units import Unit
 
 #: What stands in a table where a value does not exist.
@@ -21,7 +22,6 @@ NOTHING = "–"
 
 _MOST_DECIMALS = 3
 _MOST_TARGET_DECIMALS = 6
-_ZERO_CELSIUS = 273.15
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,4 +101,4 @@ class Scribe:
 
     def celsius_span(self, kelvin: FloatArray) -> str:
         """Write the range of logged temperatures in °C."""
-        return f"{self.span(kelvin - _ZERO_CELSIUS, 2)} °C"
+        return f"{self.span(kelvin - ZERO_CELSIUS, 2)} °C"

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from zlmreport.cli.messages import visible
 from zlmreport.cli.terminal import Colour, shown_path, table
+from zlmreport.quantities.units import printed_symbol
 from zlmreport.verification.findings import Finding, Value, Verdict, Verification, is_number
 
 _COLOURS = {Verdict.HOLDS: Colour.GREEN, Verdict.DIFFERS: Colour.RED, Verdict.OPEN: Colour.YELLOW}
@@ -14,7 +15,6 @@ _MOST_LINES = 12
 _LONGEST_TEXT = 40
 #: Steps of a value's path that say nothing to people.
 _CONTAINERS = frozenset({"evaluations", "parameters", "positions"})
-_UNITS = {"um": "µm", "arcsec": "″"}
 _AS_STATED, _AS_PRINTED = "as the certificate states", "as printed again"
 
 
@@ -87,7 +87,7 @@ def _parameters(standard: str, values: Sequence[Value]) -> Iterator[str]:
     """Yield the parameters of a standard, each with all that is stated of it and differs."""
     of_standard = [value for value in values if _is_of_parameter(value) and value.path[1] == standard]
     units = {str(value.recomputed) for value in of_standard if value.path[-1] == "unit"}
-    unit = " ".join(_UNITS.get(each, each) for each in sorted(units))
+    unit = " ".join(printed_symbol(each) for each in sorted(units))
     rows = []
     for symbol in dict.fromkeys(value.path[3] for value in of_standard):
         own = {value.path[-1]: value for value in of_standard if value.path[3] == symbol}

@@ -10,8 +10,8 @@ from zlmreport.correction.interferometer import dead_path_error, displacement_in
 from zlmreport.language import Words
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.measurement.provenance import Correction
-from zlmreport.physics.temperature import above_reference
 from zlmreport.quantities.arrays import FloatArray, read_only_floats
+from zlmreport.quantities.temperature import above_reference
 
 _AIR = Words(en="Refractive index of air", de="Brechzahl der Luft")
 _AIR_METHOD = Words(

@@ -7,18 +7,18 @@ from collections.abc import Iterable
 import numpy as np
 
 from zlmreport.correction.corrections import Air, Corrections, Expansion
+from zlmreport.correction.refractive_index import STANDARD_HUMIDITY, STANDARD_PRESSURE, refractive_index
 from zlmreport.errors import InputError, Problem
 from zlmreport.job.correction_keys import AirKeys, DeadPathKeys, MaterialKeys
 from zlmreport.job.job import Job
 from zlmreport.measurement.axis import AxisKind
 from zlmreport.measurement.conditions import CONDITIONS, STATE_OF_AIR
 from zlmreport.measurement.measurement_set import MeasurementSet
-from zlmreport.physics.refractive_index import STANDARD_HUMIDITY, STANDARD_PRESSURE, refractive_index
-from zlmreport.physics.temperature import REFERENCE_TEMPERATURE
 from zlmreport.quantities.arrays import FloatArray
+from zlmreport.quantities.temperature import REFERENCE_TEMPERATURE
+from zlmreport.quantities.units import MICROMETRE_PER_METRE_KELVIN
 
 _NANOMETRE = 1e-9
-_PER_KELVIN = 1e-6  # of µm/(m·K)
 
 
 def corrections_of(job: Job, measurements: MeasurementSet) -> Corrections | None:
@@ -109,7 +109,7 @@ def _expansion(
     conditions = _conditions((keys.temperature,), "corrections.material", job, measurements, problems)
     if conditions is None or not isinstance(coefficient, float):
         return None
-    return Expansion(coefficient * _PER_KELVIN, conditions[0])
+    return Expansion(coefficient * MICROMETRE_PER_METRE_KELVIN, conditions[0])
 
 
 def _conditions(

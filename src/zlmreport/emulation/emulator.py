@@ -7,10 +7,10 @@ from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import Protocol
 
+from zlmreport.correction.refractive_index import STANDARD_HUMIDITY, STANDARD_PRESSURE
 from zlmreport.emulation.axis import EmulatedAxis, MovingAxis
 from zlmreport.emulation.faults import Troubles
-from zlmreport.physics.refractive_index import STANDARD_HUMIDITY, STANDARD_PRESSURE
-from zlmreport.physics.temperature import REFERENCE_TEMPERATURE
+from zlmreport.quantities.temperature import REFERENCE_TEMPERATURE
 
 #: The conditions of a room that is as it should be, SI.
 STANDARD_CONDITIONS: Mapping[str, float] = MappingProxyType(

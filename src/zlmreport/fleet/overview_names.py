@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from zlmreport.evaluation.quantity import Quantity
 from zlmreport.fleet.trend_fleet import Trend
 from zlmreport.protocols import Standard
-from zlmreport.quantities.units import ANGLES, LENGTHS
+from zlmreport.quantities.units import printed_symbol
 
 #: Units that stand at the number without a blank.
 _TOUCHING = "°″"
@@ -53,7 +53,7 @@ class Names:
 
 def with_unit(number: str, ascii_name: str) -> str:
     """Return a number with its unit as printed: ``4.2 ± 0.3 µm``, ``(4.2 ± 0.3)″``, ``20″``."""
-    symbol = next((unit.symbol for unit in (*LENGTHS, *ANGLES) if unit.ascii == ascii_name), ascii_name)
+    symbol = printed_symbol(ascii_name)
     if symbol not in _TOUCHING:
         return f"{number} {symbol}"
     return f"({number}){symbol}" if "±" in number else f"{number}{symbol}"

@@ -10,11 +10,11 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from zlmreport.correction.refractive_index import STANDARD_HUMIDITY, STANDARD_PRESSURE
 from zlmreport.language import Words
+from zlmreport.quantities.temperature import REFERENCE_TEMPERATURE
 from zlmreport.simulation.description import Course
 
-_REFERENCE = 293.15
-_STANDARD_PRESSURE, _USUAL_HUMIDITY = 101325.0, 0.5
 #: What the air does in an hour of an ordinary day: Pa, and a share.
 _FALL_OF_PRESSURE, _RISE_OF_HUMIDITY = 100.0, 0.03
 #: How many of its time constants a machine has warmed up for when the test ends.
@@ -55,12 +55,13 @@ def expected_courses(rise: float, duration: float) -> Mapping[str, Course]:
         Of the test, s.
     """
     done = -math.expm1(-_TIME_CONSTANTS)
-    warming = Course(_REFERENCE, _REFERENCE + rise / done, time_constant=duration / _TIME_CONSTANTS or 1.0)
+    warmest = REFERENCE_TEMPERATURE + rise / done
+    warming = Course(REFERENCE_TEMPERATURE, warmest, time_constant=duration / _TIME_CONSTANTS or 1.0)
     return {
         "axis_temperature": warming,
         "screw_temperature": warming,
         "material_temperature": warming,
-        "air_temperature": Course(_REFERENCE, _REFERENCE + rise),
-        "air_pressure": Course(_STANDARD_PRESSURE, _STANDARD_PRESSURE - _FALL_OF_PRESSURE),
-        "relative_humidity": Course(_USUAL_HUMIDITY, _USUAL_HUMIDITY + _RISE_OF_HUMIDITY),
+        "air_temperature": Course(REFERENCE_TEMPERATURE, REFERENCE_TEMPERATURE + rise),
+        "air_pressure": Course(STANDARD_PRESSURE, STANDARD_PRESSURE - _FALL_OF_PRESSURE),
+        "relative_humidity": Course(STANDARD_HUMIDITY, STANDARD_HUMIDITY + _RISE_OF_HUMIDITY),
     }

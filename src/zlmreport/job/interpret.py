@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from zlmreport.job.model import AxisKeys
-from zlmreport.measurement.axis import Axis
+from zlmreport.measurement.axis import Axis, position_units
 from zlmreport.measurement.position_table import TableColumn, read_position_table
-from zlmreport.measurement.reading_units import ANGLE_UNITS, position_units
-from zlmreport.quantities.units import MICRORADIAN, MILLIMETRE
+from zlmreport.quantities.units import ANGLE_UNITS, MICRORADIAN, MILLIMETRE
 
 
 def axis_in_si(keys: AxisKeys) -> Axis:

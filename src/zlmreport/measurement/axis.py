@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
 
@@ -9,7 +10,15 @@ import numpy as np
 
 from zlmreport.measurement.provenance import SourceFile
 from zlmreport.quantities.arrays import FloatArray
-from zlmreport.quantities.units import ARCSECOND, DEGREE, MICROMETRE, MILLIMETRE, Unit
+from zlmreport.quantities.units import (
+    ANGLE_UNITS,
+    ARCSECOND,
+    DEGREE,
+    LENGTH_UNITS,
+    MICROMETRE,
+    MILLIMETRE,
+    Unit,
+)
 
 
 class AxisKind(StrEnum):
@@ -97,3 +106,8 @@ class Axis:
     def deviation_unit(self) -> Unit:
         """The unit in which deviations are read and printed."""
         return MICROMETRE if self.kind is AxisKind.LINEAR else ARCSECOND
+
+
+def position_units(kind: AxisKind) -> Mapping[str, Unit]:
+    """Return the units in which positions and deviations of an axis may be given."""
+    return LENGTH_UNITS if kind is AxisKind.LINEAR else ANGLE_UNITS

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from types import MappingProxyType
 
 from zlmreport.language import Words
-from zlmreport.measurement.reading_units import (
+from zlmreport.quantities.units import (
     CELSIUS,
     HECTOPASCAL,
     PERCENT,

@@ -12,10 +12,9 @@ import numpy as np
 from zlmreport.errors import InputError, Place, Problem
 from zlmreport.measurement.axis import PositionTable
 from zlmreport.measurement.numeral import parse_number
-from zlmreport.measurement.reading_units import unit_named
 from zlmreport.measurement.text_file import TextFile, quoted, read_text
 from zlmreport.quantities.formatting import DecimalSign
-from zlmreport.quantities.units import Unit
+from zlmreport.quantities.units import Unit, unit_named
 
 _BRACKETED = re.compile(r"(.*?)\s*[(\[]\s*([^()\[\]]+?)\s*[)\]]")
 _DELIMITERS = ("\t", ";", ",")

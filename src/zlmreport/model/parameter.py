@@ -7,6 +7,7 @@ from enum import Enum
 
 from zlmreport.language import Words
 from zlmreport.measurement.axis import AxisKind
+from zlmreport.quantities.units import ARCSECOND, DEGREE, MICROMETRE, MILLIMETRE, Unit
 
 
 class Dimension(Enum):
@@ -23,40 +24,28 @@ class Dimension(Enum):
     RATIO = "ratio"
 
 
-@dataclass(frozen=True, slots=True)
-class ParameterUnit:
-    """A printed unit: its symbols, and how many of it make one in SI."""
-
-    symbol: str
-    ascii: str
-    per_si: float
-
-
-_DEGREES = 57.29577951308232
-_ARCSECONDS = 206264.80624709636
-
 _LINEAR = {
-    Dimension.DEVIATION: ParameterUnit("µm", "um", 1e6),
-    Dimension.SLOPE: ParameterUnit("µm/m", "um/m", 1e6),
-    Dimension.POSITION: ParameterUnit("mm", "mm", 1e3),
-    Dimension.TIME: ParameterUnit("s", "s", 1.0),
-    Dimension.DEVIATION_PER_KELVIN: ParameterUnit("µm/K", "um/K", 1e6),
-    Dimension.EXPANSION: ParameterUnit("µm/(m·K)", "um/(m K)", 1e6),
-    Dimension.LENGTH: ParameterUnit("mm", "mm", 1e3),
-    Dimension.ANGLE: ParameterUnit("°", "deg", _DEGREES),
-    Dimension.RATIO: ParameterUnit("", "1", 1.0),
+    Dimension.DEVIATION: MICROMETRE,
+    Dimension.SLOPE: Unit("µm/m", "um/m", 1e6),
+    Dimension.POSITION: MILLIMETRE,
+    Dimension.TIME: Unit("s", "s", 1.0),
+    Dimension.DEVIATION_PER_KELVIN: Unit("µm/K", "um/K", 1e6),
+    Dimension.EXPANSION: Unit("µm/(m·K)", "um/(m K)", 1e6),
+    Dimension.LENGTH: MILLIMETRE,
+    Dimension.ANGLE: DEGREE,
+    Dimension.RATIO: Unit("", "1", 1.0),
 }
 _ROTARY = _LINEAR | {
-    Dimension.DEVIATION: ParameterUnit("″", "arcsec", _ARCSECONDS),
-    Dimension.SLOPE: ParameterUnit("″/°", "arcsec/deg", _ARCSECONDS / _DEGREES),
-    Dimension.POSITION: ParameterUnit("°", "deg", _DEGREES),
-    Dimension.DEVIATION_PER_KELVIN: ParameterUnit("″/K", "arcsec/K", _ARCSECONDS),
-    Dimension.EXPANSION: ParameterUnit("″/(°·K)", "arcsec/(deg K)", _ARCSECONDS / _DEGREES),
+    Dimension.DEVIATION: ARCSECOND,
+    Dimension.SLOPE: Unit("″/°", "arcsec/deg", ARCSECOND.per_si / DEGREE.per_si),
+    Dimension.POSITION: DEGREE,
+    Dimension.DEVIATION_PER_KELVIN: Unit("″/K", "arcsec/K", ARCSECOND.per_si),
+    Dimension.EXPANSION: Unit("″/(°·K)", "arcsec/(deg K)", ARCSECOND.per_si / DEGREE.per_si),
 }
-_READINGS = ParameterUnit("readings", "readings", 1.0)
+_READINGS = Unit("readings", "readings", 1.0)
 
 
-def unit_of(dimension: Dimension, kind: AxisKind, *, time_is_counted: bool = False) -> ParameterUnit:
+def unit_of(dimension: Dimension, kind: AxisKind, *, time_is_counted: bool = False) -> Unit:
     """Return the unit in which a parameter is read and printed.
 
     Parameters

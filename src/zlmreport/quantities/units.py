@@ -1,17 +1,21 @@
-"""Units of the quantities that enter and leave; between the two everything is SI."""
+"""Units of the quantities that enter and leave, printed and spelled; between the two all is SI."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import overload
+from types import MappingProxyType
+from typing import TypeVar, overload
 
+from zlmreport.errors import did_you_mean
 from zlmreport.quantities.arrays import FloatArray
+from zlmreport.quantities.temperature import ZERO_CELSIUS
 
 
 @dataclass(frozen=True, slots=True)
 class Unit:
-    """A unit of length or angle.
+    """A unit of length or angle, or of what is made of them.
 
     Attributes
     ----------
@@ -20,7 +24,7 @@ class Unit:
     ascii
         As written in the results file.
     per_si
-        How many of the unit make one metre or one radian. Stored this way round because a decimal
+        How many of the unit make one in SI. Stored this way round because a decimal
         number of micrometres divided by 1e6 is the double nearest to the true value in metres.
     """
 
@@ -33,7 +37,7 @@ class Unit:
     @overload
     def to_si(self, value: FloatArray) -> FloatArray: ...
     def to_si(self, value: float | FloatArray) -> float | FloatArray:
-        """Convert from this unit to metres or radians."""
+        """Convert from this unit to SI."""
         return value / self.per_si
 
     @overload
@@ -41,8 +45,39 @@ class Unit:
     @overload
     def from_si(self, value: FloatArray) -> FloatArray: ...
     def from_si(self, value: float | FloatArray) -> float | FloatArray:
-        """Convert from metres or radians to this unit."""
+        """Convert from SI to this unit."""
         return value * self.per_si
+
+
+@dataclass(frozen=True, slots=True)
+class Scale:
+    """A unit of time or of a condition, which may have a zero of its own.
+
+    Attributes
+    ----------
+    symbol
+        As printed.
+    si
+        How many SI units (s, K, Pa, 1) one of the unit is.
+    zero
+        What the zero of the scale is in SI.
+    """
+
+    symbol: str
+    si: float = 1.0
+    zero: float = 0.0
+
+    def to_si(self, value: float) -> float:
+        """Convert from this unit to SI."""
+        return value * self.si + self.zero
+
+    @overload
+    def from_si(self, value: float) -> float: ...
+    @overload
+    def from_si(self, value: FloatArray) -> FloatArray: ...
+    def from_si(self, value: float | FloatArray) -> float | FloatArray:
+        """Convert from SI to this unit."""
+        return (value - self.zero) / self.si
 
 
 METRE = Unit("m", "m", 1.0)
@@ -59,3 +94,84 @@ RADIAN = Unit("rad", "rad", 1.0)
 
 LENGTHS = (METRE, MILLIMETRE, MICROMETRE, NANOMETRE, INCH, MICROINCH)
 ANGLES = (DEGREE, ARCSECOND, MILLIRADIAN, MICRORADIAN, RADIAN)
+#: An expansion coefficient of 1 µm/(m·K), 1/K.
+MICROMETRE_PER_METRE_KELVIN = 1e-6
+
+CELSIUS = Scale("°C", zero=ZERO_CELSIUS)
+KELVIN = Scale("K")
+FAHRENHEIT = Scale("°F", si=5 / 9, zero=459.67 * 5 / 9)
+HECTOPASCAL = Scale("hPa", si=100.0)
+KILOPASCAL = Scale("kPa", si=1000.0)
+PERCENT = Scale("%", si=0.01)
+SECOND = Scale("s")
+
+_U = TypeVar("_U", bound=Unit | Scale)
+
+
+def _spelled(units: Mapping[str, _U]) -> Mapping[str, _U]:
+    """Return units by each spelling that a key lists; folding makes the two micro signs one."""
+    return MappingProxyType(
+        {spelling.casefold(): unit for spellings, unit in units.items() for spelling in spellings.split()}
+    )
+
+
+LENGTH_UNITS = _spelled(
+    {
+        "m": METRE,
+        "mm": MILLIMETRE,
+        "µm um micron microns": MICROMETRE,
+        "nm": NANOMETRE,
+        "in inch inches": INCH,
+        "µin uin microinch microinches": MICROINCH,
+    }
+)
+ANGLE_UNITS = _spelled(
+    {
+        "° deg degree degrees": DEGREE,
+        "″ arcsec arcseconds": ARCSECOND,
+        "mrad": MILLIRADIAN,
+        "µrad urad": MICRORADIAN,
+        "rad": RADIAN,
+    }
+)
+#: Of positions and deviations of any axis.
+POSITION_UNITS: Mapping[str, Unit] = MappingProxyType({**LENGTH_UNITS, **ANGLE_UNITS})
+TEMPERATURE_UNITS = _spelled({"°C degC C": CELSIUS, "K": KELVIN, "°F degF F": FAHRENHEIT})
+PRESSURE_UNITS = _spelled(
+    {
+        "Pa": Scale("Pa"),
+        "hPa": HECTOPASCAL,
+        "mbar": Scale("mbar", si=100.0),
+        "kPa": KILOPASCAL,
+        "mmHg": Scale("mmHg", si=133.322),
+    }
+)
+RATIO_UNITS = _spelled({"% %RH percent": PERCENT, "1": Scale("1")})
+TIME_UNITS = _spelled(
+    {
+        "s sec seconds": SECOND,
+        "ms": Scale("ms", si=1e-3),
+        "min": Scale("min", si=60.0),
+        "h": Scale("h", si=3600.0),
+    }
+)
+
+
+def unit_named(spelling: str, units: Mapping[str, _U]) -> _U:
+    """Return the unit of a spelling, with either micro sign; raise ValueError if it is none of the units.
+
+    >>> unit_named("µm", LENGTH_UNITS).ascii
+    'um'
+    """
+    found = units.get(spelling.strip().casefold())
+    if found is None:
+        symbols = sorted({unit.symbol for unit in units.values()})
+        raise ValueError(
+            f"{spelling.strip()[:40]!r} is no unit of this quantity; {did_you_mean(spelling[:40], symbols)}"
+        )
+    return found
+
+
+def printed_symbol(ascii_name: str) -> str:
+    """Return the printed symbol of a unit that a results file names: ``um`` as ``µm``; others as they are."""
+    return next((unit.symbol for unit in (*LENGTHS, *ANGLES) if unit.ascii == ascii_name), ascii_name)

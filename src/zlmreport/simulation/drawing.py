@@ -13,9 +13,9 @@ import numpy as np
 from zlmreport.measurement.axis import Axis, AxisKind, PositionTable
 from zlmreport.planning.methods import Method
 from zlmreport.planning.targets import target_positions
+from zlmreport.quantities.temperature import ZERO_CELSIUS
 from zlmreport.simulation.description import Course, Description, Plan
 
-_ZERO_CELSIUS = 273.15
 _TABLE_ROWS = 21
 _ROUGHNESS = 0.15
 _OVERRUN = (2e-3, 20e-3)
@@ -104,11 +104,11 @@ def _weather(random: np.random.Generator) -> dict[str, Course]:
     """Return the conditions of an hour: scale and screw warm up, the air wanders."""
 
     def warming(rise: tuple[float, float], noise: float) -> Course:
-        start = _ZERO_CELSIUS + random.uniform(19.0, 22.0)
+        start = ZERO_CELSIUS + random.uniform(19.0, 22.0)
         end = start + random.uniform(*rise)
         return Course(start, end, random.uniform(600.0, 2400.0), sensor_noise=noise)
 
-    air = _ZERO_CELSIUS + random.uniform(18.5, 22.5)
+    air = ZERO_CELSIUS + random.uniform(18.5, 22.5)
     pressure = random.uniform(960e2, 1030e2)
     humidity = random.uniform(0.3, 0.6)
     return {

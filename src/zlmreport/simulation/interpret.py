@@ -11,7 +11,6 @@ from zlmreport.job.simulation import SimulationFile
 from zlmreport.job.simulation_keys import CourseKeys, NoiseKeys
 from zlmreport.language import Language
 from zlmreport.measurement.conditions import CONDITIONS
-from zlmreport.measurement.reading_units import Scale
 from zlmreport.model.axis_model import Term
 from zlmreport.model.chosen import chosen_terms
 from zlmreport.model.effect import Effect
@@ -19,7 +18,7 @@ from zlmreport.model.parameter import unit_of
 from zlmreport.planning.methods import Method
 from zlmreport.planning.targets import target_positions
 from zlmreport.quantities.arrays import FloatArray, read_only_floats
-from zlmreport.quantities.units import Unit
+from zlmreport.quantities.units import Scale, Unit
 from zlmreport.simulation.description import Course, Description, Noise, Plan
 from zlmreport.simulation.randomness import Stream
 from zlmreport.simulation.simulate import design_of

@@ -10,14 +10,12 @@ from pathlib import Path
 from zlmreport.errors import InputError, Place, Problem
 from zlmreport.job.step_gauge_file import StepGaugeFile, holds_all_facts, load_step_gauge
 from zlmreport.measurement.provenance import SourceFile
-from zlmreport.measurement.reading_units import CELSIUS
-from zlmreport.quantities.units import MICROMETRE, MILLIMETRE
+from zlmreport.quantities.units import CELSIUS, MICROMETRE, MICROMETRE_PER_METRE_KELVIN, MILLIMETRE
 from zlmreport.step_gauge.gauge import Face, Side, StepGauge
 from zlmreport.step_gauge.named_columns import NamedColumns, Row, read_named_columns
 
 _COLUMNS = ("face", "side", "nominal_mm", "calibrated_mm", "U_k2_um")
 _SIDES = {"front": Side.FRONT, "back": Side.BACK}
-_PER_KELVIN = 1e-6  # of µm/(m·K)
 _REFERENCE_CELSIUS = 20.0
 #: Of the distance between neighbouring faces: a calibrated face lies no farther from its nominal place.
 _MOST_OF_A_STEP = 0.1
@@ -104,7 +102,7 @@ def section(gauge: StepGauge, first_block: int | None, last_block: int | None, p
 
 
 def _per_kelvin(value: float | None) -> float | None:
-    return None if value is None else value * _PER_KELVIN
+    return None if value is None else value * MICROMETRE_PER_METRE_KELVIN
 
 
 def _metres(value: float | None) -> float | None:

@@ -8,15 +8,12 @@ from zlmreport.errors import InputError, Place
 from zlmreport.job.job import Job
 from zlmreport.job.step_gauge_keys import StepGaugeKeys
 from zlmreport.measurement.provenance import SourceFile
-from zlmreport.measurement.reading_units import CELSIUS
-from zlmreport.physics.temperature import above_reference
-from zlmreport.quantities.units import MICROMETRE, MILLIMETRE
+from zlmreport.quantities.temperature import above_reference
+from zlmreport.quantities.units import CELSIUS, MICROMETRE, MICROMETRE_PER_METRE_KELVIN, MILLIMETRE
 from zlmreport.step_gauge.calibration_file import CalibratedGauge, read_calibration, section
 from zlmreport.step_gauge.gauge import StepGauge
 from zlmreport.step_gauge.initial_points import read_initial_points
 from zlmreport.step_gauge.location import Located, locate
-
-_PER_KELVIN = 1e-6  # of µm/(m·K)
 
 
 @dataclass(frozen=True, slots=True)
@@ -145,7 +142,7 @@ def _of_gauge(keys: StepGaugeKeys, gauge: StepGauge, job: Job) -> Expansion | No
     coefficient = gauge.expansion_coefficient
     instrument = job.keys.instrument
     if coefficient is None and instrument and instrument.expansion_coefficient is not None:
-        coefficient = instrument.expansion_coefficient * _PER_KELVIN
+        coefficient = instrument.expansion_coefficient * MICROMETRE_PER_METRE_KELVIN
     if coefficient is None:
         raise InputError.at(
             job.place_of("step_gauge.compensate"),
@@ -167,4 +164,4 @@ def _of_scale(keys: StepGaugeKeys, job: Job) -> Expansion | None:
             "the expansion of the scale needs numbers in environment.axis_temperature and "
             "environment.expansion_coefficient",
         )
-    return Expansion(coefficient * _PER_KELVIN, above_reference(CELSIUS.to_si(temperature)))
+    return Expansion(coefficient * MICROMETRE_PER_METRE_KELVIN, above_reference(CELSIUS.to_si(temperature)))

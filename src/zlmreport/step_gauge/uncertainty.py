@@ -16,7 +16,7 @@ from zlmreport.language import Words
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.quantities.arrays import FloatArray
-from zlmreport.quantities.units import MICROMETRE, MICRORADIAN
+from zlmreport.quantities.units import MICROMETRE, MICROMETRE_PER_METRE_KELVIN, MICRORADIAN
 from zlmreport.step_gauge.gauge import StepGauge
 from zlmreport.step_gauge.radius import radius_uncertainty
 from zlmreport.step_gauge.set_up import GaugeSetUp, gauge_set_up
@@ -25,7 +25,6 @@ from zlmreport.uncertainty.contribution import Acts, Contribution, Distribution
 
 #: Of the calibrated distances.
 _COVERAGE_FACTOR = 2.0
-_PER_KELVIN = 1e-6
 
 _FACES = Words(en="Calibration of the faces", de="Kalibrierung der Flächen")
 _FACES_ALONG = Words(
@@ -209,7 +208,7 @@ def _of_expansion(set_up: GaugeSetUp, length: float) -> Iterator[Contribution]:
         length * abs(expansion.difference) * known,
         Acts.ALONG_THE_LENGTH,
         Distribution.NORMAL,
-        _EXPANSION_STATED.given(value=known / _PER_KELVIN),
+        _EXPANSION_STATED.given(value=known / MICROMETRE_PER_METRE_KELVIN),
         _EXPANSION_SOURCE.given(difference=float(round(expansion.difference, 4))),
     )
 

@@ -9,13 +9,11 @@ import numpy as np
 
 from zlmreport.language import Words
 from zlmreport.measurement.provenance import Correction
-from zlmreport.quantities.units import MICROMETRE, MICRORADIAN, MILLIMETRE
+from zlmreport.quantities.units import MICROMETRE, MICROMETRE_PER_METRE_KELVIN, MICRORADIAN, MILLIMETRE
 from zlmreport.step_gauge.deviations import Deviations
 from zlmreport.step_gauge.location import Misalignment
 from zlmreport.step_gauge.radius import EffectiveRadius, RadiusSource
 from zlmreport.step_gauge.set_up import Expansion, GaugeSetUp
-
-_PER_KELVIN = 1e-6
 
 INDICATION = Words(
     en="Sign: deviation = indicated − calibrated position, by how much the machine reads too much (error of "
@@ -156,7 +154,7 @@ def corrections(deviations: Deviations, set_up: GaugeSetUp) -> Iterator[Correcti
 def _expansion(which: Words, expansion: Expansion) -> Words:
     return _ONE_EXPANSION.given(
         which=which,
-        alpha=expansion.coefficient / _PER_KELVIN,
+        alpha=expansion.coefficient / MICROMETRE_PER_METRE_KELVIN,
         difference=float(round(expansion.difference, 4)),
     )
 

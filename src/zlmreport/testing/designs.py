@@ -15,6 +15,7 @@ from zlmreport.planning.methods import Method, path
 from zlmreport.planning.targets import target_positions
 from zlmreport.planning.visits import planned_design, visits
 from zlmreport.quantities.arrays import FloatArray, read_only_floats
+from zlmreport.quantities.temperature import REFERENCE_TEMPERATURE
 
 _BETWEEN = np.linspace(0.0, 1.0, 11)
 _ROWS = tuple(_BETWEEN.tolist())
@@ -74,10 +75,10 @@ def _complete(axis: Axis, method: Method) -> Design:
     design = _planned(axis, method, targets, 5)
     share = design.time / design.duration
     conditions = {
-        "axis_temperature": 293.15 + 0.4 + 1.5 * share**0.7,
-        "screw_temperature": 293.15 + 0.8 - 4.0 * np.expm1(-2.0 * share),
-        "air_temperature": 293.15 - 0.3 + 0.6 * np.sin(5.0 * share),
-        "material_temperature": 293.15 + 0.2 + 0.5 * share,
+        "axis_temperature": REFERENCE_TEMPERATURE + 0.4 + 1.5 * share**0.7,
+        "screw_temperature": REFERENCE_TEMPERATURE + 0.8 - 4.0 * np.expm1(-2.0 * share),
+        "air_temperature": REFERENCE_TEMPERATURE - 0.3 + 0.6 * np.sin(5.0 * share),
+        "material_temperature": REFERENCE_TEMPERATURE + 0.2 + 0.5 * share,
         "air_pressure": 1005e2 + 120.0 * share**2,
         "relative_humidity": 0.45 + 0.05 * np.cos(3.0 * share),
         "face": np.where(design.target % 2 == 0, 1.0, -1.0),

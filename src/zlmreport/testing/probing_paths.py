@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from zlmreport.errors import Place
-from zlmreport.physics.temperature import REFERENCE_TEMPERATURE
+from zlmreport.quantities.temperature import REFERENCE_TEMPERATURE
 from zlmreport.step_gauge.gauge import Face, Location, Side, StepGauge
 from zlmreport.step_gauge.path import ProbingPath
 from zlmreport.step_gauge.path_plan import plan_path

@@ -13,7 +13,7 @@ from zlmreport.measurement.axis import AxisKind
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.quantities.arrays import FloatArray
 from zlmreport.quantities.decimals import decimals_of
-from zlmreport.quantities.units import MICROMETRE, MILLIMETRE, Unit
+from zlmreport.quantities.units import MICROMETRE, MICROMETRE_PER_METRE_KELVIN, MILLIMETRE, Unit
 from zlmreport.uncertainty import terms, wording
 from zlmreport.uncertainty.air import air_contributions
 from zlmreport.uncertainty.budget import Budget, NoBudget
@@ -24,7 +24,6 @@ from zlmreport.uncertainty.set_up import SetUp
 _COVERAGE_FACTOR = 2.0
 #: A step that readings may show is no smaller, µm or ″.
 _MOST_DECIMALS = 3
-_PER_KELVIN = 1e-6  # of µm/(m·K)
 
 
 def budget_of(
@@ -112,7 +111,7 @@ def _of_the_length(job: Job, set_up: SetUp) -> Iterator[Contribution]:
         if temperature is not None and expansion is not None:
             full_range = terms.temperature_range(expansion, length, temperature)
             source = wording.TEMPERATURE.given(
-                expansion=expansion / _PER_KELVIN, length=wording.length(length)
+                expansion=expansion / MICROMETRE_PER_METRE_KELVIN, length=wording.length(length)
             )
             yield _contribution(key, full_range, wording.full_range("R(θ)", temperature, "K"), source)
     for key, coefficient in (
@@ -120,7 +119,8 @@ def _of_the_length(job: Job, set_up: SetUp) -> Iterator[Contribution]:
         ("device_expansion_coefficient", keys.device_expansion_coefficient),
     ):
         if coefficient is not None and set_up.difference is not None:
-            full_range = terms.expansion_range(length, set_up.difference, coefficient * _PER_KELVIN)
+            alpha = coefficient * MICROMETRE_PER_METRE_KELVIN
+            full_range = terms.expansion_range(length, set_up.difference, alpha)
             source = wording.EXPANSION.given(difference=set_up.difference, length=wording.length(length))
             yield _contribution(key, full_range, wording.full_range("R(α)", coefficient, "µm/(m·K)"), source)
 

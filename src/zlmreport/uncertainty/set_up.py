@@ -10,10 +10,9 @@ import numpy as np
 from zlmreport.errors import Problem
 from zlmreport.job.job import Job
 from zlmreport.measurement.measurement_set import MeasurementSet
-from zlmreport.physics.temperature import above_reference
+from zlmreport.quantities.temperature import ZERO_CELSIUS, above_reference
+from zlmreport.quantities.units import MICROMETRE_PER_METRE_KELVIN
 
-_ZERO_CELSIUS = 273.15
-_PER_KELVIN = 1e-6  # of µm/(m·K)
 #: The temperature that the scale, and with it the measured length, has: the first that is known counts.
 _TEMPERATURES = ("axis_temperature", "material_temperature")
 
@@ -86,7 +85,7 @@ class SetUp:
 
 
 def _coefficient(stated: float | str | None) -> float | None:
-    return stated * _PER_KELVIN if isinstance(stated, float) else None
+    return stated * MICROMETRE_PER_METRE_KELVIN if isinstance(stated, float) else None
 
 
 def _difference(job: Job, measurements: MeasurementSet) -> float | None:
@@ -95,7 +94,7 @@ def _difference(job: Job, measurements: MeasurementSet) -> float | None:
         stated = getattr(job.keys.environment, key, None)
         logged = measurements.conditions.get(key)
         if isinstance(stated, float):
-            return abs(above_reference(stated + _ZERO_CELSIUS))
+            return abs(above_reference(stated + ZERO_CELSIUS))
         if stated is None and logged is not None and np.isfinite(logged).any():
             return float(np.nanmax(np.abs(above_reference(logged))))
     return None

@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 
 from plugins.instruments.exchanges import DATA, lines
+from zlmreport.correction.refractive_index import index_change
 from zlmreport.emulation.axis import MovingAxis
 from zlmreport.emulation.emulator import Scene
 from zlmreport.emulation.faults import Planned, Trouble, Troubles
 from zlmreport.live.reading import Fault, LiveReading
 from zlmreport.live.streaming import WrongDeviceError
-from zlmreport.physics.refractive_index import index_change
 from zlmreport_plugins.instruments.umd.decoder import Setup, UmdDecoder
 from zlmreport_plugins.instruments.umd.emulator import UmdEmulator
 from zlmreport_plugins.instruments.umd.frame import AxisCounts, Frame, frame_in

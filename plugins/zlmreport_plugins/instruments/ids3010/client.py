@@ -9,7 +9,7 @@ from types import MappingProxyType
 from zlmreport.live.patience import Patience
 from zlmreport.live.polling import ask
 from zlmreport.live.port import Port
-from zlmreport.measurement.reading_units import CELSIUS, HECTOPASCAL, PERCENT
+from zlmreport.quantities.units import CELSIUS, HECTOPASCAL, PERCENT
 from zlmreport_plugins.instruments.ids3010.messages import Answer, answer_to, question
 
 #: Of the methods, on older and on newer firmware.

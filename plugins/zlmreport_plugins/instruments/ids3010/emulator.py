@@ -8,7 +8,7 @@ from typing import Any
 
 from zlmreport.emulation.emulator import Scene
 from zlmreport.emulation.faults import Trouble
-from zlmreport.measurement.reading_units import CELSIUS, HECTOPASCAL, PERCENT, Scale
+from zlmreport.quantities.units import CELSIUS, HECTOPASCAL, PERCENT, Scale
 
 _PER_METRE = 1e12
 #: How long it takes to begin to measure, s; a real one takes longer.

@@ -6,7 +6,7 @@ import re
 
 from zlmreport.live.lines import Lines
 from zlmreport.live.reading import Fault, LiveReading
-from zlmreport.measurement.reading_units import POSITION_UNITS, unit_named
+from zlmreport.quantities.units import POSITION_UNITS, unit_named
 from zlmreport_plugins.instruments.text_readout.options import TextReadoutOptions
 
 

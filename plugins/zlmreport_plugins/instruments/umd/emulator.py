@@ -8,11 +8,11 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from zlmreport.correction.refractive_index import index_change
 from zlmreport.emulation.emulator import Scene
 from zlmreport.emulation.faults import Trouble
 from zlmreport.measurement.conditions import STATE_OF_AIR
-from zlmreport.measurement.reading_units import CELSIUS, HECTOPASCAL, PERCENT, Scale
-from zlmreport.physics.refractive_index import index_change
+from zlmreport.quantities.units import CELSIUS, HECTOPASCAL, PERCENT, Scale
 from zlmreport_plugins.instruments.umd.frame import Code
 from zlmreport_plugins.instruments.umd.models import Model
 

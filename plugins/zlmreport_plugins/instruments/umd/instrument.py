@@ -9,6 +9,7 @@ from typing import Annotated, Literal
 import numpy as np
 from pydantic import Field
 
+from zlmreport.correction.refractive_index import STANDARD_HUMIDITY, STANDARD_PRESSURE, refractive_index
 from zlmreport.emulation.emulator import Emulator, Scene
 from zlmreport.job.options import Options
 from zlmreport.language import Words
@@ -18,8 +19,7 @@ from zlmreport.live.patience import Patience
 from zlmreport.live.port import Framing, Port
 from zlmreport.live.reading import LiveReading
 from zlmreport.live.streaming import streamed
-from zlmreport.physics.refractive_index import STANDARD_HUMIDITY, STANDARD_PRESSURE, refractive_index
-from zlmreport.physics.temperature import REFERENCE_TEMPERATURE
+from zlmreport.quantities.temperature import REFERENCE_TEMPERATURE
 from zlmreport_plugins.instruments.umd.decoder import Setup, UmdDecoder
 from zlmreport_plugins.instruments.umd.emulator import UmdEmulator
 from zlmreport_plugins.instruments.umd.models import Model

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from types import MappingProxyType
 
 from zlmreport.live.reading import NO_CONDITIONS
-from zlmreport.measurement.reading_units import CELSIUS, PERCENT
+from zlmreport.quantities.units import CELSIUS, PERCENT
 from zlmreport_plugins.instruments.umd.frame import Code, Frame
 from zlmreport_plugins.instruments.umd.models import Model
 

@@ -11,13 +11,13 @@ from zlmreport.errors import InputError, Problem
 from zlmreport.job.options import JobPath, Options
 from zlmreport.language import Words
 from zlmreport.measurement.approach import Approach
+from zlmreport.measurement.axis import position_units
 from zlmreport.measurement.collect import collect
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.measurement.provenance import Provenance
-from zlmreport.measurement.reading_units import position_units, unit_named
 from zlmreport.measurement.text_file import known_encoding, read_text
 from zlmreport.protocols import SourceContext
-from zlmreport.quantities.units import Unit
+from zlmreport.quantities.units import Unit, unit_named
 from zlmreport_plugins.sources.ecmc.entries import UNIT, Entry, Key, entries
 from zlmreport_plugins.sources.ecmc.log import Log
 

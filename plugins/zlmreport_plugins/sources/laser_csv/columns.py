@@ -8,12 +8,11 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from zlmreport.errors import InputError, Problem, did_you_mean
-from zlmreport.measurement.axis import Axis
+from zlmreport.measurement.axis import Axis, position_units
 from zlmreport.measurement.conditions import CONDITIONS
-from zlmreport.measurement.reading_units import SECOND, TIME_UNITS, Scale, position_units, unit_named
 from zlmreport.measurement.text_file import quoted
 from zlmreport.protocols import SourceContext
-from zlmreport.quantities.units import Unit
+from zlmreport.quantities.units import SECOND, TIME_UNITS, Scale, Unit, unit_named
 from zlmreport_plugins.sources.laser_csv.names import COLUMN_NAMES, folded, names_direction
 from zlmreport_plugins.sources.laser_csv.options import LaserCsvOptions
 from zlmreport_plugins.sources.laser_csv.table import Row, Table

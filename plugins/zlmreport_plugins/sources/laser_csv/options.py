@@ -11,10 +11,9 @@ from zlmreport.errors import did_you_mean
 from zlmreport.job.options import JobPath, Options
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.conditions import CONDITIONS
-from zlmreport.measurement.reading_units import POSITION_UNITS, TIME_UNITS, Scale, unit_named
 from zlmreport.measurement.text_file import known_encoding
 from zlmreport.quantities.formatting import DecimalSign
-from zlmreport.quantities.units import Unit
+from zlmreport.quantities.units import POSITION_UNITS, TIME_UNITS, Scale, Unit, unit_named
 from zlmreport_plugins.sources.laser_csv.names import COLUMN_NAMES, direction, folded, run_and_direction
 
 _DELIMITERS = {"comma": ",", "semicolon": ";", "tab": "\t"}

@@ -11,14 +11,13 @@ from pydantic import AfterValidator, Field
 from zlmreport.errors import InputError, Place, Problem
 from zlmreport.job.options import JobPath, Options
 from zlmreport.language import Words
-from zlmreport.measurement.axis import AxisKind
+from zlmreport.measurement.axis import AxisKind, position_units
 from zlmreport.measurement.collect import Reading, collect
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.measurement.provenance import Provenance
-from zlmreport.measurement.reading_units import POSITION_UNITS, position_units, unit_named
 from zlmreport.measurement.text_file import TextFile, known_encoding, quoted, read_text
 from zlmreport.protocols import SourceContext
-from zlmreport.quantities.units import MICROMETRE, MILLIRADIAN, Unit
+from zlmreport.quantities.units import MICROMETRE, MILLIRADIAN, POSITION_UNITS, Unit, unit_named
 from zlmreport_plugins.sources.renishaw_rtl.remarks import remarks
 from zlmreport_plugins.sources.renishaw_rtl.runs import Deviation, Pass, deviations, passes
 from zlmreport_plugins.sources.renishaw_rtl.sections import Section, sections

@@ -1,4 +1,4 @@
-"""The temperature at which lengths are what drawings say."""
+"""Temperatures that others are counted from."""
 
 from __future__ import annotations
 
@@ -6,6 +6,8 @@ from typing import TypeVar
 
 from zlmreport.quantities.arrays import FloatArray
 
+#: 0 °C in kelvin.
+ZERO_CELSIUS = 273.15
 #: 20 °C in kelvin, the standard reference temperature of ISO 1.
 REFERENCE_TEMPERATURE = 293.15
 

@@ -6,15 +6,14 @@ import math
 
 import pytest
 
-from zlmreport.measurement.axis import AxisKind
-from zlmreport.measurement.reading_units import (
+from zlmreport.measurement.axis import AxisKind, position_units
+from zlmreport.quantities.units import (
     ANGLE_UNITS,
     LENGTH_UNITS,
     PRESSURE_UNITS,
     RATIO_UNITS,
     TEMPERATURE_UNITS,
     TIME_UNITS,
-    position_units,
     unit_named,
 )
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from zlmreport.physics.refractive_index import index_change, refractive_index, saturation_vapour_pressure
-from zlmreport.physics.temperature import above_reference
+from zlmreport.correction.refractive_index import index_change, refractive_index, saturation_vapour_pressure
+from zlmreport.quantities.temperature import above_reference
 
 # Stone and Zimmerman, Index of refraction of air, NIST Engineering Metrology Toolbox
 # (emtoolbox.nist.gov/Wavelength/Documentation.asp), table 1: °C, % relative humidity, kPa, nm; the column of

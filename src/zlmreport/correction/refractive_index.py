@@ -11,16 +11,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from zlmreport.physics.temperature import REFERENCE_TEMPERATURE
 from zlmreport.quantities.arrays import FloatArray
+from zlmreport.quantities.temperature import REFERENCE_TEMPERATURE, ZERO_CELSIUS
 
 #: Vacuum wavelength of a helium-neon laser, m.
 HELIUM_NEON = 632.991e-9
 #: What an interferometer assumes that measures no air: 20 °C, 1013.25 hPa, 50 % relative humidity.
 STANDARD_PRESSURE = 101_325.0
 STANDARD_HUMIDITY = 0.5
-
-_ZERO_CELSIUS = 273.15
 
 
 def refractive_index(
@@ -39,7 +37,7 @@ def refractive_index(
     wavelength
         Of the light in vacuum, m.
     """
-    celsius = temperature - _ZERO_CELSIUS
+    celsius = temperature - ZERO_CELSIUS
     wavenumber = (1e-6 / wavelength) ** 2  # µm⁻²
     standard_air = 1e-8 * (8342.54 + 2_406_147 / (130 - wavenumber) + 15_998 / (38.9 - wavenumber))
     density = (1 + 1e-8 * (0.601 - 0.00972 * celsius) * pressure) / (1 + 0.003661 * celsius) / 96_095.43

@@ -1,1 +1,0 @@
-"""Physics that measurements of length rest on: the refractive index of air, the reference temperature."""
