@@ -7,12 +7,9 @@ from __future__ import annotations
 
 import contextlib
 import gc
-import os
-import tempfile
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from pathlib import Path
 from typing import Any
 
 from zlmreport.certificate.attachments import Attachment, arranged, media_type, source_attachments
@@ -25,9 +22,9 @@ from zlmreport.certificate.results import Evaluated
 from zlmreport.correction.corrections import corrected
 from zlmreport.correction.exclusions import without_excluded
 from zlmreport.correction.of_job import corrections_of
-from zlmreport.errors import AccessError, Place
 from zlmreport.evaluation.decision import decided, decision_rule
 from zlmreport.evaluation.evaluate import evaluate
+from zlmreport.files import Document
 from zlmreport.job.job import Job
 from zlmreport.language import Words
 from zlmreport.measurement.measurement_set import MeasurementSet
@@ -46,14 +43,6 @@ RESULTS = "json"
 #: Files that can be signed.
 PDF = ".pdf"
 _SIGNATURE = Words(en="Electronic signature", de="Elektronische Signatur")
-
-
-@dataclass(frozen=True, slots=True)
-class Document:
-    """A finished file that has not been written yet."""
-
-    path: Path
-    content: bytes
 
 
 @dataclass(frozen=True, slots=True)
@@ -216,50 +205,3 @@ def _garbage_collected_once() -> Iterator[None]:
             gc.enable()
         gc.collect()
         gc.unfreeze()
-
-
-def write(documents: Iterable[Document]) -> tuple[Path, ...]:
-    """Write the files so that each appears whole or not at all, and none before all are on the disk."""
-    documents = tuple(documents)
-    written: list[Path] = []
-    place = Place(str(documents[0].path.parent)) if documents else Place("")
-    try:
-        for document in documents:
-            place = Place(str(document.path))
-            document.path.parent.mkdir(parents=True, exist_ok=True)
-            if document.path.is_dir():
-                raise IsADirectoryError(None, "a folder of this name is in the way")
-            written.append(_written_aside(document))
-        for document, aside in zip(documents, written, strict=True):
-            place = Place(str(document.path))
-            aside.replace(document.path)
-    except OSError as error:
-        raise AccessError.at(place, f"cannot be written: {error.strerror or error}") from error
-    finally:
-        for aside in written:
-            with contextlib.suppress(OSError):
-                aside.unlink(missing_ok=True)
-    return tuple(document.path for document in documents)
-
-
-def _written_aside(document: Document) -> Path:
-    """Write a document under a temporary name in its own folder, and push it to the disk."""
-    handle, name = tempfile.mkstemp(dir=document.path.parent, prefix=f".{document.path.name}.")
-    aside = Path(name)
-    try:
-        with os.fdopen(handle, "wb") as file:
-            file.write(document.content)
-            file.flush()
-            os.fsync(file.fileno())
-        aside.chmod(0o666 & ~_umask())
-    except BaseException:  # an interrupt, too, leaves nothing behind
-        aside.unlink(missing_ok=True)
-        raise
-    return aside
-
-
-def _umask() -> int:
-    """Return the process's file mode mask, which can only be read by setting it."""
-    mask = os.umask(0o022)
-    os.umask(mask)
-    return mask

@@ -175,7 +175,7 @@ def test_a_full_disk_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) ->
 
     with Journal.begun(tmp_path / "x.journal", header()) as journal:
         monkeypatch.setattr(os, "write", full)
-        with pytest.raises(AccessError, match="No space left on device; what happened last is not in it"):
+        with pytest.raises(AccessError, match="no space left on device; what happened last is not in it"):
             journal.append(Resumed(), 1.0)
 
 

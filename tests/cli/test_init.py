@@ -46,16 +46,16 @@ def test_file_that_is_there_is_not_touched(shop: Shop) -> None:
 def test_file_in_place_of_the_folder_is_an_access_error(shop: Shop) -> None:
     shop.write("here", "a file")
     run = shop.run("init", "here")
-    assert (run.code, run.messages) == (3, "here: cannot be written: file exists\n")
+    assert (run.code, run.messages) == (3, "here/job.yaml: cannot be written: here is a file and no folder\n")
 
 
 def test_failure_half_way_leaves_nothing(shop: Shop, monkeypatch: pytest.MonkeyPatch) -> None:
-    def full(*_: object) -> bytes:
+    def full(*_: object) -> None:
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("pathlib.Path.read_bytes", full)
+    monkeypatch.setattr("os.fsync", full)
     run = shop.run("init", "here")
-    assert (run.code, run.messages) == (3, "here: cannot be written: no space left on device\n")
+    assert (run.code, run.messages) == (3, "here/job.yaml: cannot be written: no space left on device\n")
     assert list(Path("here").iterdir()) == []
 
 

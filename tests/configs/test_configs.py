@@ -12,6 +12,7 @@ import pytest
 from environments import ROOT
 from zlmreport import pipeline
 from zlmreport.cli import main
+from zlmreport.files import write
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
 from zlmreport.plugins import Registry, find_plugins
@@ -56,7 +57,7 @@ def test_a_job_gives_each_of_its_formats_and_each_of_its_standards(
     path: Path, registry: Registry, tmp_path: Path
 ) -> None:
     job = replace(load(path, registry), directory=tmp_path)
-    written = pipeline.write(pipeline.run(job, registry).documents)
+    written = write(pipeline.run(job, registry).documents)
     stem = job.keys.certificate.number
     assert {file.name for file in written} == {f"{stem}.{identifier}" for identifier in job.formats}
     results = json.loads((tmp_path / f"{stem}.json").read_bytes())

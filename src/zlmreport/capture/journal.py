@@ -15,6 +15,7 @@ from zlmreport.capture.history import History, read_history, sealed
 from zlmreport.capture.progress import Progress
 from zlmreport.capture.records import Record, to_record
 from zlmreport.errors import AccessError, Place
+from zlmreport.files import sync_folder, unwritable
 
 
 class Journal:
@@ -36,7 +37,7 @@ class Journal:
         self.header = header
         self.progress = Progress.begin(header.visits, header.datum)
         self.elapsed = 0.0
-        self._place = Place(str(path))
+        self._path = path
         self._handle = handle
         self._sum = last_sum
 
@@ -54,7 +55,10 @@ class Journal:
             os.ftruncate(handle, 0)
             journal = cls(path, handle, header, "")
             journal._write(header.to_record())
-            _keep_name(path)
+            try:
+                sync_folder(path.parent)
+            except OSError as error:
+                raise unwritable(path, error) from error
             return journal
 
     @classmethod
@@ -117,10 +121,10 @@ class Journal:
                 line = line[os.write(self._handle, line) :]
             os.fsync(self._handle)
         except OSError as error:
-            raise AccessError.at(
-                self._place,
-                f"cannot be written: {error.strerror or error}; what happened last is not in it: see to the "
-                "disk, then go on with --resume",
+            raise unwritable(
+                self._path,
+                error,
+                "; what happened last is not in it: see to the disk, then go on with --resume",
             ) from error
 
 
@@ -156,7 +160,7 @@ def _opened(path: Path) -> int:
     try:
         handle = os.open(path, os.O_RDWR | os.O_CREAT | os.O_APPEND, 0o666)
     except OSError as error:
-        raise AccessError.at(place, f"cannot be written: {error.strerror or error}") from error
+        raise unwritable(path, error) from error
     try:
         fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except OSError as error:
@@ -165,16 +169,6 @@ def _opened(path: Path) -> int:
             place, "is being written by another capture; end that first, or name another journal"
         ) from error
     return handle
-
-
-def _keep_name(path: Path) -> None:
-    """Push the name of a new file to the disk, too."""
-    with contextlib.suppress(OSError):  # some file systems have no such thing
-        folder = os.open(path.parent, os.O_RDONLY)
-        try:
-            os.fsync(folder)
-        finally:
-            os.close(folder)
 
 
 def _is_there(history: History) -> str:

@@ -7,8 +7,8 @@ from argparse import Namespace
 from datetime import datetime
 from pathlib import Path
 
-from zlmreport import pipeline
 from zlmreport.cli.terminal import shown_path
+from zlmreport.files import Document, write
 from zlmreport.fleet.basis import path_in
 from zlmreport.fleet.ledger import Ledger
 from zlmreport.fleet.overview import overview
@@ -17,7 +17,6 @@ from zlmreport.fleet.overview_state import FleetState, Night, state_of
 from zlmreport.fleet.prometheus import metrics
 from zlmreport.job.fleet import FleetFile, job_files, load_fleet
 from zlmreport.language import Language
-from zlmreport.pipeline import Document
 from zlmreport.plugins import find_plugins
 
 
@@ -33,7 +32,7 @@ def run(options: Namespace) -> int:
         Document(folder / f"{fleet.path.stem}.html", page.encode()),
         Document(folder / f"{fleet.path.stem}.prom", metrics(state).encode()),
     )
-    for path in pipeline.write(documents):
+    for path in write(documents):
         print(shown_path(path))
     return 0
 

@@ -6,13 +6,14 @@ from argparse import Namespace
 
 from zlmreport import pipeline
 from zlmreport.capture.of_job import options_of
-from zlmreport.cli.plan_files import plan_files, refuse_files_that_are_there
+from zlmreport.cli.plan_files import plan_files
 from zlmreport.cli.plan_json import plan_values
 from zlmreport.cli.plan_lines import plan_lines
 from zlmreport.cli.plan_path import run_path
 from zlmreport.cli.plan_programs import chosen_programs, program_files
 from zlmreport.cli.summary import print_json
 from zlmreport.cli.terminal import shown_path
+from zlmreport.files import Document, demand_free, write
 from zlmreport.foresight.foresee import foresee
 from zlmreport.job.loading import load
 from zlmreport.plugins import find_plugins
@@ -28,15 +29,15 @@ def run(options: Namespace) -> int:
         options.program, options.output, job.programs, registry.part_program, "linuxcnc,fanuc"
     )
     foresight = foresee(job, pipeline.standards(job, registry), registry.effects)
-    documents: tuple[pipeline.Document, ...] = ()
+    documents: tuple[Document, ...] = ()
     if options.output:
         plan = foresight.proposal.plan
         documents = (
             *plan_files(options.output, job, foresight),
             *program_files(options.output, job, plan, programs, registry),
         )
-    refuse_files_that_are_there(documents)
-    written = pipeline.write(documents)
+    demand_free(document.path for document in documents)
+    written = write(documents)
     if options.json:
         print_json(plan_values(job, foresight, written))
         return 0

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 
-from zlmreport.errors import InputError, Place, Problem
 from zlmreport.figures.sequence import sequence
+from zlmreport.files import Document
 from zlmreport.foresight.foresee import Foresight
 from zlmreport.foresight.motion import motion_of
 from zlmreport.foresight.targets import in_users_unit
 from zlmreport.job.job import Job
 from zlmreport.measurement.approach import Approach
-from zlmreport.pipeline import Document
 
 SIGNS = {Approach.POSITIVE: "+", Approach.NEGATIVE: "-"}
 
@@ -30,17 +29,6 @@ def plan_files(folder: Path, job: Job, foresight: Foresight) -> tuple[Document, 
     }
     number = job.keys.certificate.number
     return tuple(Document(folder / f"{number}-{name}", text.encode()) for name, text in texts.items())
-
-
-def refuse_files_that_are_there(documents: Iterable[Document]) -> None:
-    """Refuse to write over a form that somebody may have filled in, or a program that has been edited."""
-    problems = [
-        Problem(Place(str(document.path)), "is there already; choose another folder, or remove it")
-        for document in documents
-        if document.path.exists()
-    ]
-    if problems:
-        raise InputError(problems)
 
 
 def _picture(job: Job, foresight: Foresight) -> str:

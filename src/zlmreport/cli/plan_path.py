@@ -8,15 +8,13 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from zlmreport import pipeline
 from zlmreport.cli.model_lines import wrapped
-from zlmreport.cli.plan_files import refuse_files_that_are_there
 from zlmreport.cli.plan_programs import chosen_programs
 from zlmreport.cli.summary import print_json
 from zlmreport.cli.terminal import Colour, shown_path
 from zlmreport.errors import InputError, Problem
+from zlmreport.files import Document, demand_free, write
 from zlmreport.job.job import Job, ProgramChoice
-from zlmreport.pipeline import Document
 from zlmreport.plugins import Registry
 from zlmreport.quantities.formatting import fixed_number, general_number
 from zlmreport.quantities.units import MILLIMETRE
@@ -52,8 +50,8 @@ def run_path(options: Namespace, job: Job, registry: Registry) -> int:
             *_files(options.output, job, planned),
             *_program_files(options.output, planned.path, programs, registry),
         )
-    refuse_files_that_are_there(documents)
-    written = pipeline.write(documents)
+    demand_free(document.path for document in documents)
+    written = write(documents)
     if options.json:
         print_json(_values(planned, written))
         return 0

@@ -12,6 +12,7 @@ from zlmreport.cli.results import Result, load_all
 from zlmreport.cli.signature import demand_something_to_sign, signer_of
 from zlmreport.cli.terminal import report
 from zlmreport.errors import Place
+from zlmreport.files import write
 from zlmreport.job.job import Job
 from zlmreport.job.loading import chosen_formats
 from zlmreport.plugins import Registry, find_plugins
@@ -33,7 +34,7 @@ def _make(options: Namespace, registry: Registry, formats: tuple[str, ...], sign
         if not (options.quiet or options.json):
             capture_if_watched(job, registry, result.path)
         outcome = pipeline.run(job, registry, signer)
-        files = pipeline.write(outcome.documents)
+        files = write(outcome.documents)
         made = outcome.certificate
         return replace(result, evaluations=made.evaluations, diagnosis=made.diagnosis, files=files)
 

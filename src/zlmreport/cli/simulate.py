@@ -7,8 +7,8 @@ from argparse import Namespace
 from zlmreport.cli.simulate_files import remarks, written
 from zlmreport.cli.simulate_live import run_live
 from zlmreport.cli.terminal import shown_path
+from zlmreport.files import Document
 from zlmreport.job.simulation import load_simulation
-from zlmreport.pipeline import Document
 from zlmreport.plugins import find_plugins
 from zlmreport.simulation.interpret import description_of
 from zlmreport.simulation.simulate import simulate

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from zlmreport import pipeline
 from zlmreport.cli.terminal import shown_path
+from zlmreport.files import Document, write
 from zlmreport.job.simulation import SimulationFile
-from zlmreport.pipeline import Document
 
 
 def written(table: Document, job: Document) -> Iterator[str]:
@@ -19,7 +18,7 @@ def written(table: Document, job: Document) -> Iterator[str]:
         What is printed of each.
     """
     is_new = not job.path.exists()
-    yield from (str(shown_path(path)) for path in pipeline.write([table, job] if is_new else [table]))
+    yield from (str(shown_path(path)) for path in write([table, job] if is_new else [table]))
     if not is_new:
         yield f"{shown_path(job.path)} is there already and was left as it is"
 

@@ -11,9 +11,9 @@ from zlmreport.cli.simulate_files import remarks, written
 from zlmreport.cli.terminal import shown_path
 from zlmreport.emulation.emulator import Scene
 from zlmreport.errors import InputError, Place
+from zlmreport.files import Document
 from zlmreport.job.simulation import load_simulation
 from zlmreport.language import Language
-from zlmreport.pipeline import Document
 from zlmreport.plugins import find_plugins
 from zlmreport.simulation.description import Plan
 from zlmreport.simulation.interpret import description_of

@@ -14,6 +14,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+from zlmreport.files import beside, take_names
 from zlmreport.fleet.basis import KnownFile, Look
 
 #: Of a file that the ledger has not taken over yet.
@@ -61,9 +62,7 @@ class Laid:
 
     def name(self) -> None:
         """Give the files their names."""
-        for path, hidden in self.names.items():
-            hidden.replace(path)
-        _sync({path.parent for path in self.names})
+        take_names(self.names)
 
 
 @contextlib.contextmanager
@@ -82,26 +81,17 @@ def laid(folder: Path, files: Iterable[Finished]) -> Iterator[Laid]:
     OSError
         If one cannot be written.
     """
-    names: dict[Path, Path] = {}
-    known = []
-    touched: set[Path] = set()
-    try:
-        for file in files:
-            path = folder / file.path
-            hidden = path.with_name(f".{path.name}.{file.sha256[:16]}{_SUFFIX}")
-            touched |= _made(path.parent)
-            names[path] = hidden
-            with hidden.open("wb") as opened:
-                opened.write(file.content)
-                opened.flush()
-                os.fsync(opened.fileno())
-            known.append(KnownFile(file.role, file.path, file.sha256, Look.at(hidden)))
-        _sync(touched)
+    files = tuple(files)
+    digests = {folder / file.path: file.sha256 for file in files}
+
+    def hidden(path: Path) -> Path:
+        return path.with_name(f".{path.name}.{digests[path][:16]}{_SUFFIX}")
+
+    with beside({folder / file.path: file.content for file in files}, hidden) as names:
+        known = [
+            KnownFile(file.role, file.path, file.sha256, Look.at(names[folder / file.path])) for file in files
+        ]
         yield Laid(names, tuple(known))
-    finally:
-        for hidden in names.values():
-            with contextlib.suppress(OSError):
-                hidden.unlink(missing_ok=True)
 
 
 def tidy(folder: Path, known: Iterable[KnownFile]) -> int:
@@ -145,20 +135,3 @@ def _hidden(folder: Path) -> Iterator[Path]:
 def _digest(path: Path) -> str:
     with path.open("rb") as opened:
         return hashlib.file_digest(opened, "sha256").hexdigest()
-
-
-def _made(folder: Path) -> set[Path]:
-    """Make a folder, and return it with those in which a folder was made for it."""
-    missing = [each for each in (folder, *folder.parents) if not each.exists()]
-    folder.mkdir(parents=True, exist_ok=True)
-    return {folder, *(each.parent for each in missing)}
-
-
-def _sync(folders: Iterable[Path]) -> None:
-    """Push the names in folders to the disk."""
-    for folder in folders:
-        handle = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
-        try:
-            os.fsync(handle)
-        finally:
-            os.close(handle)

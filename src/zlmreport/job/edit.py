@@ -7,17 +7,14 @@ is still the one that was read.
 from __future__ import annotations
 
 import codecs
-import contextlib
 import hashlib
-import os
-import shutil
-import tempfile
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from zlmreport.errors import AccessError, InputError, Place, Problem
+from zlmreport.errors import InputError, Place, Problem
+from zlmreport.files import rewrite, unreadable
 from zlmreport.job.effects import EffectChoice, effect_choices
 from zlmreport.job.extents import Written
 from zlmreport.job.installed import Installed
@@ -94,25 +91,7 @@ class Edit:
             If it cannot be written.
         """
         place = Place(str(self.path))
-        aside = None
-        try:
-            real = self.path.resolve(strict=True)
-            handle, name = tempfile.mkstemp(dir=real.parent, prefix=f".{real.name}.")
-            aside = Path(name)
-            with os.fdopen(handle, "wb") as file:
-                file.write(self.content)
-                file.flush()
-                os.fsync(file.fileno())
-            shutil.copymode(real, aside)
-            _refuse_changed(real.read_bytes(), self.digest, place)
-            aside.replace(real)
-        except OSError as error:
-            reason = (error.strerror or str(error)).lower()
-            raise AccessError.at(place, f"cannot be written: {reason}") from error
-        finally:
-            if aside is not None:
-                with contextlib.suppress(OSError):
-                    aside.unlink(missing_ok=True)
+        rewrite(self.path, self.content, lambda found: _refuse_changed(found, self.digest, place))
 
 
 def named_effect(text: str, registry: Installed, place: Place) -> NamedEffect:
@@ -266,8 +245,7 @@ def _content(path: Path) -> bytes:
     try:
         return path.read_bytes()
     except OSError as error:
-        reason = (error.strerror or str(error)).lower()
-        raise AccessError.at(Place(str(path)), f"cannot be read: {reason}") from error
+        raise unreadable(path, error) from error
 
 
 def _refuse_changed(content: bytes, digest: str, place: Place) -> None:

@@ -7,7 +7,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from zlmreport.errors import AccessError, InputError, Place, Problem
+from zlmreport.errors import InputError, Place, Problem
+from zlmreport.files import unreadable
 from zlmreport.job.defaults import Defaults
 from zlmreport.job.extends import compose
 from zlmreport.job.fleet_keys import FleetKeys
@@ -180,5 +181,4 @@ def _content(path: Path) -> bytes:
     try:
         return path.read_bytes()
     except OSError as error:
-        reason = (error.strerror or str(error)).lower()
-        raise AccessError.at(Place(str(path)), f"cannot be read: {reason}") from error
+        raise unreadable(path, error) from error

@@ -14,7 +14,8 @@ from pathlib import Path
 from types import TracebackType
 from typing import Self
 
-from zlmreport.errors import AccessError, InputError, Place, Problem
+from zlmreport.errors import AccessError, InputError, Place
+from zlmreport.files import sync_folder, take_names, unwritable
 from zlmreport.quantities.units import MILLIMETRE
 from zlmreport.step_gauge.path import Point, Probing, ProbingPath
 from zlmreport.step_gauge.program_text import coordinates, direction, plain
@@ -60,8 +61,9 @@ class Journal:
             result.parent.mkdir(parents=True, exist_ok=True)
             self.done = self._sound()
             self._handle = self._part.open("ab")
+            sync_folder(self._part.parent)
         except OSError as error:
-            raise self._unwritable(error) from error
+            raise unwritable(self._part, error) from error
         if not self._part.stat().st_size:
             self._append(*self._head())
 
@@ -92,9 +94,9 @@ class Journal:
         """Give the table the name of the result."""
         self._handle.close()
         try:
-            self._part.replace(self._result)
+            take_names({self._result: self._part})
         except OSError as error:
-            raise self._unwritable(error) from error
+            raise unwritable(self._part, error) from error
         return self._result
 
     def _append(self, *lines: str) -> None:
@@ -103,7 +105,7 @@ class Journal:
             self._handle.flush()
             os.fsync(self._handle.fileno())
         except OSError as error:
-            raise self._unwritable(error) from error
+            raise unwritable(self._part, error) from error
 
     def _head(self) -> tuple[str, ...]:
         radius = MILLIMETRE.from_si(self._path.tip_radius)
@@ -132,9 +134,6 @@ class Journal:
             "holds points of another path: of another gauge, place, tip or way; rename or remove it, and "
             "start again",
         )
-
-    def _unwritable(self, error: OSError) -> AccessError:
-        return AccessError([Problem(Place(str(self._part)), f"cannot be written: {error.strerror or error}")])
 
 
 def _key(line: str) -> Key:

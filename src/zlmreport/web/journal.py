@@ -15,6 +15,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 
 from zlmreport.errors import AccessError, Place
+from zlmreport.files import unreadable, unwritable
 
 SUFFIX = ".history.jsonl"
 SCHEMA = "zlmreport/workbench-history/1"
@@ -79,8 +80,10 @@ class Journal:
             lines = self.path.read_text("utf-8").splitlines()
         except FileNotFoundError:
             return ()
-        except (OSError, UnicodeDecodeError) as error:
+        except UnicodeDecodeError as error:
             raise AccessError.at(Place(str(self.path)), f"cannot be read: {error}") from error
+        except OSError as error:
+            raise unreadable(self.path, error) from error
         return tuple(found for line in lines if (found := _entry(line)))
 
     def append(self, entry: Entry) -> None:
@@ -90,8 +93,7 @@ class Journal:
             with self.path.open("a", encoding="utf-8") as file:
                 file.write(f"{line}\n")
         except OSError as error:
-            reason = (error.strerror or str(error)).lower()
-            raise AccessError.at(Place(str(self.path)), f"cannot be written: {reason}") from error
+            raise unwritable(self.path, error) from error
 
 
 def entry(action: str, subject: str, contents: tuple[bytes, bytes], errors: tuple[float, float]) -> Entry:
