@@ -23,7 +23,7 @@ from hidden_effects.sparse import sparse
 from hidden_effects.stepwise import stepwise
 from hidden_effects.trial import Trial
 from zlmreport.model.design import Design
-from zlmreport.model.observe import Observations
+from zlmreport.model.observations import Observations
 from zlmreport.planning.methods import Method
 from zlmreport.quantities.arrays import FloatArray
 from zlmreport.simulation.visibility import base_columns, beyond

@@ -10,9 +10,8 @@ from hidden_effects import generic, prediction
 from hidden_effects.cases import Case, Kind
 from hidden_effects.trial import EFFECTS, Trial, drawn_trial
 from zlmreport.model.axis_model import AxisModel, ModelError
-from zlmreport.model.diagnose import diagnose
-from zlmreport.model.diagnosis import Diagnosis, Verdict
-from zlmreport.model.observe import Observations, observe
+from zlmreport.model.diagnosis import Diagnosis, Verdict, diagnose
+from zlmreport.model.observations import Observations, observations_of
 
 _INSTALLED = tuple(EFFECTS.values())
 #: Effects that a user who believes the first candidate would add to find a pair, and one more.
@@ -42,7 +41,7 @@ def judged(case: Case, *, slow_ways: bool = False) -> dict[str, Any]:
     if trial is None:
         return record | {"outcome": "not visible"}
     started = time.process_time()
-    observed = observe(trial.first.measurements, overrun=trial.description.plan.overrun)
+    observed = observations_of(trial.first.measurements, overrun=trial.description.plan.overrun)
     try:
         diagnosis = diagnose(trial.model, observed, _INSTALLED)
     except ModelError as error:

@@ -18,7 +18,7 @@ from zlmreport.model.axis_model import ModelError
 from zlmreport.model.diagnosis import Diagnosis, Verdict
 from zlmreport.model.effect import Effect
 from zlmreport.model.fit import Fit, fit
-from zlmreport.model.observe import Observations, observe
+from zlmreport.model.observations import Observations, observations_of
 
 
 def errors(trial: Trial, diagnosis: Diagnosis) -> dict[str, float]:
@@ -47,7 +47,7 @@ def errors(trial: Trial, diagnosis: Diagnosis) -> dict[str, float]:
 
 def seen_again(trial: Trial, again: Measured) -> Observations:
     """Return the second test as a model is asked about it: with the travel of the first."""
-    seen = observe(again.measurements, overrun=trial.description.plan.overrun)
+    seen = observations_of(again.measurements, overrun=trial.description.plan.overrun)
     return replace(seen, design=replace(seen.design, span=trial.first.design.span))
 
 

@@ -14,7 +14,7 @@ from zlmreport.language import Language, Words
 from zlmreport.measurement.axis import AxisKind
 from zlmreport.model.design import Design
 from zlmreport.model.effect import Effect, Shape
-from zlmreport.model.observe import of_readings
+from zlmreport.model.observations import of_readings
 from zlmreport.model.parameter import Parameter, unit_of
 from zlmreport.plugins import Kind, find_plugins
 from zlmreport.testing import full_designs

@@ -25,8 +25,8 @@ from hidden_effects.tables.outcome import outcome
 from hidden_effects.tables.shares import Share
 from hidden_effects.tables.targets import targets
 from hidden_effects.trial import EFFECTS, drawn_trial
-from zlmreport.model.diagnose import diagnose
-from zlmreport.model.observe import observe
+from zlmreport.model.diagnosis import diagnose
+from zlmreport.model.observations import observations_of
 from zlmreport.planning.methods import Method
 from zlmreport.simulation.visibility import base_columns, beyond
 
@@ -112,7 +112,7 @@ class TestOracle:
     def test_where_the_readings_are_gone_that_show_the_effect_it_adds_nothing(self) -> None:
         trial = drawn_trial(case("first-run", method=Method.UNIDIRECTIONAL))
         assert trial is not None
-        observed = observe(trial.first.measurements, overrun=trial.description.plan.overrun)
+        observed = observations_of(trial.first.measurements, overrun=trial.description.plan.overrun)
         later = observed.without(np.flatnonzero(observed.design.run == observed.design.run.min()))
         found = errors(trial, diagnose(trial.model, later, tuple(EFFECTS.values())))
         assert found["oracle"] == found["before"]

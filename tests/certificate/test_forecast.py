@@ -12,7 +12,7 @@ from model.hidden_effect import example, example_history, registry, study, writt
 from zlmreport import pipeline
 from zlmreport.certificate.forecast import Forecast, forecasts
 from zlmreport.evaluation.evaluate import evaluate
-from zlmreport.model.correction import corrected
+from zlmreport.model.study import corrected
 
 ALL = ["iso230-2:1988", "iso230-2:2014", "vdi-dgq-3441", "nmtba"]
 

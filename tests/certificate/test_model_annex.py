@@ -20,7 +20,7 @@ from zlmreport.certificate.scribe import Scribe
 from zlmreport.job.job import Job
 from zlmreport.language import Language, same
 from zlmreport.model.diagnosis import Diagnosis, Verdict
-from zlmreport.model.failures.failure import Failure, ResidualTest
+from zlmreport.model.residuals import Failure, ResidualTest
 
 GOLDEN = Path(__file__).with_name("golden")
 #: Numbers are held by the tests of what computes them.

@@ -7,7 +7,7 @@ import re
 import pytest
 
 from documents.pages import DOCS
-from zlmreport.model import calibration, diagnose, noise, outliers, ranking, spread, steps
+from zlmreport.model import diagnosis, evidence, noise, null_distribution, outliers, repeats, steps
 
 _PAGE = " ".join((DOCS / "explanation" / "error-model.md").read_text(encoding="utf-8").split())
 
@@ -15,14 +15,14 @@ _PAGE = " ".join((DOCS / "explanation" / "error-model.md").read_text(encoding="u
 @pytest.mark.parametrize(
     ("sentence", "value"),
     [
-        (r"the whole contest is held (\d+) times more", calibration.TRIALS),
-        (r"exceeds by chance in (\d+) % of these tests", 100 * calibration.LEVEL),
+        (r"the whole contest is held (\d+) times more", null_distribution.TRIALS),
+        (r"exceeds by chance in (\d+) % of these tests", 100 * null_distribution.LEVEL),
         (r"by more than ([\d.]+) robust standard deviations", outliers._LIMIT),
-        (r"refutes that they are equal \(at (\d+) %\)", 100 * spread._LEVEL),
-        (r"must surpass them by (\d+) units", ranking.NAMED),
-        (r"A difference of less than (\d+) units", ranking.MENTION),
-        (r"each further name must bring (\d+) units more", ranking.FURTHER),
-        (r"beyond the noise floor by at least (\d+) %", 100 * diagnose.EXPLAINS),
+        (r"refutes that they are equal \(at (\d+) %\)", 100 * repeats._LEVEL),
+        (r"must surpass them by (\d+) units", evidence.NAMED),
+        (r"A difference of less than (\d+) units", evidence.MENTION),
+        (r"each further name must bring (\d+) units more", evidence.FURTHER),
+        (r"beyond the noise floor by at least (\d+) %", 100 * diagnosis.EXPLAINS),
     ],
 )
 def test_a_number_on_the_page_is_that_of_the_code(sentence: str, value: float) -> None:
@@ -37,7 +37,7 @@ def test_shared_scatter_is_held_to_half_of_that_of_single_readings() -> None:
 
 
 def test_the_names_together_hold_three_quarters_of_the_evidence() -> None:
-    assert ranking.EXPLAINED == 0.75
+    assert evidence.EXPLAINED == 0.75
     assert "at least three quarters of all evidence" in _PAGE
 
 

@@ -10,9 +10,8 @@ import pytest
 from model.axis_tests import INSTALLED, model_of
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.measurement_set import MeasurementSet
-from zlmreport.model.diagnose import diagnose
-from zlmreport.model.diagnosis import Diagnosis, Verdict
-from zlmreport.model.observe import observe
+from zlmreport.model.diagnosis import Diagnosis, Verdict, diagnose
+from zlmreport.model.observations import observations_of
 from zlmreport.quantities.units import MICROMETRE, MILLIMETRE
 
 _DATA = Path(__file__).parents[1] / "data" / "published"
@@ -49,7 +48,7 @@ def _diagnosis(rows: list[tuple[float, int, int, float]]) -> Diagnosis:
         run,
         MICROMETRE.to_si(deviation),
     )
-    return diagnose(model_of("offset", "scale-error", "backlash"), observe(measurements), INSTALLED)
+    return diagnose(model_of("offset", "scale-error", "backlash"), observations_of(measurements), INSTALLED)
 
 
 @pytest.mark.parametrize("name", VERDICTS)

@@ -11,7 +11,7 @@ from plugins.effects.installed import EFFECTS
 from zlmreport.figures.model_diagram import ModelDiagram
 from zlmreport.model.axis_model import AxisModel, Term
 from zlmreport.model.design import Design
-from zlmreport.model.diagnose import error_numbers
+from zlmreport.model.diagnosis import error_numbers
 from zlmreport.model.fit import fit
 from zlmreport.model.study import Fitted
 from zlmreport.quantities.arrays import FloatArray, read_only_floats

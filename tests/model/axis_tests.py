@@ -10,7 +10,7 @@ from zlmreport.measurement.axis import Axis, PositionTable
 from zlmreport.model.axis_model import AxisModel, Term
 from zlmreport.model.design import Design
 from zlmreport.model.effect import Effect
-from zlmreport.model.observe import Observations
+from zlmreport.model.observations import Observations
 from zlmreport.quantities.arrays import FloatArray
 from zlmreport_plugins.effects import zlmreport_effects
 from zlmreport_plugins.effects.polynomial import Polynomial

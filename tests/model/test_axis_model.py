@@ -10,7 +10,7 @@ import pytest
 from model.axis_tests import EFFECTS, USUAL, known, linear_test, model_of
 from zlmreport.model.axis_model import AxisModel, ModelError, Term
 from zlmreport.model.fit import fit
-from zlmreport.model.observe import of_readings
+from zlmreport.model.observations import of_readings
 from zlmreport_plugins.effects.polynomial import Polynomial
 
 DESIGN = linear_test(targets=7, runs=3)

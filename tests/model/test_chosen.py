@@ -10,8 +10,7 @@ from testing.exemplary_effect import ExemplaryEffect, ExemplaryOptions
 from zlmreport.errors import Place
 from zlmreport.job.effects import EffectChoice
 from zlmreport.measurement.axis import AxisKind
-from zlmreport.model.axis_model import Term
-from zlmreport.model.chosen import chosen_terms
+from zlmreport.model.axis_model import Term, chosen_terms
 
 
 def _chosen(kind: AxisKind, settings: ExemplaryOptions | None = None, **values: float) -> Term:

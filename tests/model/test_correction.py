@@ -6,7 +6,7 @@ import numpy as np
 
 from model.hidden_effect import example, example_history, study, written
 from zlmreport.language import Language
-from zlmreport.model.correction import BY_TABLE, corrected, moves_with_time
+from zlmreport.model.study import BY_TABLE, corrected, moves_with_time
 
 
 def test_what_is_left_is_the_residual() -> None:

@@ -26,9 +26,8 @@ from model.axis_tests import (
 from zlmreport.language import Language
 from zlmreport.model.axis_model import AxisModel, ModelError
 from zlmreport.model.design import Design
-from zlmreport.model.diagnose import diagnose
-from zlmreport.model.diagnosis import Diagnosis, Verdict
-from zlmreport.model.observe import of_readings
+from zlmreport.model.diagnosis import Diagnosis, Verdict, diagnose
+from zlmreport.model.observations import of_readings
 from zlmreport.model.report import report
 from zlmreport.quantities.arrays import FloatArray
 
@@ -73,7 +72,7 @@ def test_a_hidden_effect_is_named_first_or_among_its_equals(effect: str) -> None
 
 
 def test_a_parameter_that_is_given_its_true_value_leaves_nothing_to_be_found() -> None:
-    """What a given value makes of the readings is no part of what the contest is about."""
+    """What a given value makes of the readings is no part of what the comparison is about."""
     free = _diagnosis(0.0)
     (lost_motion,) = (each for each in free.fit.estimates if each.effect == "backlash")
     fixed = {"lost_motion": lost_motion.value}

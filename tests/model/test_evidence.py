@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from model.axis_tests import EFFECTS, SIGMA, USUAL, hidden, known, linear_test, noise, pendulum_test
-from zlmreport.model.contest import Contest
+from zlmreport.model.comparison import Comparison
 from zlmreport.model.design import Design
 from zlmreport.model.effect import Effect
 from zlmreport.model.evidence import Evidence, evidence_of
-from zlmreport.model.observe import of_readings
+from zlmreport.model.observations import of_readings
 from zlmreport.quantities.arrays import FloatArray
 
 DESIGN = linear_test()
@@ -25,8 +25,8 @@ def _base(design: Design) -> FloatArray:
 
 
 def _evidence(design: Design, deviation: FloatArray, *effects: Effect) -> Evidence:
-    contest = Contest.of(design, _base(design), effects, np.ones(len(deviation)))
-    return evidence_of(contest, design, deviation, 1e-6)
+    comparison = Comparison.of(design, _base(design), effects, np.ones(len(deviation)))
+    return evidence_of(comparison, design, deviation, 1e-6)
 
 
 def test_evidence_in_independent_noise_is_that_of_a_prior_worth_one_reading() -> None:

@@ -22,13 +22,12 @@ from model.axis_tests import (
 from zlmreport.language import Language
 from zlmreport.model.axis_model import AxisModel
 from zlmreport.model.design import Design
-from zlmreport.model.failures.failure import Failure, ResidualTest
-from zlmreport.model.failures.find import failures, residual_tests
-from zlmreport.model.failures.residuals import residuals_of
-from zlmreport.model.failures.scatter import flagged
 from zlmreport.model.fit import Assumptions, fit
-from zlmreport.model.observe import of_readings
+from zlmreport.model.observations import of_readings
 from zlmreport.model.outliers import outliers
+from zlmreport.model.residual_means import flagged
+from zlmreport.model.residual_tests import failures, residual_tests
+from zlmreport.model.residuals import Failure, ResidualTest, residuals_of
 from zlmreport.quantities.arrays import FloatArray
 
 DESIGN = linear_test()

@@ -20,11 +20,10 @@ from model.axis_tests import (
 )
 from zlmreport.model.axis_model import AxisModel, Term
 from zlmreport.model.design import Design
-from zlmreport.model.estimate import Plausibility
+from zlmreport.model.estimate import InstrumentError, Plausibility
 from zlmreport.model.fit import Assumptions, Fit, fit
-from zlmreport.model.instrument import InstrumentError
 from zlmreport.model.noise import noise_parts
-from zlmreport.model.spread import Spread
+from zlmreport.model.repeats import Spread
 from zlmreport.quantities.arrays import FloatArray
 
 DESIGN = linear_test(targets=11)

@@ -9,10 +9,10 @@ import pytest
 
 from model import halaj
 from model.axis_tests import EFFECTS, known, linear_test, model_of, noise
+from zlmreport.model.estimate import InstrumentError
 from zlmreport.model.fit import Assumptions, Fit, fit
-from zlmreport.model.instrument import InstrumentError
-from zlmreport.model.observe import of_readings
-from zlmreport.model.spread import Spread
+from zlmreport.model.observations import of_readings
+from zlmreport.model.repeats import Spread
 from zlmreport.quantities.arrays import FloatArray
 
 DESIGN = linear_test(targets=10, runs=10)

@@ -16,8 +16,7 @@ from model.axis_tests import (
     observations,
 )
 from zlmreport.model.axis_model import AxisModel
-from zlmreport.model.diagnose import diagnose
-from zlmreport.model.diagnosis import Diagnosis, Verdict
+from zlmreport.model.diagnosis import Diagnosis, Verdict, diagnose
 from zlmreport.model.effect import Effect
 from zlmreport.quantities.arrays import FloatArray
 from zlmreport_plugins.effects.polynomial import Polynomial

@@ -7,10 +7,9 @@ import pytest
 
 from model.axis_tests import SIGMA, USUAL, linear_test, noise, realistic_noise
 from zlmreport.measurement.axis import Axis
-from zlmreport.model.contrasts import contrasts_of, restricted_estimate
+from zlmreport.model.contrasts import contrasts_of, restricted_estimate, whitener
 from zlmreport.model.design import Design
 from zlmreport.model.noise import Noise, NoiseSource, noise_parts, ratio_grid
-from zlmreport.model.whitening import whitener
 from zlmreport.quantities.arrays import FloatArray
 
 DESIGN = linear_test(targets=9, runs=4)

@@ -12,7 +12,7 @@ from documents.pages import DOCS
 from model.reference_datasets import LINEAR, NONLINEAR, Dataset, dataset, jacobian
 from zlmreport.model.axis_model import AxisModel, Term
 from zlmreport.model.fit import Assumptions, Fit, fit
-from zlmreport.model.spread import Spread
+from zlmreport.model.repeats import Spread
 from zlmreport.quantities.arrays import FloatArray
 
 _INDEPENDENT = Assumptions(parts=(), spread=Spread.POOLED)

@@ -9,7 +9,7 @@ import pytest
 from model.hidden_effect import example_diagnosis
 from zlmreport.language import Language, Words, same
 from zlmreport.model.diagnosis import Unnamed, Verdict
-from zlmreport.model.statements import listed, verdict_statement
+from zlmreport.model.report import listed, verdict_statement
 
 
 def said(**changes: object) -> str:

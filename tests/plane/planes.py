@@ -9,7 +9,7 @@ import numpy as np
 from model.axis_tests import SIGMA, linear_test, observations
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.axis import Axis
-from zlmreport.model.instrument import InstrumentError
+from zlmreport.model.estimate import InstrumentError
 from zlmreport.plane.lines import Line, side_by_side
 from zlmreport.plane.surface import Surface, surface
 from zlmreport.quantities.arrays import FloatArray

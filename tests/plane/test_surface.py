@@ -11,7 +11,7 @@ from model import halaj
 from plane.planes import COEFFICIENTS, DESIGN, LINES, LOST_MOTION, fitted, measured, truth
 from zlmreport.measurement.approach import Approach
 from zlmreport.model.axis_model import ModelError
-from zlmreport.model.instrument import InstrumentError
+from zlmreport.model.estimate import InstrumentError
 from zlmreport.model.noise import NoiseSource, noise_parts
 from zlmreport.plane.lines import Line, side_by_side
 from zlmreport.plane.surface import Surface, coefficient_names

@@ -18,7 +18,7 @@ from zlmreport import pipeline
 from zlmreport.certificate.linked_failures import chance
 from zlmreport.job.loading import load
 from zlmreport.language import Language, same
-from zlmreport.model.failures.failure import Failure, ResidualTest
+from zlmreport.model.residuals import Failure, ResidualTest
 from zlmreport.model.study import Study
 from zlmreport.testing.designs import full_designs
 from zlmreport.web.app import Workbench

@@ -11,8 +11,7 @@ import numpy as np
 from zlmreport.evaluation.evaluate import EvaluatingStandard
 from zlmreport.evaluation.quantity import Group, Quantity
 from zlmreport.evaluation.statistics import position_statistics
-from zlmreport.model.correction import BY_TABLE, corrected
-from zlmreport.model.study import Fitted, Study
+from zlmreport.model.study import BY_TABLE, Fitted, Study, corrected
 from zlmreport.quantities.arrays import FloatArray, read_only_floats
 from zlmreport.quantities.units import Unit
 

@@ -10,7 +10,7 @@ from zlmreport.language import Language
 from zlmreport.measurement.conditions import CONDITION_NAMES
 from zlmreport.model import wording
 from zlmreport.model.diagnosis import Diagnosis
-from zlmreport.model.failures.failure import Failure, ResidualTest
+from zlmreport.model.residuals import Failure, ResidualTest
 from zlmreport.model.study import Study
 
 _IN_TIME = {ResidualTest.TIME_ORDER, ResidualTest.PERIOD_IN_TIME}

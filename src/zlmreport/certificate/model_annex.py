@@ -21,11 +21,10 @@ from zlmreport.figures.model_fall import fall_chart
 from zlmreport.figures.model_residuals import over_condition, over_position, over_run, over_time
 from zlmreport.language import Language, Words
 from zlmreport.model import wording
-from zlmreport.model.correction import moves_with_time
 from zlmreport.model.diagnosis import Diagnosis, Verdict
-from zlmreport.model.failures.failure import Failure, ResidualTest
-from zlmreport.model.statements import verdict_statement
-from zlmreport.model.study import Fitted, Study
+from zlmreport.model.report import verdict_statement
+from zlmreport.model.residuals import Failure, ResidualTest
+from zlmreport.model.study import Fitted, Study, moves_with_time
 
 _KEY = "model"
 _TITLE = Words(

@@ -11,13 +11,12 @@ from zlmreport.certificate.forecast import Forecast
 from zlmreport.certificate.scribe import NOTHING, Scribe
 from zlmreport.language import Language, Words
 from zlmreport.model import wording
-from zlmreport.model.amplitudes import Wave, waves
 from zlmreport.model.design import Design
 from zlmreport.model.diagnosis import Diagnosis
 from zlmreport.model.estimate import Estimate, Plausibility
 from zlmreport.model.parameter import unit_of
-from zlmreport.model.statements import serious_candidates
-from zlmreport.model.study import Fitted
+from zlmreport.model.report import serious_candidates
+from zlmreport.model.study import Fitted, Wave, waves
 from zlmreport.model.visibility import Visibility
 from zlmreport.quantities.formatting import fixed_number
 from zlmreport.quantities.uncertain import rounded_pair

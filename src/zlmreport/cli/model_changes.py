@@ -10,7 +10,7 @@ from zlmreport.cli.model_json import change_values
 from zlmreport.cli.model_session import Change, Session
 from zlmreport.errors import InputError, Place, Problem, did_you_mean
 from zlmreport.job.edit import NamedEffect, edit_effects
-from zlmreport.model.changing import addition, refuse_useless
+from zlmreport.model.study import addition, refuse_useless
 
 _KEY = "model.effects"
 

@@ -18,7 +18,7 @@ from zlmreport.job.job import Job
 from zlmreport.model import wording
 from zlmreport.model.diagnosis import Candidate, Diagnosis, Verdict
 from zlmreport.model.effect import Effect
-from zlmreport.model.statements import listed, serious_candidates, verdict_statement
+from zlmreport.model.report import listed, serious_candidates, verdict_statement
 from zlmreport.quantities.formatting import fixed_number
 
 _COLOURS = {

@@ -10,9 +10,8 @@ from zlmreport.cli.model_lines import error_line, estimate_text, heading, number
 from zlmreport.cli.model_session import Change, Session
 from zlmreport.cli.terminal import Colour, shown_path, table
 from zlmreport.job.job import Job
-from zlmreport.model.correction import moves_with_time
 from zlmreport.model.fit import Fit
-from zlmreport.model.study import Fitted
+from zlmreport.model.study import Fitted, moves_with_time
 from zlmreport.quantities.notation import plain
 
 _BAR_WIDTH = 28

@@ -12,7 +12,7 @@ from zlmreport.cli.terminal import table
 from zlmreport.errors import InputError, Place, Problem
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.axis import Axis
-from zlmreport.model.anywhere import at_positions, outside
+from zlmreport.model.design import at_positions, outside_of_measured
 from zlmreport.model.effect import Shape
 from zlmreport.model.fit import Fit, Prediction
 from zlmreport.quantities.arrays import FloatArray
@@ -46,7 +46,7 @@ def points_of(fit: Fit, positions: Sequence[float]) -> Points | None:
     design = fit.design
     unit = design.axis.position_unit
     places = unit.to_si(np.array(positions, dtype=np.float64))
-    sentences = outside(design.axis.name, unit, places, design.span)
+    sentences = outside_of_measured(design.axis.name, unit, places, design.span)
     if sentences:
         raise InputError(Problem(Place("--at"), sentence) for sentence in sentences)
     measured = [approach for approach in Approach if np.any(design.direction == approach)]

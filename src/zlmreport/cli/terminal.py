@@ -23,7 +23,7 @@ from zlmreport.evaluation.requirements import Finding
 from zlmreport.job.job import Job
 from zlmreport.language import Language
 from zlmreport.model.diagnosis import Verdict
-from zlmreport.model.statements import verdict_statement
+from zlmreport.model.report import verdict_statement
 from zlmreport.quantities.notation import plain
 
 #: Of a terminal, in letters: its width where it has none, what a table needs beside the names of

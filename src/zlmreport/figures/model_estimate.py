@@ -17,7 +17,7 @@ from zlmreport.figures.model_diagram import MODEL, UNCERTAINTY, ModelDiagram
 from zlmreport.figures.prescribed import POSITION_TITLE
 from zlmreport.language import Words
 from zlmreport.model import wording
-from zlmreport.model.anywhere import at_positions
+from zlmreport.model.design import at_positions
 from zlmreport.model.effect import Shape
 from zlmreport.quantities.arrays import FloatArray, read_only_floats
 

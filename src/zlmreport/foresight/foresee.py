@@ -17,8 +17,7 @@ from zlmreport.foresight.targets import makes_whole_turns
 from zlmreport.job.job import Job
 from zlmreport.language import Words
 from zlmreport.measurement.axis import Axis
-from zlmreport.model.axis_model import AxisModel, Term
-from zlmreport.model.chosen import chosen_terms
+from zlmreport.model.axis_model import AxisModel, Term, chosen_terms
 from zlmreport.model.design import Design
 from zlmreport.model.effect import Effect
 from zlmreport.planning.methods import path

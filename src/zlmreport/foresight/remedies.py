@@ -13,7 +13,7 @@ from zlmreport.foresight.targets import drawn_targets, usual_overrun
 from zlmreport.language import Words
 from zlmreport.measurement.axis import Axis
 from zlmreport.model.axis_model import AxisModel
-from zlmreport.model.statements import listed
+from zlmreport.model.report import listed
 from zlmreport.planning.methods import Method
 from zlmreport.simulation.description import Plan
 

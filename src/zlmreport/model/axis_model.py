@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
 
 from zlmreport.errors import did_you_mean
+from zlmreport.job.effects import EffectChoice
 from zlmreport.language import Language
+from zlmreport.measurement.axis import AxisKind
 from zlmreport.model.design import Design
 from zlmreport.model.effect import Effect
-from zlmreport.model.parameter import Parameter
+from zlmreport.model.parameter import Parameter, unit_of
 from zlmreport.quantities.arrays import BoolArray, FloatArray
 
 #: A combination of columns this much shorter than its longest member is zero but for rounding.
@@ -201,3 +203,26 @@ def refuse_collisions(model: AxisModel, columns: Sequence[FloatArray]) -> None:
             sentences.append(f"these readings cannot tell {listed} apart; remove one of them")
     if sentences:
         raise ModelError(list(dict.fromkeys(sentences)))
+
+
+def chosen_terms(
+    choices: Iterable[EffectChoice], find: Callable[[str], Effect], kind: AxisKind
+) -> tuple[Term, ...]:
+    """Return the effects that a file names, in the forms that it asks for.
+
+    Parameters
+    ----------
+    choices
+        As the file was loaded.
+    find
+        Returns an installed effect by its identifier.
+    kind
+        Of the axis, for the units.
+    """
+    return tuple(_term(choice, find(choice.identifier), kind) for choice in choices)
+
+
+def _term(choice: EffectChoice, effect: Effect, kind: AxisKind) -> Term:
+    term = Term(effect.with_settings(choice.settings))
+    units = {parameter.name: unit_of(parameter.dimension, kind) for parameter in term.parameters}
+    return Term(term.effect, {name: value / units[name].per_si for name, value in choice.values.items()})

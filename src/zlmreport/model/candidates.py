@@ -1,19 +1,31 @@
-"""Which effects stand in a contest, and which cannot be tried and why."""
+"""Which effects can be tried beside a model, and what each could add to it.
+
+What they add depends on the plan of the test and on the model, not on what was measured; so it is made once,
+and every set of deviations, measured or simulated, is held against the same.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from itertools import groupby
+from typing import TypeAlias
+
+import numpy as np
 
 from zlmreport.language import Words
 from zlmreport.model.axis_model import AxisModel, ModelError, refuse_collisions
+from zlmreport.model.contrasts import Contrasts, Metric
 from zlmreport.model.design import Design
 from zlmreport.model.effect import Effect
+from zlmreport.quantities.arrays import FloatArray, IntArray
 
 _IMITATED = Words(
     en="at these targets the model imitates it entirely",
     de="an diesen Zielpositionen ahmt das Modell ihn vollständig nach",
 )
+#: A form of an effect, and the values of its searched parameters that are tried, shape (g, s).
+Entry: TypeAlias = tuple[Effect, FloatArray]
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,7 +45,7 @@ class NotTestable:
 
 
 @dataclass(frozen=True, slots=True)
-class Entrants:
+class EffectsToTry:
     """The effects that can be tried beside a model.
 
     Attributes
@@ -48,7 +60,7 @@ class Entrants:
     not_testable: tuple[NotTestable, ...]
 
 
-def entrants(model: AxisModel, design: Design, effects: Iterable[Effect]) -> Entrants:
+def effects_to_try(model: AxisModel, design: Design, effects: Iterable[Effect]) -> EffectsToTry:
     """Return the effects that can be tried beside a model.
 
     An effect that is in the model already enters only with forms that have more parameters: a polynomial
@@ -64,7 +76,7 @@ def entrants(model: AxisModel, design: Design, effects: Iterable[Effect]) -> Ent
         forms.extend(form for form, reason in zip(listed, reasons, strict=True) if reason is None)
         if listed and None not in reasons:
             not_testable.append(NotTestable(effect.identifier, reasons[0] or _IMITATED))
-    return Entrants(tuple(forms), tuple(not_testable))
+    return EffectsToTry(tuple(forms), tuple(not_testable))
 
 
 def _collision(model: AxisModel, design: Design, effect: Effect) -> Words | None:
@@ -76,3 +88,195 @@ def _collision(model: AxisModel, design: Design, effect: Effect) -> Words | None
     except ModelError:
         return _IMITATED
     return None
+
+
+@dataclass(frozen=True, slots=True)
+class Family:
+    """A form of an effect with every value of its searched parameters at which the plan can see it.
+
+    Attributes
+    ----------
+    effect
+        The effect, in this form.
+    thetas : (g, s) array
+        Values of the searched parameters, one row for each block of columns.
+    visible : (g,) array
+        Length of each block's visible part over that of the whole, 0 to 1.
+    """
+
+    effect: Effect
+    thetas: FloatArray
+    visible: FloatArray
+
+
+@dataclass(frozen=True, slots=True)
+class BlockGroup:
+    """All blocks of one width, those of a family side by side.
+
+    Attributes
+    ----------
+    width
+        Columns of a block.
+    families
+        Their families, as a range of all families.
+    starts : (families,) integer array
+        The first block of each family, counted within the group.
+    columns
+        Their columns, as a range of all columns.
+    ranks : (blocks,) array
+        Columns of each block that are not zero.
+    """
+
+    width: int
+    families: slice
+    starts: IntArray
+    columns: slice
+    ranks: FloatArray
+
+    @property
+    def blocks(self) -> int:
+        """How many there are."""
+        return len(self.ranks)
+
+
+@dataclass(frozen=True, slots=True)
+class Bases:
+    """What all effects together could add to a model.
+
+    Attributes
+    ----------
+    families
+        Forms of effects that the plan can see, in the order of the widths of their blocks.
+    by_effect
+        For each effect, the places of its forms among the families.
+    invisible
+        Effects of which it sees no form: all they would add, the model has already.
+    groups
+        The blocks by width.
+    columns : (N, K) array
+        Error contrasts, orthonormal within each block.
+    """
+
+    families: tuple[Family, ...]
+    by_effect: tuple[tuple[int, ...], ...]
+    invisible: tuple[Effect, ...]
+    groups: tuple[BlockGroup, ...]
+    columns: FloatArray
+
+    def roots(self, metric: Metric, shared: FloatArray) -> tuple[FloatArray, ...]:
+        """Return for each group the inverse roots of its blocks' Gram matrices, shape (blocks, k, k).
+
+        Parameters
+        ----------
+        metric
+            The inner product for one φ.
+        shared : (r, K) array
+            ZᵀU, products of the noise's factors and the columns.
+        """
+        found = []
+        coordinates = metric.coordinates(shared)
+        for group in self.groups:
+            block = coordinates[:, group.columns]
+            if group.width == 1:
+                squares = np.einsum("rg,rg->g", block, block)
+                found.append(1.0 / np.sqrt(1.0 - squares[:, np.newaxis, np.newaxis]))
+            else:
+                block = block.reshape(-1, group.blocks, group.width)
+                gram = np.eye(group.width) - np.einsum("rgi,rgj->gij", block, block)
+                found.append(np.linalg.inv(np.linalg.cholesky(gram)))
+        return tuple(found)
+
+
+def bases_of(design: Design, space: Contrasts, entries: Iterable[Entry], least_visible: float) -> Bases:
+    """Return what effects could add to a model.
+
+    Parameters
+    ----------
+    design
+        The test.
+    space
+        The contrasts of the model.
+    entries
+        Forms of effects that can be tested on the design, those of one effect share its identifier; and the
+        values of their searched parameters that are tried.
+    least_visible
+        Share of a block's length below which nothing is left of it but rounding.
+    """
+    found = [(effect, _visible(design, space, effect, thetas, least_visible)) for effect, thetas in entries]
+    seen = sorted((each for _, each in found if each), key=lambda each: each.blocks.shape[2])
+    identifiers = dict.fromkeys(each.family.effect.identifier for each in seen)
+    return Bases(
+        tuple(each.family for each in seen),
+        tuple(
+            tuple(place for place, each in enumerate(seen) if each.family.effect.identifier == identifier)
+            for identifier in identifiers
+        ),
+        tuple(
+            {
+                effect.identifier: effect
+                for effect, each in found
+                if not each and effect.identifier not in identifiers
+            }.values()
+        ),
+        _groups(seen),
+        np.concatenate(
+            [np.empty((len(design.position), 0)), *(_columns(each.blocks) for each in seen)], axis=1
+        ),
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class _Visible:
+    """A family with its blocks of orthonormal contrasts, shape (g, N, k), and their ranks."""
+
+    family: Family
+    blocks: FloatArray
+    ranks: FloatArray
+
+
+def _visible(
+    design: Design, space: Contrasts, effect: Effect, thetas: FloatArray, least: float
+) -> _Visible | None:
+    """Return what of an effect the plan can see beside the model; None if nothing."""
+    blocks = np.stack([effect.columns(design, theta) for theta in thetas])
+    whole = np.linalg.norm(blocks, axis=(1, 2))
+    contrasts = space.of(blocks.transpose(1, 0, 2)).transpose(1, 0, 2)
+    shares = np.linalg.norm(contrasts, axis=(1, 2)) / np.where(whole > 0, whole, 1.0)
+    seen = shares > least
+    if not seen.any():
+        return None
+    lengths = np.linalg.norm(blocks[seen], axis=1, keepdims=True)
+    scaled = contrasts[seen] / np.where(lengths > 0, lengths, 1.0)
+    left, singular, _ = np.linalg.svd(scaled, full_matrices=False)
+    independent = singular > least * singular[:, :1]
+    return _Visible(
+        Family(effect, thetas[seen], shares[seen]),
+        left * independent[:, np.newaxis, :],
+        independent.sum(axis=1).astype(np.float64),
+    )
+
+
+def _columns(blocks: FloatArray) -> FloatArray:
+    """Return blocks (g, N, k) side by side, shape (N, g·k)."""
+    return blocks.transpose(1, 0, 2).reshape(blocks.shape[1], -1)
+
+
+def _groups(seen: Sequence[_Visible]) -> tuple[BlockGroup, ...]:
+    groups = []
+    first_family = first_column = 0
+    for width, members in groupby(seen, key=lambda each: each.blocks.shape[2]):
+        listed = list(members)
+        ranks = np.concatenate([each.ranks for each in listed])
+        starts = np.cumsum([0, *(len(each.ranks) for each in listed)])[:-1]
+        groups.append(
+            BlockGroup(
+                width,
+                slice(first_family, first_family + len(listed)),
+                starts.astype(np.int64),
+                slice(first_column, first_column + len(ranks) * width),
+                ranks,
+            )
+        )
+        first_family += len(listed)
+        first_column += len(ranks) * width
+    return tuple(groups)

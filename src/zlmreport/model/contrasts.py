@@ -1,6 +1,6 @@
 """Error contrasts: what is left of the readings when a model's columns are projected out.
 
-Restricted likelihood and contest see nothing else, so the base model is removed once and for all. In this
+Restricted likelihood and comparison see nothing else, so the base model is removed once and for all. In this
 space V(φ) is the unit matrix plus parts of low rank, and every product with its inverse is one with r × r
 matrices (Woodbury), r the number of targets, runs and drift terms; the number of readings does not matter.
 """
@@ -13,7 +13,7 @@ from itertools import product
 
 import numpy as np
 
-from zlmreport.model.noise import NoisePart
+from zlmreport.model.noise import Noise, NoisePart
 from zlmreport.quantities.arrays import FloatArray, IntArray
 
 #: Columns that add less than this share of their length to those before them add nothing.
@@ -184,3 +184,40 @@ def restricted_estimate(
                 if value < best - _WORTHWHILE:
                     best, ratios, improved = value, changed, True
     return ratios, space.restricted(contrasts, ratios)[1] / space.degrees
+
+
+@dataclass(frozen=True, slots=True)
+class Whitener:
+    """The symmetric root of V⁻¹, with V = diag(w) + Z·diag(φ)·Zᵀ.
+
+    Attributes
+    ----------
+    scale : (N,) array
+        1/√w.
+    modes : (N, r) array
+        Orthonormal directions in which readings scatter together.
+    excess : (r,) array
+        1 − 1/√(1 + λ), λ the variance of each mode over that of single readings.
+    """
+
+    scale: FloatArray
+    modes: FloatArray
+    excess: FloatArray
+
+    def __call__(self, columns: FloatArray) -> FloatArray:
+        """Return W times columns over the readings, shape (N,) or (N, k)."""
+        scaled = (columns.T * self.scale).T
+        return scaled - self.modes @ ((self.modes.T @ scaled).T * self.excess).T
+
+
+def whitener(parts: Sequence[NoisePart], noise: Noise) -> Whitener:
+    """Return the whitener of a noise."""
+    scale = 1.0 / np.sqrt(noise.weights)
+    active = [
+        part.factor * np.sqrt(noise.ratios[part.source])
+        for part in parts
+        if noise.ratios.get(part.source, 0.0) > 0
+    ]
+    factors = np.concatenate([np.empty((len(scale), 0)), *active], axis=1) * scale[:, np.newaxis]
+    modes, singular, _ = np.linalg.svd(factors, full_matrices=False)
+    return Whitener(scale, modes, 1.0 - 1.0 / np.sqrt(1.0 + singular**2))

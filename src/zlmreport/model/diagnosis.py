@@ -2,17 +2,48 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 
+import numpy as np
+
 from zlmreport.language import Words
-from zlmreport.model.candidates import NotTestable
+from zlmreport.model import needs, wording
+from zlmreport.model.axis_model import AxisModel, ModelError
+from zlmreport.model.candidates import NotTestable, effects_to_try
 from zlmreport.model.effect import Effect
 from zlmreport.model.estimate import Estimate
-from zlmreport.model.failures.failure import Failure
-from zlmreport.model.fit import Fit
-from zlmreport.model.visibility import Visibility
+from zlmreport.model.evidence import Ranked
+from zlmreport.model.fit import Assumptions, Fit, cross_validated_rms, fit
+from zlmreport.model.observations import Observations
+from zlmreport.model.outliers import outliers
+from zlmreport.model.repeats import noise_floor
+from zlmreport.model.residual_means import flagged
+from zlmreport.model.residual_tests import failures, residual_tests
+from zlmreport.model.residuals import Failure, residuals_of
+from zlmreport.model.steps import Step, add, discriminate_by, equals_of, named_effects, steps
+from zlmreport.model.visibility import Visibility, visibility
 from zlmreport.quantities.arrays import IntArray
+
+#: Candidates that are shown, the leaders in any case.
+_SHOWN = 4
+#: Share of the misfit from which on an effect explains it, and does not only contribute.
+EXPLAINS = 0.75
+#: Degrees of freedom that a comparison needs to tell anything from noise.
+_FEWEST_DEGREES = 6
+
+_EXPLAINS = Words(
+    en="explains {share} % of what the noise leaves open",
+    de="erklärt {share} % dessen, was das Rauschen offen lässt",
+)
+_CONTRIBUTES = Words(
+    en="contributes {share} % of what the noise leaves open; {left} remain",
+    de="trägt {share} % zu dem bei, was das Rauschen offen lässt; es bleiben {left}",
+)
+_NO_FLOOR = Words(
+    en="takes the error from {before} to {after}", de="senkt die Abweichung von {before} auf {after}"
+)
 
 
 class Verdict(StrEnum):
@@ -63,7 +94,7 @@ class Candidate:
     p_value_is_extrapolated
         Whether it lies beyond what was simulated.
     probability
-        Among all contestants, rivals and no effect.
+        Among all effects, nameless shapes and no effect.
     evidence
         2·ln of the Bayes factor against the model as it is.
     error
@@ -130,7 +161,7 @@ class Diagnosis:
     verdict
         What the diagnosis comes to.
     p_value
-        Chance of such a contest where nothing is missing.
+        Chance of such a comparison where nothing is missing.
     tests
         All tests of the residuals.
     failures
@@ -167,3 +198,166 @@ class Diagnosis:
     visibility: tuple[Visibility, ...]
     outliers: IntArray
     remarks: tuple[Words, ...]
+
+
+def diagnose(
+    model: AxisModel,
+    observed: Observations,
+    effects: Sequence[Effect],
+    assumptions: Assumptions | None = None,
+) -> Diagnosis:
+    """Hold a model against the readings of a test, and try every effect that might be missing.
+
+    Parameters
+    ----------
+    model
+        The effects of the job.
+    observed
+        The readings.
+    effects
+        All that are installed.
+    assumptions
+        What the fits take for granted.
+
+    Raises
+    ------
+    ModelError
+        If the model makes no sense on these readings, or they are too few to tell anything.
+    """
+    aside = outliers(observed.design, observed.deviation)
+    kept = observed.without(aside.readings)
+    fitted = fit(model, kept.design, kept.deviation, assumptions)
+    if fitted.degrees < _FEWEST_DEGREES:
+        readings = len(kept.deviation)
+        sentence = (
+            f"the test has {readings} readings and the model {readings - fitted.degrees} parameters; "
+            f"a diagnosis needs at least {_FEWEST_DEGREES} readings more than parameters"
+        )
+        raise ModelError([sentence])
+    found = steps(fitted, effects)
+    first = found[0]
+    names = named_effects(found)
+    verdict = _verdict(first, names)
+    error = error_numbers(fitted)
+    tests = residual_tests(residuals_of(fitted, first.noise))
+    stand_off = flagged(observed.design, aside)
+    candidates = () if verdict is Verdict.ADEQUATE else _candidates(first, error)
+    not_testable = effects_to_try(model, kept.design, effects).not_testable
+    return Diagnosis(
+        fit=fitted,
+        error=error,
+        verdict=verdict,
+        p_value=first.p_value.value,
+        tests=tests,
+        failures=failures(tests) + ((stand_off,) if stand_off else ()),
+        candidates=candidates,
+        further=names[1:],
+        unnamed=_unnamed(found) if verdict is Verdict.UNEXPLAINED else None,
+        not_testable=not_testable,
+        not_excluded=_not_excluded(candidates, not_testable),
+        visibility=visibility(first.comparison, kept.design, first.null, first.ratios, first.noise.sigma),
+        outliers=observed.reading[aside.readings],
+        remarks=observed.remarks,
+    )
+
+
+def _verdict(first: Step, names: Sequence[str]) -> Verdict:
+    if not first.something_is_missing:
+        return Verdict.ADEQUATE
+    return Verdict.MISSING if names else Verdict.UNEXPLAINED
+
+
+def error_numbers(fitted: Fit) -> ErrorNumbers:
+    """Return how far a fitted model is from the readings."""
+    floor = noise_floor(fitted.design, fitted.deviation)
+    return ErrorNumbers(
+        fitted.rms,
+        floor,
+        (fitted.rms / floor) ** 2 if floor else None,
+        cross_validated_rms(fitted.model, fitted.design, fitted.deviation, fitted.solution.thetas),
+    )
+
+
+def _candidates(step: Step, before: ErrorNumbers) -> tuple[Candidate, ...]:
+    """Return the leaders and those next to them that are better than nothing, each added on trial."""
+    leaders = step.ranking.leaders
+    shown = [each for each in step.ranking.effects if each.evidence > 0]
+    return tuple(_candidate(step, each, before) for each in shown[: max(_SHOWN, len(leaders))])
+
+
+def _candidate(step: Step, ranked: Ranked, before: ErrorNumbers) -> Candidate:
+    after = add(step.fit, ranked)
+    error = error_numbers(after)
+    share = _share(step.fit, after, before.noise_rms)
+    equals = equals_of(ranked, step.ranking)
+    return Candidate(
+        effect=ranked.effect,
+        p_value=ranked.p_value.value,
+        p_value_is_extrapolated=ranked.p_value.is_extrapolated,
+        probability=ranked.probability,
+        evidence=ranked.evidence,
+        error=error,
+        estimates=tuple(each for each in after.estimates if each.effect == ranked.identifier),
+        share=share,
+        explains=_explains(step.fit, after, share),
+        equals=tuple(each.identifier for each in equals),
+        discriminate_by=discriminate_by(ranked, equals),
+    )
+
+
+def _share(before: Fit, after: Fit, floor: float | None) -> float | None:
+    """Return the share of the misfit beyond the noise floor that an effect explains."""
+    if floor is None:
+        return None
+    open_before = float(np.sum(before.residual**2)) - before.degrees * floor**2
+    open_after = max(0.0, float(np.sum(after.residual**2)) - after.degrees * floor**2)
+    return max(0.0, 1.0 - open_after / open_before) if open_before > 0 else 1.0
+
+
+def _explains(before: Fit, after: Fit, share: float | None) -> Words:
+    axis = before.design.axis
+    if share is None:
+        return _NO_FLOOR.given(
+            before=wording.deviation(axis, before.rms), after=wording.deviation(axis, after.rms)
+        )
+    percent = wording.number(100 * share, 0)
+    if share >= EXPLAINS:
+        return _EXPLAINS.given(share=percent)
+    return _CONTRIBUTES.given(share=percent, left=wording.deviation(axis, after.rms))
+
+
+def _not_excluded(candidates: Sequence[Candidate], not_testable: Sequence[NotTestable]) -> tuple[str, ...]:
+    """Return effects that could not be tried and would look like the first candidate."""
+    if not candidates:
+        return ()
+    alike = {confusion.effect for confusion in candidates[0].effect.confusions}
+    return tuple(
+        each.effect
+        for each in not_testable
+        if each.effect in alike and not needs.is_of_another_axis(each.reason)
+    )
+
+
+def _unnamed(found: Sequence[Step]) -> Unnamed | None:
+    """Return what is left without a name: the leading shape of the first step that no name surpasses."""
+    step = next(
+        (
+            each
+            for each in found
+            if each.ranking.shape is not None and each.ranking.shape_evidence > each.ranking.most
+        ),
+        found[0],
+    )
+    shape = step.ranking.shape
+    if shape is None:
+        return None
+    residual = step.fit.residual
+    design = step.fit.design
+    means = np.array([np.mean(residual[design.target == target]) for target in np.unique(design.target)])
+    largest = int(np.unique(design.target)[int(np.argmax(np.abs(means)))])
+    reading = int(np.argmax(design.target == largest))
+    return Unnamed(
+        shape,
+        wording.position(design.axis, float(design.position[reading])),
+        float(np.sqrt(np.mean(residual**2))),
+    )

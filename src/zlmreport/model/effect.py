@@ -84,7 +84,7 @@ class Effect(Protocol):
         return self
 
     def forms(self) -> tuple[Effect, ...]:
-        """Return the forms in which a contest tries the effect; of most effects there is one."""
+        """Return the forms in which a comparison tries the effect; of most effects there is one."""
         return (self,)
 
     def untestable(self, design: Design) -> Words | None:  # noqa: ARG002 - this one needs nothing

@@ -1,4 +1,9 @@
-"""Parameters as estimated: value, uncertainty, and whether the value is physically plausible."""
+"""The error of the measuring instrument: one and the same in all readings, however many are taken.
+
+M. Halaj, E. Kureková, R. Palenčár and T. Loebl, The positional deviation in two axes, equations (7) to (9):
+U(x) = diag(u²(P_i)) + u²(δ)·i·iᵀ. The second term changes no estimate and no residual of a model with a
+constant, so it can hide no misfit; it is an uncertainty of every prediction.
+"""
 
 from __future__ import annotations
 
@@ -11,17 +16,111 @@ import numpy as np
 
 from zlmreport.measurement.axis import Axis
 from zlmreport.model.axis_model import Term
+from zlmreport.model.contrasts import Contrasts
 from zlmreport.model.distributions import t_quantile
+from zlmreport.model.noise import Noise
 from zlmreport.model.parameter import Dimension, Parameter
 from zlmreport.model.search import Place, Problem, Solution
-from zlmreport.model.variance import VarianceOfVariance
 from zlmreport.quantities.arrays import FloatArray
 
+_ACTIVE = 1e-3
+_FEWEST, _MOST = 1.0, 1e6
 #: Probability of expanded uncertainties: that of two standard deviations of a normal variable.
 COVERAGE = 0.9545
 _WELL_KNOWN = 1e5
 #: Coverage factors that are computed where there are many.
 _FACTORS = 25
+
+
+@dataclass(frozen=True, slots=True)
+class InstrumentError:
+    """Standard uncertainty of the instrument, fully correlated between readings.
+
+    Attributes
+    ----------
+    common
+        u(δ), the same at all positions, m or rad.
+    proportional
+        Per position, m/m or rad/rad: the paper has none, but a laser's wavelength does.
+    """
+
+    common: float = 0.0
+    proportional: float = 0.0
+
+    def factor(self, position: FloatArray) -> FloatArray:
+        """Return F with F·Fᵀ the covariance of readings at these positions, shape (N, 2)."""
+        return np.column_stack([np.full(len(position), self.common), self.proportional * position])
+
+
+@dataclass(frozen=True, slots=True)
+class VarianceOfVariance:
+    """What is needed to judge the variance of any linear combination of parameters.
+
+    Attributes
+    ----------
+    covariance : (c, c) array
+        Of the estimated variance components, in units of σ̂⁴.
+    slopes : sequence of (r, p) arrays
+        For each component a matrix S with ∂(jᵀ·Cov·j)/∂(component) = |S·j|².
+    """
+
+    covariance: FloatArray
+    slopes: tuple[FloatArray, ...]
+
+    def degrees(self, combination: FloatArray, variance: float) -> float:
+        """Return the effective degrees of freedom of jᵀ·Cov·j, given in units of σ̂².
+
+        Parameters
+        ----------
+        combination : (p,) array
+            j.
+        variance
+            jᵀ·Cov·j / σ̂².
+        """
+        gradient = np.array([float(np.sum((slope @ combination) ** 2)) for slope in self.slopes])
+        spread = float(gradient @ self.covariance @ gradient)
+        if spread <= 0:
+            return _MOST
+        return float(np.clip(2 * variance**2 / spread, _FEWEST, _MOST))
+
+
+def variance_of_variance(space: Contrasts, noise: Noise, weighted: FloatArray) -> VarianceOfVariance:
+    """Return how well the variance of the parameters is known.
+
+    Parameters
+    ----------
+    space
+        The contrasts of the model.
+    noise
+        As estimated.
+    weighted : (N, p) array
+        V⁻¹J(JᵀV⁻¹J)⁻¹: the weight of each reading in each parameter.
+    """
+    active = [index for index, part in enumerate(space.parts) if noise.ratios.get(part.source, 0.0) > _ACTIVE]
+    ratios = np.array([noise.ratios.get(part.source, 0.0) for part in space.parts])
+    information = _information(space, ratios, active)
+    factors = [space.parts[index].factor.T @ weighted for index in active]
+    slopes = (weighted / space.scale[:, np.newaxis], *factors)
+    return VarianceOfVariance(np.asarray(np.linalg.pinv(information), dtype=np.float64), slopes)
+
+
+def _information(space: Contrasts, ratios: FloatArray, active: Sequence[int]) -> FloatArray:
+    """Return ½·tr(P·V_i·P·V_j) for single readings and the active sources, in units of σ̂⁻⁴."""
+    root = space.metric(ratios).coordinates(np.eye(len(space.gram)))
+    together = root.T @ root
+    ends = np.cumsum([part.factor.shape[1] for part in space.parts])
+    spans = [slice(int(ends[i]) - space.parts[i].factor.shape[1], int(ends[i])) for i in active]
+    gram = space.gram
+    inner = gram - gram @ together @ gram  # ZᵀPZ
+    outer = inner - inner @ together @ gram  # ZᵀPPZ
+    own = gram @ together
+    traces = np.empty((len(active) + 1, len(active) + 1))
+    traces[0, 0] = space.degrees - 2 * np.trace(own) + np.sum(own * own.T)
+    for row, span in enumerate(spans, 1):
+        traces[0, row] = traces[row, 0] = np.trace(outer[span, span])
+        for column, other in enumerate(spans, 1):
+            traces[row, column] = np.sum(inner[span, other] ** 2)
+    return 0.5 * traces
 
 
 class Plausibility(Enum):

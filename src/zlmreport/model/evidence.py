@@ -2,46 +2,61 @@
 
 A likelihood averaged over the values of the searched parameters and of the noise: an effect that fits
 wherever its searched parameters point is better explained than one that had to be pointed. What is large
-shows these parameters more finely than the grid of the contest has them; so the leaders are averaged over a
-finer one about their best values.
+shows these parameters more finely than the grid of the comparison has them; so the leaders are averaged
+over a finer one about their best values.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
 
-from zlmreport.model.bases import Entry
-from zlmreport.model.contest import Contest, Criteria
+from zlmreport.language import Words
+from zlmreport.model.candidates import Entry
+from zlmreport.model.comparison import Comparison, Criteria, Scores
 from zlmreport.model.design import Design
 from zlmreport.model.effect import Effect
+from zlmreport.model.null_distribution import NullDistribution, PValue
 from zlmreport.quantities.arrays import FloatArray
 
 #: Parts of the distance of neighbours in the grid by which the finer one proceeds.
 _PARTS = 6
 #: Evidence behind the best from which on a finer grid changes no outcome.
 _REACH = 30.0
+# Of evidence, 2·ln of a Bayes factor, less than 2 is "not worth more than a bare mention", 2 to 6 positive, 6
+# to 10 strong (R. E. Kass and A. E. Raftery, Journal of the American Statistical Association 90 (1995) 773).
+
+#: Evidence that anything must have to be worth a mention, and by which effects must differ to be told apart.
+MENTION = 2.0
+#: Evidence by which a name must surpass a shape without one.
+NAMED = 2.0
+#: Evidence that each effect after the first must bring beyond that: a single cause is likelier than two.
+FURTHER = 8.0
+#: Share of all evidence that the effects found must explain.
+EXPLAINED = 0.75
+#: Two effects with the same columns differ by rounding only.
+_ALIKE = 1e-6
 
 
 @dataclass(frozen=True, slots=True)
 class Evidence:
-    """How the contestants explain one set of deviations.
+    """How all explain one set of deviations.
 
     Attributes
     ----------
     effects : (effects,) array
         2·ln of each effect's Bayes factor against the model alone.
-    rivals : (rivals,) array
-        The same of the rivals.
+    nameless : (nameless,) array
+        The same of the nameless shapes.
     best
         Of each effect, the form that fits best, and its searched parameters.
     """
 
     effects: FloatArray
-    rivals: FloatArray
+    nameless: FloatArray
     best: tuple[tuple[Effect, FloatArray], ...]
 
 
@@ -78,13 +93,15 @@ class _Tried:
         return _average(self.averages, self.weights)
 
 
-def evidence_of(contest: Contest, design: Design, deviation: FloatArray, least_visible: float) -> Evidence:
+def evidence_of(
+    comparison: Comparison, design: Design, deviation: FloatArray, least_visible: float
+) -> Evidence:
     """Return the evidence of one set of deviations.
 
     Parameters
     ----------
-    contest
-        The contest.
+    comparison
+        The comparison.
     design
         The test.
     deviation : (N,) array
@@ -92,29 +109,29 @@ def evidence_of(contest: Contest, design: Design, deviation: FloatArray, least_v
     least_visible
         Share of an effect's length below which the base model imitates it entirely.
     """
-    criteria = contest.criteria(deviation)
-    families = _tried(contest, criteria)
-    contestants = contest.bases.contestants
-    averages = [_of_forms([families[form] for form in forms]) for forms in contestants]
+    criteria = comparison.criteria(deviation)
+    families = _tried(comparison, criteria)
+    by_effect = comparison.bases.by_effect
+    averages = [_of_forms([families[form] for form in forms]) for forms in by_effect]
     foremost = min(averages, default=np.inf) + _REACH
-    leaders = [forms for forms, average in zip(contestants, averages, strict=True) if average < foremost]
+    leaders = [forms for forms, average in zip(by_effect, averages, strict=True) if average < foremost]
     finer = [_finer(min((families[form] for form in forms), key=_least)) for forms in leaders]
-    others = contest.of_others(design, [each for each in finer if each is not None], least_visible)
+    others = comparison.of_others(design, [each for each in finer if each is not None], least_visible)
     between = {id(each.effect): each for each in _tried(others, others.criteria(deviation))}
     families = [_merged(each, between.get(id(each.effect))) for each in families]
     base = _average(criteria.null)
-    best = [min((families[form] for form in forms), key=_least) for forms in contestants]
+    best = [min((families[form] for form in forms), key=_least) for forms in by_effect]
     return Evidence(
-        np.array([base - _of_forms([families[form] for form in forms]) for forms in contestants]),
-        np.array([base - _average(rival) for rival in criteria.rivals.T]),
+        np.array([base - _of_forms([families[form] for form in forms]) for forms in by_effect]),
+        np.array([base - _average(nameless) for nameless in criteria.nameless.T]),
         tuple((each.effect, each.thetas[each.best]) for each in best),
     )
 
 
-def _tried(contest: Contest, criteria: Criteria) -> list[_Tried]:
-    """Return the families of a contest with their criteria, each value of θ standing for itself."""
+def _tried(comparison: Comparison, criteria: Criteria) -> list[_Tried]:
+    """Return the families of a comparison with their criteria, each value of θ standing for itself."""
     found, last = [], 0
-    for family in contest.bases.families:
+    for family in comparison.bases.families:
         first, last = last, last + len(family.thetas)
         own = slice(first, last)
         weights = np.ones(last - first)
@@ -173,3 +190,135 @@ def _average(criteria: FloatArray, weights: FloatArray | None = None) -> float:
     least = criteria.min()
     likelihoods = np.exp(-0.5 * (criteria - least)).reshape(-1, criteria.shape[-1]).mean(axis=0)
     return float(least - 2.0 * np.log(np.average(likelihoods, weights=weights)))
+
+
+@dataclass(frozen=True, slots=True)
+class Ranked:
+    """An effect in the order of the comparison.
+
+    Attributes
+    ----------
+    effect
+        In the form that fits best.
+    theta : (s,) array
+        Its searched parameters, near their best values.
+    ratio
+        Its likelihood ratio LR.
+    usual
+        The 95 % point of LR where nothing is missing.
+    evidence
+        2·ln of its Bayes factor against the model alone.
+    probability
+        Among all effects, nameless shapes and no effect, if each was as likely before the test.
+    p_value
+        Of its likelihood ratio, its own search allowed for.
+    """
+
+    effect: Effect
+    theta: FloatArray
+    ratio: float
+    usual: float
+    evidence: float
+    probability: float
+    p_value: PValue
+
+    @property
+    def identifier(self) -> str:
+        """As jobs name it."""
+        return self.effect.identifier
+
+
+@dataclass(frozen=True, slots=True)
+class Ranking:
+    """The outcome of a comparison.
+
+    Attributes
+    ----------
+    effects
+        The plainest of those that explain the readings best; then the others, best first.
+    shape
+        The best shape without a name; None where there is none.
+    shape_evidence
+        Its evidence.
+    """
+
+    effects: tuple[Ranked, ...]
+    shape: Words | None
+    shape_evidence: float
+
+    @property
+    def leaders(self) -> tuple[Ranked, ...]:
+        """The first, and those that the readings cannot tell from it."""
+        if not self.effects:
+            return ()
+        return tuple(each for each in self.effects if each.evidence > self.most - MENTION)
+
+    @property
+    def most(self) -> float:
+        """The largest evidence of any effect; −∞ where there is none."""
+        return max((each.evidence for each in self.effects), default=-np.inf)
+
+
+def rank(
+    comparison: Comparison,
+    design: Design,
+    scores: Scores,
+    evidence: Evidence,
+    null: NullDistribution,
+) -> Ranking:
+    """Return the order of the effects."""
+    together = np.concatenate([[0.0], evidence.effects, evidence.nameless])
+    weights = np.exp(0.5 * (together - together.max()))
+    shares = weights / weights.sum()
+    found = []
+    for index, (effect, theta) in enumerate(evidence.best):
+        ratio = float(scores.ratios[index, 0])
+        found.append(
+            Ranked(
+                effect,
+                theta,
+                ratio,
+                float(null.usual[index]),
+                float(evidence.effects[index]),
+                float(shares[1 + index]),
+                null.p_value_of_effect(index, ratio),
+            )
+        )
+    # Of effects with the same columns the more general one leads: one whose sign is free.
+    found.sort(key=lambda each: (-round(each.evidence / _ALIKE), _is_one_sided(each.effect), each.identifier))
+    foremost = [each for each in found if each.evidence > found[0].evidence - MENTION]
+    plainest = min(foremost, key=lambda each: _assumptions(each.effect, design), default=None)
+    found.sort(key=lambda each: each is not plainest)
+    shape, of_shape = _best_shape(comparison, evidence)
+    return Ranking(tuple(found), shape, of_shape)
+
+
+def _assumptions(effect: Effect, design: Design) -> int:
+    """Return how much an effect takes for granted: a log that it follows, parameters that are searched.
+
+    A constant is a constant before it is the dead path of a beam in air that hardly changes.
+    """
+    follows_a_log = effect.untestable(replace(design, conditions={})) is not None
+    searched = len(effect.searched) if len(effect.grid(design)) > 1 else 0
+    return searched + follows_a_log
+
+
+def _is_one_sided(effect: Effect) -> bool:
+    return any(each.smallest == 0 or each.largest == 0 for each in effect.linear)
+
+
+def _best_shape(comparison: Comparison, evidence: Evidence) -> tuple[Words | None, float]:
+    """Return the leading shape without a name, the evidence of its lengths averaged."""
+    by_shape: dict[str, list[float]] = {}
+    for nameless, value in zip(comparison.nameless, evidence.nameless.tolist(), strict=True):
+        by_shape.setdefault(nameless.shape.en, []).append(value)
+    averages = {}
+    for shape, values in by_shape.items():
+        most = max(values)
+        averages[shape] = most + 2.0 * float(np.log(np.mean(np.exp(0.5 * (np.array(values) - most)))))
+    if not averages:
+        return None, -np.inf
+    best = max(averages, key=averages.__getitem__)
+    return next(nameless.shape for nameless in comparison.nameless if nameless.shape.en == best), averages[
+        best
+    ]

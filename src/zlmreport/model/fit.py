@@ -13,15 +13,20 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from zlmreport.model.axis_model import AxisModel, refuse_collisions
-from zlmreport.model.contrasts import Contrasts, contrasts_of, restricted_estimate
+from zlmreport.model.contrasts import Contrasts, contrasts_of, restricted_estimate, whitener
 from zlmreport.model.design import Design
-from zlmreport.model.estimate import Estimate, Uncertainties, coverage_factors, estimates_of
-from zlmreport.model.instrument import InstrumentError
+from zlmreport.model.estimate import (
+    Estimate,
+    InstrumentError,
+    Uncertainties,
+    coverage_factors,
+    estimates_of,
+    variance_of_variance,
+)
 from zlmreport.model.noise import Noise, NoisePart, coarse_grid, noise_parts
+from zlmreport.model.observations import of_readings
+from zlmreport.model.repeats import Spread, weights
 from zlmreport.model.search import Place, Problem, Solution, Thetas, refine, search, tangents
-from zlmreport.model.spread import Spread, weights
-from zlmreport.model.variance import variance_of_variance
-from zlmreport.model.whitening import whitener
 from zlmreport.quantities.arrays import FloatArray
 
 #: Variance of a source of shared scatter over that of single readings: none is larger in a fit.
@@ -248,3 +253,39 @@ def _finished(
         places=places,
         uncertainties=uncertainties,
     )
+
+
+def cross_validated_rms(
+    model: AxisModel, design: Design, deviation: FloatArray, thetas: Thetas
+) -> float | None:
+    """Return the root mean square error of runs that were left out; None if there is a single run.
+
+    What depends on position alone is repeated in every run, so this number is too kind to it. It is one to
+    watch, not one to rank by.
+
+    Parameters
+    ----------
+    model, design, deviation
+        What is fitted to what.
+    thetas
+        Searched parameters of the whole test; refined anew without each run.
+    """
+    runs = np.unique(design.run)
+    if len(runs) < 2:
+        return None
+    squares = 0.0
+    for run in runs:
+        left_out = np.flatnonzero(design.run == run)
+        kept = np.flatnonzero(design.run != run)
+        problem = Problem(model, of_readings(design, kept), deviation[kept], _as_they_are)
+        found = refine(problem, problem.solution(thetas))
+        others = of_readings(design, left_out)
+        predicted = np.zeros(len(left_out))
+        for term, theta, gamma in zip(model.terms, found.thetas, found.coefficients, strict=True):
+            predicted += term.effect.columns(others, theta) @ gamma
+        squares += float(np.sum((deviation[left_out] - predicted) ** 2))
+    return float(np.sqrt(squares / len(deviation)))
+
+
+def _as_they_are(columns: FloatArray) -> FloatArray:
+    return columns

@@ -9,9 +9,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from zlmreport.model.cells import cells
 from zlmreport.model.design import Design
 from zlmreport.model.distributions import normal_tail
+from zlmreport.model.repeats import cells
 from zlmreport.quantities.arrays import FloatArray, IntArray, read_only_integers
 
 #: Of the robust standard deviation.

@@ -1,4 +1,4 @@
-"""One contest after another: what is missing, and what is missing still when the best effect is added."""
+"""One comparison after another: what is missing, and what is missing still when the best effect is added."""
 
 from __future__ import annotations
 
@@ -7,15 +7,15 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from zlmreport.model.calibration import LEVEL, Calibration, PValue, calibrate
-from zlmreport.model.candidates import entrants
-from zlmreport.model.contest import Contest
+from zlmreport.language import Words
+from zlmreport.model.candidates import effects_to_try
+from zlmreport.model.comparison import Comparison
 from zlmreport.model.contrasts import restricted_estimate
 from zlmreport.model.effect import Effect
-from zlmreport.model.evidence import evidence_of
+from zlmreport.model.evidence import EXPLAINED, FURTHER, MENTION, NAMED, Ranked, Ranking, evidence_of, rank
 from zlmreport.model.fit import Fit, fit
 from zlmreport.model.noise import Noise
-from zlmreport.model.ranking import EXPLAINED, FURTHER, MENTION, NAMED, Ranked, Ranking, rank
+from zlmreport.model.null_distribution import LEVEL, NullDistribution, PValue, simulate_null
 from zlmreport.model.search import Thetas
 from zlmreport.quantities.arrays import FloatArray
 
@@ -24,17 +24,19 @@ _MOST_STEPS = 3
 #: Share of a column that must be left beside the model: less, once effects have been added whose searched
 #: parameters are only known within their uncertainty.
 _LEAST_VISIBLE, _LEAST_VISIBLE_LATER = 1e-6, 1e-3
+_AND = Words(en="{first}; {second}", de="{first}; {second}")
+_FROM = Words(en="{effect}: {measurement}", de="{effect}: {measurement}")
 
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """A contest beside one model.
+    """A comparison beside one model.
 
     Attributes
     ----------
     fit
         The model.
-    contest, calibration
+    comparison, null
         What the plan can see beside it, and what chance would give.
     ratios : (parts,) array
         φ̂ of the noise, held to what noise may be.
@@ -43,12 +45,12 @@ class Step:
     ranking
         The order of the effects.
     p_value
-        Chance of such a contest where nothing is missing.
+        Chance of such a comparison where nothing is missing.
     """
 
     fit: Fit
-    contest: Contest
-    calibration: Calibration
+    comparison: Comparison
+    null: NullDistribution
     ratios: FloatArray
     noise: Noise
     ranking: Ranking
@@ -56,7 +58,7 @@ class Step:
 
     @property
     def something_is_missing(self) -> bool:
-        """Whether chance does not explain the contest, and anything else explains it better."""
+        """Whether chance does not explain the comparison, and anything else explains it better."""
         return self.p_value.value <= LEVEL and self._most >= MENTION
 
     @property
@@ -75,35 +77,41 @@ class Step:
         return leading[0] if leading and leading[0].evidence > 0 else None
 
 
-def hold_contest(fitted: Fit, effects: Iterable[Effect]) -> Step:
-    """Hold a contest of all effects beside a fitted model."""
+def compared(fitted: Fit, effects: Iterable[Effect]) -> Step:
+    """Return a comparison of all effects beside a fitted model."""
     design, deviation = fitted.design, fitted.open_deviation
-    entered = entrants(fitted.model, design, effects)
+    entered = effects_to_try(fitted.model, design, effects)
     known = all(len(theta) == 0 for theta in fitted.solution.thetas)
     least_visible = _LEAST_VISIBLE if known else _LEAST_VISIBLE_LATER
-    contest = Contest.of(
+    comparison = Comparison.of(
         design, fitted.base(), entered.forms, fitted.noise.weights, least_visible=least_visible
     )
-    space = contest.space
+    space = comparison.space
     ratios, variance = restricted_estimate(
-        space, space.of(deviation), contest.grid, contest.grid.max(axis=0, initial=0.0)
+        space, space.of(deviation), comparison.grid, comparison.grid.max(axis=0, initial=0.0)
     )
     by_source = {part.source: float(ratio) for part, ratio in zip(space.parts, ratios, strict=True)}
-    calibration = calibrate(contest, design, ratios)
-    scores = contest.scores(deviation[:, np.newaxis])
+    null = simulate_null(comparison, design, ratios)
+    scores = comparison.scores(deviation[:, np.newaxis])
     return Step(
         fitted,
-        contest,
-        calibration,
+        comparison,
+        null,
         ratios,
         Noise(float(np.sqrt(variance)), by_source, fitted.noise.weights),
-        rank(contest, design, scores, evidence_of(contest, design, deviation, least_visible), calibration),
-        calibration.p_value(scores),
+        rank(
+            comparison,
+            design,
+            scores,
+            evidence_of(comparison, design, deviation, least_visible),
+            null,
+        ),
+        null.p_value(scores),
     )
 
 
 def add(fitted: Fit, found: Ranked) -> Fit:
-    """Return the fit of the model with an effect that a contest found."""
+    """Return the fit of the model with an effect that a comparison found."""
     model = fitted.model.with_effect(found.effect)
     before = dict(zip(fitted.model.identifiers, fitted.solution.thetas, strict=True))
     start: Thetas = tuple(
@@ -115,13 +123,13 @@ def add(fitted: Fit, found: Ranked) -> Fit:
 
 
 def steps(first: Fit, effects: Sequence[Effect]) -> tuple[Step, ...]:
-    """Return contests beside a model and, as long as something is missing and has a name, what follows it."""
-    found = [hold_contest(first, effects)]
+    """Return the comparison beside a model and, as long as something is missing and has a name, the next."""
+    found = [compared(first, effects)]
     while len(found) <= _MOST_STEPS:
         last = found[-1]
         if not last.something_is_missing or last.best is None:
             break
-        found.append(hold_contest(add(last.fit, last.best), effects))
+        found.append(compared(add(last.fit, last.best), effects))
     return tuple(found)
 
 
@@ -144,3 +152,32 @@ def named_effects(found: Sequence[Step]) -> tuple[str, ...]:
         named += step.ranking.most
         names.append(step.best.identifier)
     return ()
+
+
+def equals_of(ranked: Ranked, ranking: Ranking) -> tuple[Ranked, ...]:
+    """Return the other leaders, if an effect is one of them: they explain the readings as well."""
+    others = tuple(each for each in ranking.leaders if each is not ranked)
+    return others if len(others) < len(ranking.leaders) else ()
+
+
+def discriminate_by(ranked: Ranked, equals: Sequence[Ranked]) -> Words | None:
+    """Return the measurements that would tell an effect from its equals, as the effects' pages name them."""
+    found: dict[str, Words] = {}
+    for other in equals:
+        words = _told_apart(ranked, other) or _told_apart(other, ranked)
+        if words is not None:
+            found.setdefault(other.identifier, words)
+    if not found:
+        return None
+    phrases = list({words.en: words for words in found.values()}.values())
+    together = phrases[0]
+    for words in phrases[1:]:
+        together = _AND.given(first=together, second=words)
+    return together
+
+
+def _told_apart(one: Ranked, other: Ranked) -> Words | None:
+    for confusion in one.effect.confusions:
+        if confusion.effect == other.identifier:
+            return confusion.told_apart_by
+    return None

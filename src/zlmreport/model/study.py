@@ -2,25 +2,38 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Collection, Iterator, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
 
 from zlmreport.errors import InputError, Place, Problem
+from zlmreport.job.edit import NamedEffect, named_effect
+from zlmreport.job.effects import EffectChoice
+from zlmreport.job.installed import Installed
 from zlmreport.job.job import Job
+from zlmreport.language import Language, Words
 from zlmreport.measurement.measurement_set import MeasurementSet
-from zlmreport.model.axis_model import AxisModel, ModelError
-from zlmreport.model.chosen import chosen_terms
-from zlmreport.model.diagnose import diagnose, error_numbers
-from zlmreport.model.diagnosis import Diagnosis, ErrorNumbers
-from zlmreport.model.effect import Effect
+from zlmreport.model import wording
+from zlmreport.model.axis_model import AxisModel, ModelError, chosen_terms
+from zlmreport.model.diagnosis import Diagnosis, ErrorNumbers, diagnose, error_numbers
+from zlmreport.model.effect import Effect, Shape
+from zlmreport.model.estimate import Estimate, InstrumentError
 from zlmreport.model.fit import Assumptions, Fit, fit
-from zlmreport.model.instrument import InstrumentError
-from zlmreport.model.observe import Observations, observe
+from zlmreport.model.harmonic import Harmonic, harmonics
+from zlmreport.model.observations import Observations, observations_of
 from zlmreport.model.outliers import outliers
+from zlmreport.quantities.arrays import read_only_floats
 
 #: Coverage factor of the instrument's uncertainty as a job states it.
 _COVERAGE_FACTOR = 2.0
 _KEY = "model.effects"
+#: What a table of positions, one for each direction, can take away; the rest changes with time or run.
+BY_TABLE = frozenset({Shape.POSITION, Shape.DIRECTION})
+_CORRECTED = Words(
+    en="Predicted: less what the error model explains by {effects}",
+    de="Vorhergesagt: abzüglich dessen, was das Fehlermodell durch {effects} erklärt",
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,7 +89,7 @@ class Study:
             job,
             measurements,
             AxisModel(chosen_terms(job.effects, by_identifier.__getitem__, job.axis.kind)),
-            observe(measurements),
+            observations_of(measurements),
             Assumptions(instrument=instrument_error(job)),
         )
 
@@ -131,3 +144,147 @@ def instrument_error(job: Job) -> InstrumentError:
     if not isinstance(stated, int | float):
         return InstrumentError()
     return InstrumentError(common=job.axis.deviation_unit.to_si(stated) / _COVERAGE_FACTOR)
+
+
+def addition(
+    text: str, job: Job, registry: Installed, effects: Sequence[Effect], place: Place
+) -> tuple[NamedEffect, tuple[str, ...]]:
+    """Return an effect that a person names, and the effects of the model that it takes the place of.
+
+    Parameters
+    ----------
+    text
+        ``backlash``, or ``polynomial: {order: 5}`` as in a job.
+    job
+        To whose model it is to be added.
+    registry, effects
+        What is installed.
+    place
+        Where the person names it, for messages.
+
+    Raises
+    ------
+    InputError
+        If there is no such effect, or it stands in the model already.
+    """
+    named = named_effect(text, registry, place)
+    identifier = named.choice.identifier
+    for choice in job.effects:
+        if _meaning(choice) == _meaning(named.choice):
+            raise InputError.at(choice.place, f"{identifier} stands in the model already")
+    contains = next(each.contains for each in effects if each.identifier == identifier)
+    replaced = {identifier, *contains}
+    return named, tuple(each.identifier for each in job.effects if each.identifier in replaced)
+
+
+def refuse_useless(added: str, before: Fitted, after: Fitted, job: Job) -> None:
+    """Refuse an effect that does not lower the error.
+
+    Raises
+    ------
+    InputError
+        With both errors.
+    """
+    if after.error.rms >= before.error.rms:
+        raise InputError.at(
+            job.place_of(_KEY),
+            f"{added} explains nothing here: the error would be {_rms(after)} with it and is "
+            f"{_rms(before)} without; the job was left as it is",
+        )
+
+
+def _rms(fitted: Fitted) -> str:
+    """Write an error with so many digits that a slight change shows."""
+    unit = fitted.fit.design.axis.deviation_unit
+    digits = wording.significant(unit.from_si(fitted.error.rms), 4)
+    return f"{digits.in_language(Language.ENGLISH)} {unit.symbol}"
+
+
+def _meaning(choice: EffectChoice) -> tuple[object, ...]:
+    return choice.identifier, choice.settings, dict(choice.values)
+
+
+def corrected(
+    measurements: MeasurementSet,
+    observed: Observations,
+    fitted: Fit,
+    shapes: Collection[Shape] = frozenset(Shape),
+) -> MeasurementSet:
+    """Return the readings less what a model explains of them; none is left out, flagged ones neither.
+
+    Parameters
+    ----------
+    measurements
+        The readings.
+    observed
+        The same as the model sees them, none set aside.
+    fitted
+        The model.
+    shapes
+        Only effects that change along these are taken away.
+    """
+    left = measurements.deviation.copy()
+    taken = []
+    solution = fitted.solution
+    for term, theta, gamma in zip(fitted.model.terms, solution.thetas, solution.coefficients, strict=True):
+        if term.effect.shape in shapes:
+            left[observed.reading] -= term.effect.columns(observed.design, theta) @ gamma
+            taken.append(term.effect.identifier)
+    if not taken:
+        return measurements
+    provenance = measurements.provenance
+    remark = _CORRECTED.given(effects=", ".join(taken))
+    return replace(
+        measurements,
+        deviation=read_only_floats(left),
+        provenance=replace(provenance, remarks=(*provenance.remarks, remark)),
+    )
+
+
+def moves_with_time(fitted: Fit) -> tuple[str, ...]:
+    """Return the effects of a model that no table of positions takes away."""
+    return tuple(term.effect.identifier for term in fitted.model.terms if term.effect.shape not in BY_TABLE)
+
+
+@dataclass(frozen=True, slots=True)
+class Wave:
+    """A harmonic of a periodic effect.
+
+    Attributes
+    ----------
+    effect
+        Identifier of the effect.
+    harmonic
+        Its amplitude and phase with standard uncertainties, SI.
+    coverage_factor
+        k for 95 %, of both.
+    """
+
+    effect: str
+    harmonic: Harmonic
+    coverage_factor: float
+
+
+def waves(fitted: Fit) -> tuple[Wave, ...]:
+    """Return the harmonics of all periodic effects of a model; one with a given parameter is left out."""
+    return tuple(_waves(fitted))
+
+
+def _waves(fitted: Fit) -> Iterator[Wave]:
+    known = fitted.uncertainties
+    covariance = known.sigma**2 * known.inverse + known.systematic @ known.systematic.T
+    first = 0
+    for term in fitted.model.terms:
+        solved = int(np.count_nonzero(term.is_solved))
+        columns = slice(first, first + solved)
+        first += solved
+        if solved < len(term.effect.linear):
+            continue
+        own: list[Estimate] = [
+            each
+            for each in fitted.estimates
+            if each.effect == term.effect.identifier and each.parameter in term.effect.linear
+        ]
+        values = np.array([each.value for each in own])
+        for harmonic in harmonics(term.effect.linear, values, covariance[columns, columns]):
+            yield Wave(term.effect.identifier, harmonic, own[0].coverage_factor)

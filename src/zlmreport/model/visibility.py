@@ -9,13 +9,12 @@ import numpy as np
 
 from zlmreport.language import Words
 from zlmreport.model.axis_model import AxisModel, Term
-from zlmreport.model.bases import Family
-from zlmreport.model.calibration import Calibration, calibrate
-from zlmreport.model.candidates import entrants
-from zlmreport.model.contest import Contest
+from zlmreport.model.candidates import Family, effects_to_try
+from zlmreport.model.comparison import Comparison
 from zlmreport.model.contrasts import Metric
 from zlmreport.model.design import Design
 from zlmreport.model.effect import Effect
+from zlmreport.model.null_distribution import NullDistribution, simulate_null
 from zlmreport.model.parameter import Parameter
 from zlmreport.quantities.arrays import FloatArray
 
@@ -68,22 +67,26 @@ def plan_visibility(
     """
     columns = [_known_columns(term, design) for term in model.terms]
     base = np.concatenate([np.empty((len(design.position), 0)), *columns], axis=1)
-    entered = entrants(model, design, effects)
-    contest = Contest.of(design, base, entered.forms, np.ones(len(design.position)))
-    ratios = np.zeros(contest.grid.shape[1])
-    calibration = calibrate(contest, design, ratios)
+    entered = effects_to_try(model, design, effects)
+    comparison = Comparison.of(design, base, entered.forms, np.ones(len(design.position)))
+    ratios = np.zeros(comparison.grid.shape[1])
+    null = simulate_null(comparison, design, ratios)
     missing = tuple(Visibility(each.effect, 0.0, np.inf, None, each.reason) for each in entered.not_testable)
-    return (*visibility(contest, design, calibration, ratios, sigma), *missing)
+    return (*visibility(comparison, design, null, ratios, sigma), *missing)
 
 
 def visibility(
-    contest: Contest, design: Design, calibration: Calibration, ratios: FloatArray, sigma: float
+    comparison: Comparison,
+    design: Design,
+    null: NullDistribution,
+    ratios: FloatArray,
+    sigma: float,
 ) -> tuple[Visibility, ...]:
-    """Return what a test can see, in the order of the contest; effects that it cannot see at all come last.
+    """Return what a test can see, in the order of the comparison; what it cannot see at all comes last.
 
     Parameters
     ----------
-    contest, calibration
+    comparison, null
         Of the model, and what chance gives in it.
     design
         The test.
@@ -92,14 +95,14 @@ def visibility(
     sigma
         σ̂, m or rad.
     """
-    metric = contest.space.metric(ratios)
+    metric = comparison.space.metric(ratios)
     found = []
-    for index, forms in enumerate(contest.bases.contestants):
-        needed = float(calibration.usual[index]) + calibration.threshold
-        family = contest.bases.families[forms[0]]
-        lengths = [_lengths(contest, metric, design, family, theta) for theta in _some(family.thetas)]
+    for index, forms in enumerate(comparison.bases.by_effect):
+        needed = float(null.usual[index]) + null.threshold
+        family = comparison.bases.families[forms[0]]
+        lengths = [_lengths(comparison, metric, design, family, theta) for theta in _some(family.thetas)]
         found.append(_of_family(family, lengths, sigma * float(np.sqrt(needed))))
-    return (*found, *(Visibility(effect.identifier, 0.0, np.inf) for effect in contest.bases.invisible))
+    return (*found, *(Visibility(effect.identifier, 0.0, np.inf) for effect in comparison.bases.invisible))
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,12 +118,14 @@ def _some(thetas: FloatArray) -> FloatArray:
     return thetas[:: 1 + len(thetas) // _VALUES]
 
 
-def _lengths(contest: Contest, metric: Metric, design: Design, family: Family, theta: FloatArray) -> _Lengths:
+def _lengths(
+    comparison: Comparison, metric: Metric, design: Design, family: Family, theta: FloatArray
+) -> _Lengths:
     columns = family.effect.columns(design, theta)
-    contrasts = contest.space.of(columns)
-    seen = contrasts / contest.space.scale[:, np.newaxis]
+    contrasts = comparison.space.of(columns)
+    seen = contrasts / comparison.space.scale[:, np.newaxis]
     moving = float(np.linalg.norm(columns - columns.mean(axis=0)))
-    shared = metric.coordinates(contest.space.factors.T @ contrasts)
+    shared = metric.coordinates(comparison.space.factors.T @ contrasts)
     squares = np.maximum(np.sum(contrasts**2, axis=0) - np.sum(shared**2, axis=0), 0.0)
     return _Lengths(
         float(np.sqrt(np.mean(columns**2))),

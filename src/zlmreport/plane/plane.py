@@ -11,7 +11,7 @@ from zlmreport.job.model import LineOfPlane
 from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.model.axis_model import ModelError
-from zlmreport.model.observe import observe
+from zlmreport.model.observations import observations_of
 from zlmreport.model.study import instrument_error
 from zlmreport.plane.lines import Line, side_by_side
 from zlmreport.plane.surface import Surface, surface
@@ -60,7 +60,7 @@ def plane_of(measured: Sequence[Measured]) -> Plane:
     lines = tuple(
         sorted(
             (
-                Line(job.axis.position_unit.to_si(place.at), observe(measurements))
+                Line(job.axis.position_unit.to_si(place.at), observations_of(measurements))
                 for (job, measurements), place in zip(measured, places, strict=True)
             ),
             key=lambda line: line.across,

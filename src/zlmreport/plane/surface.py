@@ -17,15 +17,12 @@ import numpy as np
 
 from zlmreport.language import same
 from zlmreport.measurement.approach import Approach
-from zlmreport.model.anywhere import outside
 from zlmreport.model.axis_model import AxisModel, ModelError, Term
-from zlmreport.model.cross_validation import cross_validated_rms
-from zlmreport.model.design import Design
+from zlmreport.model.design import Design, outside_of_measured
 from zlmreport.model.diagnosis import ErrorNumbers
 from zlmreport.model.effect import Effect, Shape
-from zlmreport.model.estimate import Estimate
-from zlmreport.model.fit import Assumptions, Fit, Prediction, fit
-from zlmreport.model.instrument import InstrumentError
+from zlmreport.model.estimate import Estimate, InstrumentError
+from zlmreport.model.fit import Assumptions, Fit, Prediction, cross_validated_rms, fit
 from zlmreport.model.noise import NoiseSource, noise_parts
 from zlmreport.model.parameter import Dimension, Parameter
 from zlmreport.plane.lines import ACROSS, Readings, points
@@ -174,8 +171,8 @@ class Surface:
         along, across = np.array(places, dtype=np.float64).reshape(-1, 2).T
         axis = self.fit.design.axis
         sentences = [
-            *outside(axis.name, axis.position_unit, along, self.along),
-            *outside(self.readings.second, axis.position_unit, across, self.across),
+            *outside_of_measured(axis.name, axis.position_unit, along, self.along),
+            *outside_of_measured(self.readings.second, axis.position_unit, across, self.across),
         ]
         if sentences:
             raise ModelError(sentences)

@@ -11,8 +11,7 @@ from zlmreport.job.simulation import SimulationFile
 from zlmreport.job.simulation_keys import CourseKeys, NoiseKeys
 from zlmreport.language import Language
 from zlmreport.measurement.conditions import CONDITIONS
-from zlmreport.model.axis_model import Term
-from zlmreport.model.chosen import chosen_terms
+from zlmreport.model.axis_model import Term, chosen_terms
 from zlmreport.model.effect import Effect
 from zlmreport.model.parameter import unit_of
 from zlmreport.planning.methods import Method

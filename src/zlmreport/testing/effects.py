@@ -11,7 +11,7 @@ from zlmreport.job.fields import keys_in
 from zlmreport.measurement.axis import AxisKind
 from zlmreport.model.design import Design
 from zlmreport.model.effect import Confusion, Effect, Shape
-from zlmreport.model.observe import of_readings
+from zlmreport.model.observations import of_readings
 from zlmreport.model.parameter import Dimension, Parameter
 from zlmreport.quantities.arrays import FloatArray
 from zlmreport.quantities.notation import plain

@@ -21,8 +21,7 @@ from zlmreport.job.edit_excluded import exclude, include
 from zlmreport.job.exclusion_keys import ExclusionKeys
 from zlmreport.job.loading import load
 from zlmreport.language import Words
-from zlmreport.model.changing import addition, refuse_useless
-from zlmreport.model.study import Fitted
+from zlmreport.model.study import Fitted, addition, refuse_useless
 from zlmreport.web.bench import Bench, Loaded
 from zlmreport.web.journal import UNDO, Journal, entry, undoable
 

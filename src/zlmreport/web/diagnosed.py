@@ -12,7 +12,7 @@ from zlmreport.language import Language, Words
 from zlmreport.model import wording
 from zlmreport.model.diagnosis import Candidate, Diagnosis
 from zlmreport.model.effect import Effect
-from zlmreport.model.statements import serious_candidates, verdict_statement
+from zlmreport.model.report import serious_candidates, verdict_statement
 from zlmreport.model.study import Study
 from zlmreport.web.panels import error_numbers, parameter
 

@@ -11,8 +11,7 @@ from zlmreport.job.fields import keys_in
 from zlmreport.language import Language, Words
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.axis import Axis
-from zlmreport.model.anywhere import at_positions
-from zlmreport.model.design import Design
+from zlmreport.model.design import Design, at_positions
 from zlmreport.model.effect import Effect, Shape
 from zlmreport.model.parameter import Parameter, unit_of
 from zlmreport.plugins import Registry

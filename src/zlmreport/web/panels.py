@@ -18,13 +18,12 @@ from zlmreport.evaluation.evaluation import Parameter
 from zlmreport.evaluation.statistics import position_statistics
 from zlmreport.language import Language, Words
 from zlmreport.model import wording
-from zlmreport.model.correction import BY_TABLE, corrected, moves_with_time
 from zlmreport.model.design import Design
 from zlmreport.model.diagnosis import ErrorNumbers
 from zlmreport.model.effect import Shape
 from zlmreport.model.estimate import Estimate
 from zlmreport.model.parameter import unit_of
-from zlmreport.model.study import Fitted
+from zlmreport.model.study import BY_TABLE, Fitted, corrected, moves_with_time
 from zlmreport.plugins import Registry
 from zlmreport.quantities.formatting import general_number
 from zlmreport.quantities.notation import spans

@@ -1,7 +1,7 @@
-"""Rivals without a name: shapes that any cause might have, against which a named effect must hold its own.
+"""Nameless shapes, as any cause might have them, against which a named effect must hold its own.
 
 An effect that merely resembles what is there loses to a smooth curve; only so can the answer be that no
-known effect explains it. A rival is a random curve of unknown size along position, time, run or direction:
+known effect explains it. A nameless is a random curve of unknown size along position, time, run or direction:
 its many coefficients are not fitted but averaged over, and so cost no more than the data make them.
 """
 
@@ -16,7 +16,7 @@ from zlmreport.model.contrasts import Contrasts, Metric
 from zlmreport.model.design import Design
 from zlmreport.quantities.arrays import FloatArray, IntArray
 
-#: Variances of a rival that are tried, in units of σ²: from hidden in the scatter to a hundred times it.
+#: Variances that are tried of a shape, in units of σ²: from hidden in the scatter to far above it.
 SIZES = (0.1, 0.5, 2.5, 12.0, 60.0, 600.0, 10_000.0)
 
 #: Correlation lengths of smooth curves, as shares of the travel or the duration.
@@ -28,7 +28,7 @@ _LEAST_VISIBLE = 1e-3
 
 
 @dataclass(frozen=True, slots=True)
-class Rival:
+class NamelessShape:
     """A shape without a name.
 
     Attributes
@@ -36,7 +36,7 @@ class Rival:
     shape
         In words.
     features : (N, f) array
-        Error contrasts whose random combination is the rival, of mean variance one.
+        Error contrasts whose random combination is the shape, of mean variance one.
     """
 
     shape: Words
@@ -44,14 +44,14 @@ class Rival:
 
 
 @dataclass(frozen=True, slots=True)
-class RivalModes:
-    """The rivals under one φ, turned so that their coefficients are independent.
+class ShapeModes:
+    """The nameless shapes under one φ, turned so that their coefficients are independent.
 
     Attributes
     ----------
-    turn : (rivals, f, f) array
+    turn : (nameless, f, f) array
         From products with the features to products with the modes.
-    strengths : (rivals, f) array
+    strengths : (nameless, f) array
         What the readings know of each mode.
     """
 
@@ -59,8 +59,8 @@ class RivalModes:
     strengths: FloatArray
 
 
-def rivals_of(design: Design, space: Contrasts) -> tuple[Rival, ...]:
-    """Return the rivals that the plan can see beside the model; a smooth shape once for each length."""
+def nameless_shapes(design: Design, space: Contrasts) -> tuple[NamelessShape, ...]:
+    """Return the shapes that the plan can see beside the model; a smooth one once for each length."""
     along, moment = _unit(design.position), _unit(design.time)
     lever = (2.0 * along - 1.0)[:, np.newaxis]
     by_target, by_run = _membership(design.target), _membership(design.run)
@@ -88,28 +88,28 @@ def rivals_of(design: Design, space: Contrasts) -> tuple[Rival, ...]:
         contrasts = space.of(features)
         size = float(np.sqrt(np.mean(np.sum(contrasts**2, axis=1))))
         if size > _LEAST_VISIBLE * np.sqrt(np.mean(np.sum(features**2, axis=1))):
-            found.append(Rival(words, contrasts / size))
+            found.append(NamelessShape(words, contrasts / size))
     return tuple(found)
 
 
-def side_by_side(rivals: tuple[Rival, ...], readings: int) -> tuple[FloatArray, IntArray]:
-    """Return the features of all rivals as columns, and their places in a common frame, shape (rivals, f).
+def side_by_side(nameless: tuple[NamelessShape, ...], readings: int) -> tuple[FloatArray, IntArray]:
+    """Return the features of all shapes as columns, and their places in a common frame, shape (shapes, f).
 
-    Rivals of fewer features than the largest point to one more column, of zeros, that stands last.
+    Shapes of fewer features than the largest point to one more column, of zeros, that stands last.
     """
-    widest = max((rival.features.shape[1] for rival in rivals), default=0)
-    columns = np.concatenate([*(rival.features for rival in rivals), np.zeros((readings, 1))], axis=1)
-    places = np.full((len(rivals), widest), columns.shape[1] - 1, dtype=np.int64)
+    widest = max((nameless.features.shape[1] for nameless in nameless), default=0)
+    columns = np.concatenate([*(nameless.features for nameless in nameless), np.zeros((readings, 1))], axis=1)
+    places = np.full((len(nameless), widest), columns.shape[1] - 1, dtype=np.int64)
     first = 0
-    for row, rival in zip(places, rivals, strict=True):
-        width = rival.features.shape[1]
+    for row, each in zip(places, nameless, strict=True):
+        width = each.features.shape[1]
         row[:width] = np.arange(first, first + width)
         first += width
     return columns, places
 
 
-def modes(metric: Metric, shared: FloatArray, gram: FloatArray, places: IntArray) -> RivalModes:
-    """Return the independent modes of all rivals under one φ.
+def modes(metric: Metric, shared: FloatArray, gram: FloatArray, places: IntArray) -> ShapeModes:
+    """Return the independent modes of all shapes under one φ.
 
     Parameters
     ----------
@@ -117,14 +117,14 @@ def modes(metric: Metric, shared: FloatArray, gram: FloatArray, places: IntArray
         The inner product.
     shared : (r, K) array
         Products of the noise's factors and the features.
-    gram : (rivals, f, f) array
-        Products of each rival's features among themselves.
-    places : (rivals, f) array
-        Of the rivals' features among all columns.
+    gram : (nameless, f, f) array
+        Products of each shape's features among themselves.
+    places : (nameless, f) array
+        Of the shapes' features among all columns.
     """
     coordinates = metric.coordinates(shared)[:, places].transpose(1, 0, 2)
     strengths, vectors = np.linalg.eigh(gram - coordinates.transpose(0, 2, 1) @ coordinates)
-    return RivalModes(vectors.transpose(0, 2, 1), np.maximum(strengths, 0.0))
+    return ShapeModes(vectors.transpose(0, 2, 1), np.maximum(strengths, 0.0))
 
 
 def _unit(values: FloatArray) -> FloatArray:

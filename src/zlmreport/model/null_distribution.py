@@ -1,9 +1,9 @@
-"""What chance alone would give: the contest held on simulated tests of the same plan, model and noise.
+"""What chance alone would give: the comparison made on simulated tests of the same plan, model and noise.
 
 Every searched parameter gives chance one more opportunity, so plain tests and criteria raise false alarms.
 Here the whole search is repeated on deviations that hold nothing but the noise that restricted likelihood
-found in the job's own readings. Base model and σ drop out of the likelihood ratios; so one calibration serves
-every test of the same plan, model and φ̂.
+found in the job's own readings. Base model and σ drop out of the likelihood ratios; so one null distribution
+serves every test of the same plan, model and φ̂.
 """
 
 from __future__ import annotations
@@ -13,14 +13,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from zlmreport.model.contest import Contest, Scores
+from zlmreport.model.comparison import Comparison, Scores
 from zlmreport.model.design import Design
 from zlmreport.model.distributions import gamma_tail
 from zlmreport.quantities.arrays import FloatArray
 
 #: Simulated tests.
 TRIALS = 400
-#: Chance of a false alarm, over all contestants together.
+#: Chance of a false alarm, over all that are compared together.
 LEVEL = 0.05
 
 
@@ -41,74 +41,74 @@ class PValue:
 
 
 @dataclass(frozen=True, slots=True)
-class Calibration:
-    """The contest where nothing is missing.
+class NullDistribution:
+    """The comparison where nothing is missing.
 
     Attributes
     ----------
     ratios : (effects, B) array
         LR of each effect in each simulated test.
-    rival_ratios : (rivals, B) array
-        The same of the rivals.
-    usual, usual_of_rivals : (effects,), (rivals,) arrays
-        q, the 95 % points: what each contestant reaches by its own search.
+    nameless_ratios : (nameless, B) array
+        The same of the nameless shapes.
+    usual, usual_of_nameless : (effects,), (nameless,) arrays
+        q, the 95 % points: what each candidate reaches by its own search.
     threshold
-        T, the 95 % point of the largest excess over these, of all contestants.
+        T, the 95 % point of the largest excess over these, of all by_effect.
     """
 
     ratios: FloatArray
-    rival_ratios: FloatArray
+    nameless_ratios: FloatArray
     usual: FloatArray
-    usual_of_rivals: FloatArray
+    usual_of_nameless: FloatArray
     threshold: float
 
     def excess(self, scores: Scores) -> FloatArray:
-        """Return M, the largest excess of any contestant over what it usually reaches, shape (B,)."""
+        """Return M, the largest excess of any candidate over what it usually reaches, shape (B,)."""
         together = np.concatenate(
             [
                 scores.ratios - self.usual[:, np.newaxis],
-                scores.rival_ratios - self.usual_of_rivals[:, np.newaxis],
+                scores.nameless_ratios - self.usual_of_nameless[:, np.newaxis],
             ]
         )
         return np.asarray(together.max(axis=0, initial=-np.inf), dtype=np.float64)
 
     def p_value(self, scores: Scores) -> PValue:
-        """Return the chance of such an excess of any contestant: that of a false alarm."""
+        """Return the chance of such an excess of any candidate: that of a false alarm."""
         excess = float(self.excess(scores)[0])
-        return _p_value(excess, self.excess(Scores(self.ratios, self.rival_ratios)))
+        return _p_value(excess, self.excess(Scores(self.ratios, self.nameless_ratios)))
 
     def p_value_of_effect(self, index: int, ratio: float) -> PValue:
         """Return the chance of such a likelihood ratio of one effect, its own search allowed for."""
         return _p_value(ratio, self.ratios[index])
 
 
-def calibrate(contest: Contest, design: Design, ratios: FloatArray) -> Calibration:
-    """Hold the contest on simulated tests without any effect.
+def simulate_null(comparison: Comparison, design: Design, ratios: FloatArray) -> NullDistribution:
+    """Make the comparison on simulated tests without any effect.
 
     Parameters
     ----------
-    contest
-        The contest.
+    comparison
+        The comparison.
     design
         The test; its content alone seeds the simulation: the same test gives the same digits.
     ratios : (parts,) array
         φ̂.
     """
-    scores = contest.scores(_simulated(contest, design, ratios))
+    scores = comparison.scores(_simulated(comparison, design, ratios))
     usual = np.quantile(scores.ratios, 1 - LEVEL, axis=1)
-    usual_of_rivals = np.quantile(scores.rival_ratios, 1 - LEVEL, axis=1)
-    blank = Calibration(scores.ratios, scores.rival_ratios, usual, usual_of_rivals, np.inf)
+    usual_of_nameless = np.quantile(scores.nameless_ratios, 1 - LEVEL, axis=1)
+    blank = NullDistribution(scores.ratios, scores.nameless_ratios, usual, usual_of_nameless, np.inf)
     threshold = float(np.quantile(blank.excess(scores), 1 - LEVEL))
-    return Calibration(scores.ratios, scores.rival_ratios, usual, usual_of_rivals, threshold)
+    return NullDistribution(scores.ratios, scores.nameless_ratios, usual, usual_of_nameless, threshold)
 
 
-def _simulated(contest: Contest, design: Design, ratios: FloatArray) -> FloatArray:
+def _simulated(comparison: Comparison, design: Design, ratios: FloatArray) -> FloatArray:
     """Return simulated deviations of unit σ, shape (N, B)."""
     content = hashlib.sha256()
     for array in (design.position, design.direction, design.run, design.time, ratios):
         content.update(np.ascontiguousarray(array).tobytes())
     random = np.random.default_rng(int.from_bytes(content.digest()[:16], "big"))
-    space = contest.space
+    space = comparison.space
     found = random.standard_normal((len(design.position), TRIALS)) / space.scale[:, np.newaxis]
     for part, ratio in zip(space.parts, ratios, strict=True):
         shared = random.standard_normal((part.factor.shape[1], TRIALS))

@@ -10,14 +10,14 @@ import pytest
 from zlmreport.language import Language
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.model.axis_model import ModelError
-from zlmreport.model.observe import observe
+from zlmreport.model.observations import observations_of
 from zlmreport.testing.measurements import poor_tests, simulated_test
 
 TEST = simulated_test()
 
 
 def _said(measurements: MeasurementSet) -> str:
-    return " ".join(each.in_language(Language.ENGLISH) for each in observe(measurements).remarks)
+    return " ".join(each.in_language(Language.ENGLISH) for each in observations_of(measurements).remarks)
 
 
 def _logged(log: object, measurements: MeasurementSet = TEST) -> MeasurementSet:
@@ -26,14 +26,14 @@ def _logged(log: object, measurements: MeasurementSet = TEST) -> MeasurementSet:
 
 def test_missing_readings_are_dropped_and_the_order_is_kept() -> None:
     measurements = poor_tests()["a missing reading"]
-    found = observe(measurements)
+    found = observations_of(measurements)
     assert len(found.deviation) == len(measurements.deviation) - 1
     assert np.array_equal(found.deviation, measurements.deviation[found.reading])
     assert np.all(np.diff(found.reading) > 0)
 
 
 def test_without_times_the_row_is_the_clock_and_this_is_said() -> None:
-    found = observe(poor_tests()["a missing reading"])
+    found = observations_of(poor_tests()["a missing reading"])
     assert found.design.time_is_counted
     assert np.array_equal(found.design.time, found.reading)
     assert "counted in readings" in _said(TEST)
@@ -41,13 +41,13 @@ def test_without_times_the_row_is_the_clock_and_this_is_said() -> None:
 
 def test_times_count_from_the_first_reading_that_is_there() -> None:
     timed = replace(TEST, time=100.0 + 2.0 * np.arange(len(TEST.deviation)))
-    found = observe(timed)
+    found = observations_of(timed)
     assert not found.design.time_is_counted
     assert found.design.time[:3].tolist() == [0.0, 2.0, 4.0]
 
 
 def test_distance_since_the_reversal_grows_along_each_pass_of_the_linear_method() -> None:
-    found = observe(TEST, overrun=0.003)
+    found = observations_of(TEST, overrun=0.003)
     first_pass = found.design.since_reversal[:9]
     assert first_pass == pytest.approx(0.003 + TEST.target_positions - TEST.target_positions[0], rel=1e-12)
     assert found.design.since_reversal[9] == 0.003
@@ -55,20 +55,20 @@ def test_distance_since_the_reversal_grows_along_each_pass_of_the_linear_method(
 
 def test_an_assumed_overrun_is_said_and_a_known_one_is_not() -> None:
     assert "5 mm" in _said(TEST)
-    assert not [each for each in observe(TEST, overrun=0.003).remarks if "overrun" in each.values]
+    assert not [each for each in observations_of(TEST, overrun=0.003).remarks if "overrun" in each.values]
 
 
 def test_a_log_with_gaps_is_left_out_and_this_is_said() -> None:
     log = np.linspace(293.0, 295.0, len(TEST.deviation))
     log[7] = np.nan
-    assert "axis_temperature" not in observe(_logged(log)).design.conditions
+    assert "axis_temperature" not in observations_of(_logged(log)).design.conditions
     assert "axis_temperature has gaps (readings without it: 1)" in _said(_logged(log))
 
 
 def test_noise_of_a_log_is_smoothed_away() -> None:
     course = 293.0 + 2.0 * -np.expm1(-np.arange(len(TEST.deviation)) / 30.0)
     random = np.random.default_rng(1)
-    found = observe(_logged(course + 0.05 * random.standard_normal(len(course))))
+    found = observations_of(_logged(course + 0.05 * random.standard_normal(len(course))))
     left = found.design.conditions["axis_temperature"] - course
     assert np.sqrt(np.mean(left**2)) < 0.025
 
@@ -95,17 +95,17 @@ def test_a_quiet_fine_log_is_not_doubted() -> None:
 
 def test_conditions_of_other_names_are_taken_as_they_are() -> None:
     faces = np.where(TEST.approach > 0, 1.0, -1.0)
-    found = observe(replace(TEST, conditions={"face": faces}))
+    found = observations_of(replace(TEST, conditions={"face": faces}))
     assert np.array_equal(found.design.conditions["face"], faces)
 
 
 def test_without_any_reading_there_is_nothing_to_fit() -> None:
     with pytest.raises(ModelError, match="no reading has a deviation"):
-        observe(poor_tests()["no reading at all"])
+        observations_of(poor_tests()["no reading at all"])
 
 
 def test_readings_that_are_set_aside_leave_the_span_as_it_is() -> None:
-    found = observe(TEST)
+    found = observations_of(TEST)
     first_target = np.flatnonzero(found.design.target == 0)
     left = found.without(first_target)
     assert left.design.span == found.design.span

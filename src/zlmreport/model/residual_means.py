@@ -1,15 +1,18 @@
-"""Tests of the means: whether targets, directions and runs deviate more than repeats allow."""
+"""Tests of means and scatter: what targets, directions, runs and conditions do beyond what repeats allow."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 
-from zlmreport.language import Words
+from zlmreport.language import Words, same
 from zlmreport.model import wording
-from zlmreport.model.cells import repeats
+from zlmreport.model.design import Design
 from zlmreport.model.distributions import f_tail
-from zlmreport.model.failures.failure import Failure, ResidualTest
-from zlmreport.model.failures.residuals import Residuals
+from zlmreport.model.outliers import Outliers
+from zlmreport.model.repeats import SpreadFactor, SpreadTest, repeats, spread_tests
+from zlmreport.model.residuals import Failure, Residuals, ResidualTest
 from zlmreport.quantities.arrays import FloatArray, IntArray, read_only_integers
 
 _LACK_OF_FIT = Words(
@@ -46,6 +49,24 @@ _RUN = Words(en="run {run}", de="Durchlauf {run}")
 _PERMUTATIONS = 400
 _SEED = 20_261_118
 _ORDERS = 4
+_FOLLOW = Words(
+    en="the residuals follow a logged condition, in their zero or in their slope",
+    de="die Residuen folgen einer aufgezeichneten Bedingung, mit Nullpunkt oder Steigung",
+)
+_UNEQUAL = Words(
+    en="the readings scatter unequally {factor}", de="die Messwerte streuen {factor} verschieden"
+)
+_UPWARDS = Words(en="more upwards", de="mehr aufwärts")
+_DOWNWARDS = Words(en="more downwards", de="mehr abwärts")
+_MOST_AT = Words(en="most at {place}", de="am meisten bei {place}")
+_FLAGGED = Words(
+    en="readings that stand off from their repeats and from their neighbours in time: {count}; they are set "
+    "aside, not altered",
+    de="Messwerte, die von ihren Wiederholungen und ihren zeitlichen Nachbarn abstehen: {count}; sie sind "
+    "beiseite gelegt, nicht verändert",
+)
+_AT = Words(en="at {place}", de="bei {place}")
+_AND_MORE = Words(en="{first}; others: {more}", de="{first}; weitere: {more}")
 
 
 def lack_of_fit(residuals: Residuals) -> Failure | None:
@@ -129,3 +150,54 @@ def _means(values: FloatArray, labels: IntArray) -> FloatArray:
 def _changes(signs_: FloatArray) -> IntArray:
     """Return how often the sign changes along each row."""
     return np.asarray(np.count_nonzero(np.diff(signs_, axis=1) != 0, axis=1), dtype=np.int64)
+
+
+def conditions(residuals: Residuals) -> Failure | None:
+    """Return the test of the logged condition that the residuals follow most closely."""
+    design = residuals.design
+    p_values = {}
+    for name, log in design.conditions.items():
+        if np.ptp(log) == 0:
+            continue
+        change = log - log.mean()
+        columns = np.column_stack([change, change * (design.position - design.middle)])
+        p_values[name] = residuals.p_value(columns)
+    if not p_values:
+        return None
+    closest = min(p_values, key=p_values.__getitem__)
+    p_value = min(1.0, len(p_values) * p_values[closest])
+    return Failure(ResidualTest.CONDITION, p_value, same(closest), _FOLLOW)
+
+
+def spread(residuals: Residuals) -> Iterator[Failure]:
+    """Yield the tests of equal scatter by position, direction and run."""
+    design = residuals.design
+    for test in spread_tests(design, residuals.fit.deviation):
+        statement = _UNEQUAL.given(factor=test.factor.words)
+        where, readings = _widest(design, test)
+        yield Failure(ResidualTest.SPREAD, test.p_value, where, statement, readings)
+
+
+def flagged(design: Design, aside: Outliers) -> Failure | None:
+    """Return what is to be said of readings that were set aside, on the design that still has them."""
+    readings = aside.readings
+    if not len(readings):
+        return None
+    where = _AT.given(place=wording.reading_at(design, int(readings[0])))
+    if len(readings) > 1:
+        where = _AND_MORE.given(first=where, more=len(readings) - 1)
+    return Failure(ResidualTest.OUTLIERS, aside.p_value, where, _FLAGGED.given(count=len(readings)))
+
+
+def _widest(design: Design, test: SpreadTest) -> tuple[Words, IntArray]:
+    """Return where readings scatter most, and which these are."""
+    if test.factor is SpreadFactor.DIRECTION:
+        chosen = np.sign(design.direction) == np.sign(test.widest)
+        return (_UPWARDS if test.widest > 0 else _DOWNWARDS), read_only_integers(np.flatnonzero(chosen))
+    if test.factor is SpreadFactor.RUN:
+        chosen = design.run == test.widest
+        place = _RUN.given(run=test.widest)
+    else:
+        chosen = design.target == test.widest
+        place = wording.position(design.axis, float(design.position[int(np.argmax(chosen))]))
+    return _MOST_AT.given(place=place), read_only_integers(np.flatnonzero(chosen))

@@ -1,16 +1,16 @@
-"""Tests of order: whether the residual remembers the reading before, or repeats after a while."""
+"""All tests of the residuals of a model; those of order, of time and of periods, stand here."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
 from zlmreport.language import Words
 from zlmreport.model import wording
-from zlmreport.model.cells import repeats
-from zlmreport.model.failures.failure import Failure, ResidualTest
-from zlmreport.model.failures.residuals import Residuals
+from zlmreport.model.repeats import repeats
+from zlmreport.model.residual_means import conditions, direction, lack_of_fit, runs, signs, spread
+from zlmreport.model.residuals import Failure, Residuals, ResidualTest
 from zlmreport.quantities.arrays import FloatArray, IntArray
 
 _TIME_ORDER = Words(
@@ -37,6 +37,8 @@ _READINGS_PER_PERIOD = 4
 _HARMONICS = (1, 2)
 _FEWEST_TARGETS = 6
 _FINER = 41
+#: Chance that any of the tests of a sound model is called a failure.
+LEVEL = 0.05
 
 
 def time_order(residuals: Residuals) -> Failure | None:
@@ -130,3 +132,34 @@ def _exchanged(centred: FloatArray, cell: IntArray) -> FloatArray:
     found = np.empty((_PERMUTATIONS, len(cell)))
     found[:, places] = centred[np.argsort(keys + cell, axis=1)]
     return found
+
+
+def residual_tests(residuals: Residuals) -> tuple[Failure, ...]:
+    """Return every test that the design allows, passed or not."""
+    return tuple(_tests(residuals))
+
+
+def failures(tests: tuple[Failure, ...]) -> tuple[Failure, ...]:
+    """Return the tests that were not passed, the clearest first; each pays for the number of them."""
+    limit = LEVEL / max(1, len(tests))
+    return tuple(sorted((test for test in tests if test.p_value < limit), key=lambda test: test.p_value))
+
+
+def _tests(residuals: Residuals) -> Iterator[Failure]:
+    for single in _SINGLE:
+        found = single(residuals)
+        if found is not None:
+            yield found
+    yield from spread(residuals)
+
+
+_SINGLE = (
+    lack_of_fit,
+    signs,
+    direction,
+    runs,
+    time_order,
+    period_in_position,
+    period_in_time,
+    conditions,
+)

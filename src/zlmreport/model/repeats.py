@@ -1,4 +1,4 @@
-"""Unequal scatter: whether some positions, a direction or a run scatter more, and by how much.
+"""Repeats: what the readings of one cell, a target approached from one direction, say of the scatter.
 
 The spread of five readings says little about their scatter: taken as a weight, as it comes, it gives
 intervals that hold in 83 % of all cases instead of 95 %. So the variances are pooled; only where a test
@@ -13,7 +13,6 @@ from enum import Enum
 import numpy as np
 
 from zlmreport.language import Words
-from zlmreport.model.cells import cells, repeats
 from zlmreport.model.design import Design
 from zlmreport.quantities.arrays import FloatArray, IntArray
 
@@ -22,6 +21,89 @@ _LEVEL = 0.01
 _FEWEST_READINGS = 3
 _TRIALS = 300
 _SEED = 20_261_118
+
+
+@dataclass(frozen=True, slots=True)
+class Repeats:
+    """The deviations within their cells.
+
+    Attributes
+    ----------
+    cell : (N,) integer array
+        Index of the cell of each reading.
+    count : (cells,) integer array
+        Readings in each cell.
+    centred : (N,) array
+        Each deviation less the mean of its cell, m or rad.
+    """
+
+    cell: IntArray
+    count: IntArray
+    centred: FloatArray
+
+    @property
+    def degrees(self) -> int:
+        """Degrees of freedom of the pure error: readings less cells."""
+        return len(self.cell) - len(self.count)
+
+    @property
+    def squares(self) -> float:
+        """Sum of squares of the pure error."""
+        return float(np.sum(self.centred**2))
+
+
+def cells(design: Design) -> IntArray:
+    """Return for each reading the index of its cell, shape (N,)."""
+    _, index = np.unique(2 * design.target + (design.direction > 0), return_inverse=True)
+    return np.asarray(index, dtype=np.int64)
+
+
+def repeats(design: Design, deviation: FloatArray) -> Repeats:
+    """Return the deviations of a test within their cells."""
+    cell = cells(design)
+    count = np.bincount(cell)
+    means = np.bincount(cell, weights=deviation) / count
+    return Repeats(cell, count.astype(np.int64), deviation - means[cell])
+
+
+def apart_in_time(design: Design) -> bool:
+    """Whether the readings of a cell lie apart in time, as in the linear method.
+
+    Then slow drift is within the cells, and neighbours in time are in different ones. In pendulum and
+    quasi-pilgrim tests a cell is measured within a short time, and drift is between the cells.
+    """
+    cell = cells(design)
+    order = np.lexsort((np.arange(len(cell)), cell))
+    gaps = np.diff(order)[np.diff(cell[order]) == 0]
+    return bool(gaps.size and np.median(gaps) > 0.5 * len(np.unique(cell)))
+
+
+def noise_floor(design: Design, deviation: FloatArray) -> float | None:
+    """Return the standard deviation σ_f of a single reading, drift left out; None without repeats.
+
+    Where the readings of a cell lie apart in time, neighbours within a run are compared: what drifts more
+    slowly than a reading drops out. Otherwise the pure error is drift-free as it is. The standard deviations
+    of ISO 230-2 contain the drift and are no floor.
+
+    Parameters
+    ----------
+    design
+        The test.
+    deviation : (N,) array
+        x, m or rad.
+    """
+    within = repeats(design, deviation)
+    if within.degrees < 1:
+        return None
+    if apart_in_time(design):
+        neighbours = (np.diff(within.cell) != 0) & (np.diff(design.run) == 0)
+        steps = np.diff(within.centred)[neighbours]
+        # A mean of n̄ readings is subtracted from each, and takes a share of 1/n̄ of its variance along.
+        shares = 1.0 - 1.0 / within.count[within.cell]
+        expected = (shares[1:] + shares[:-1])[neighbours].sum()
+        if steps.size and expected > 0:
+            return float(np.sqrt(np.sum(steps**2) / expected))
+    return float(np.sqrt(within.squares / within.degrees))
 
 
 class Spread(Enum):

@@ -14,7 +14,6 @@ from zlmreport.measurement.conditions import CONDITIONS
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.model.axis_model import ModelError
 from zlmreport.model.design import Design
-from zlmreport.model.smoothing import smoothed
 from zlmreport.quantities.arrays import FloatArray, IntArray, read_only_floats, read_only_integers
 
 #: How far the axis is taken to travel beyond a target before it returns to it, m or rad.
@@ -50,6 +49,10 @@ _RESOLUTION = Words(
     en="The log of {condition} is coarse: its resolution is {share} of its range.",
     de="Die Aufzeichnung von {condition} ist grob: Ihre Auflösung beträgt das {share}-fache ihres Bereichs.",
 )
+_DEGREE = 3
+_MOST_INTERVALS = 40
+_READINGS_PER_INTERVAL = 4
+_STIFFNESSES = np.logspace(-6, 8, 71)
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,7 +87,7 @@ class Observations:
         )
 
 
-def observe(measurements: MeasurementSet, *, overrun: float | None = None) -> Observations:
+def observations_of(measurements: MeasurementSet, *, overrun: float | None = None) -> Observations:
     """Return what the error model works on; missing readings are dropped, the order is kept.
 
     Parameters
@@ -182,3 +185,67 @@ def _doubts(name: str, log: FloatArray, noise: float, variation: float) -> Itera
     steps = np.diff(np.unique(log))
     if steps.size and steps.min() > _COARSE * np.ptp(log):
         yield _RESOLUTION.given(condition=same(name), share=round(float(steps.min() / np.ptp(log)), 2))
+
+
+@dataclass(frozen=True, slots=True)
+class Smoothed:
+    """A log, smoothed.
+
+    Attributes
+    ----------
+    values : (N,) array
+        The smooth course at the readings, in the unit of the log.
+    noise
+        Standard deviation of the log about it.
+    variation
+        Standard deviation of the smooth course itself.
+    """
+
+    values: FloatArray
+    noise: float
+    variation: float
+
+
+def smoothed(moments: FloatArray, log: FloatArray) -> Smoothed:
+    """Return a log without its noise.
+
+    Parameters
+    ----------
+    moments : (N,) array
+        When it was logged; any unit, not falling.
+    log : (N,) array
+        The values; complete.
+    """
+    extent = float(np.ptp(moments))
+    intervals = min(_MOST_INTERVALS, len(log) // _READINGS_PER_INTERVAL)
+    if extent == 0 or intervals < 2 or np.ptp(log) == 0:
+        return Smoothed(log, 0.0, float(np.std(log)))
+    basis = _splines((moments - moments[0]) / extent, intervals)
+    penalty = np.diff(np.eye(basis.shape[1]), 2, axis=0)
+    # In the basis that makes both the fit and the penalty diagonal, all stiffnesses are tried at once.
+    gram = basis.T @ basis + 1e-10 * len(log) * np.eye(basis.shape[1])
+    inverse = np.linalg.inv(np.linalg.cholesky(gram))
+    bending, turn = np.linalg.eigh(inverse @ (penalty.T @ penalty) @ inverse.T)
+    orthonormal = basis @ inverse.T @ turn
+    mean = float(np.mean(log))
+    coefficients = orthonormal.T @ (log - mean)
+    shrinkage = 1.0 / (1.0 + _STIFFNESSES[:, np.newaxis] * np.maximum(bending, 0.0))
+    curves = mean + (shrinkage * coefficients) @ orthonormal.T
+    squares = np.sum((log - curves) ** 2, axis=1)
+    free = len(log) - shrinkage.sum(axis=1)
+    best = int(np.argmin(squares / free**2))
+    noise = float(np.sqrt(squares[best] / free[best]))
+    return Smoothed(curves[best], noise, float(np.std(curves[best])))
+
+
+def _splines(where: FloatArray, intervals: int) -> FloatArray:
+    """Return the cubic B-splines over equal intervals of 0 to 1, shape (N, intervals + 3)."""
+    step = 1.0 / intervals
+    knots = (np.arange(intervals + 2 * _DEGREE + 1) - _DEGREE) * step
+    inside = np.minimum(where, 1.0 - 1e-12)[:, np.newaxis]
+    values = ((inside >= knots[:-1]) & (inside < knots[1:])).astype(np.float64)
+    for degree in range(1, _DEGREE + 1):
+        rising = (inside - knots[: -degree - 1]) / (degree * step)
+        falling = (knots[degree + 1 :] - inside) / (degree * step)
+        values = rising * values[:, :-1] + falling * values[:, 1:]
+    return values

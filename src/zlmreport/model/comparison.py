@@ -1,7 +1,7 @@
-"""The contest: how much better each effect would explain the readings than the model alone.
+"""The comparison: how much better each effect would explain the readings than the model alone.
 
 Two numbers for each effect. Its likelihood ratio LR, of the best values of its parameters and of the noise,
-says whether something is missing once it is held against what chance would give (`calibration`). Its
+says whether something is missing once it is held against what chance would give (`null`). Its
 evidence, averaged over those values, says which effect it is (`evidence`). Both count the base model as zero,
 in units of 2·ln(likelihood).
 """
@@ -13,29 +13,29 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from zlmreport.model.bases import Bases, BlockGroup, Entry, bases_of
+from zlmreport.model.candidates import Bases, BlockGroup, Entry, bases_of
 from zlmreport.model.contrasts import Contrasts, Metric, contrasts_of
 from zlmreport.model.design import Design
 from zlmreport.model.effect import Effect
+from zlmreport.model.nameless import SIZES, NamelessShape, ShapeModes, modes, nameless_shapes, side_by_side
 from zlmreport.model.noise import NoisePart, NoiseSource, noise_parts, ratio_grid
-from zlmreport.model.rivals import SIZES, Rival, RivalModes, modes, rivals_of, side_by_side
 from zlmreport.quantities.arrays import FloatArray, IntArray
 
 
 @dataclass(frozen=True, slots=True)
 class Scores:
-    """How the contestants did on B sets of deviations.
+    """How effects and nameless shapes did on B sets of deviations.
 
     Attributes
     ----------
     ratios : (effects, B) array
         LR of each effect, in its best form.
-    rival_ratios : (rivals, B) array
-        LR of each rival, its coefficients averaged over.
+    nameless_ratios : (nameless, B) array
+        LR of each nameless shape, its coefficients averaged over.
     """
 
     ratios: FloatArray
-    rival_ratios: FloatArray
+    nameless_ratios: FloatArray
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,14 +50,14 @@ class Criteria:
         With each block of columns at its best coefficients; the blocks of a family side by side.
     averages : (f, blocks) array
         With the coefficients averaged over instead.
-    rivals : (φ and sizes, rivals) array
-        Of the rivals, under some φ.
+    nameless : (φ and sizes, nameless) array
+        Of the nameless shapes, under some φ.
     """
 
     null: FloatArray
     fits: FloatArray
     averages: FloatArray
-    rivals: FloatArray
+    nameless: FloatArray
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,12 +67,12 @@ class _Trial:
     index: int
     squares: FloatArray
     products: FloatArray
-    rival_products: FloatArray
+    nameless_products: FloatArray
 
 
 @dataclass(frozen=True, slots=True)
-class Contest:
-    """Everything about a contest that does not depend on what was measured.
+class Comparison:
+    """Everything about a comparison that does not depend on what was measured.
 
     Attributes
     ----------
@@ -82,21 +82,21 @@ class Contest:
         The values of φ that are tried.
     bases
         What the effects could add.
-    rivals
+    nameless
         Shapes without a name.
     """
 
     space: Contrasts
     grid: FloatArray
     bases: Bases
-    rivals: tuple[Rival, ...]
+    nameless: tuple[NamelessShape, ...]
     _metrics: tuple[Metric, ...]
     _shared: FloatArray
     _roots: tuple[tuple[FloatArray, ...], ...]
-    _rival_columns: FloatArray
-    _rival_shared: FloatArray
-    _rival_places: IntArray
-    _rival_modes: dict[int, RivalModes]
+    _nameless_columns: FloatArray
+    _nameless_shared: FloatArray
+    _nameless_places: IntArray
+    _nameless_modes: dict[int, ShapeModes]
 
     @classmethod
     def of(
@@ -107,8 +107,8 @@ class Contest:
         weights: FloatArray,
         *,
         least_visible: float = 1e-6,
-    ) -> Contest:
-        """Prepare a contest.
+    ) -> Comparison:
+        """Prepare a comparison.
 
         Parameters
         ----------
@@ -127,23 +127,23 @@ class Contest:
         space = contrasts_of(base, parts, weights)
         grid = ratio_grid(parts)
         bases = bases_of(design, space, [(effect, effect.grid(design)) for effect in effects], least_visible)
-        rivals = rivals_of(design, space)
-        columns, places = side_by_side(rivals, len(base))
+        nameless = nameless_shapes(design, space)
+        columns, places = side_by_side(nameless, len(base))
         metrics = tuple(space.metric(ratios) for ratios in grid)
-        shared, rival_shared = space.factors.T @ bases.columns, space.factors.T @ columns
+        shared, nameless_shared = space.factors.T @ bases.columns, space.factors.T @ columns
         gram = np.stack([columns[:, row].T @ columns[:, row] for row in places])
         return cls(
             space,
             grid,
             bases,
-            rivals,
+            nameless,
             metrics,
             shared,
             tuple(bases.roots(metric, shared) for metric in metrics),
             columns,
-            rival_shared,
+            nameless_shared,
             places,
-            {index: modes(metrics[index], rival_shared, gram, places) for index in _coarse(grid, parts)},
+            {index: modes(metrics[index], nameless_shared, gram, places) for index in _coarse(grid, parts)},
         )
 
     def scores(self, deviations: FloatArray) -> Scores:
@@ -151,24 +151,24 @@ class Contest:
         sets = deviations.shape[1]
         null = np.full(sets, np.inf)
         families = np.full((len(self.bases.families), sets), np.inf)
-        rivals = np.full((len(self.rivals), sets), np.inf)
+        nameless = np.full((len(self.nameless), sets), np.inf)
         for trial in self._trials(deviations):
             np.minimum(null, self._criterion(trial, trial.squares), out=null)
             for group, explained in self._explained(trial):
                 most = np.maximum.reduceat(explained, group.starts, axis=0)
                 listed = families[group.families]
                 np.minimum(listed, self._criterion(trial, trial.squares - most), out=listed)
-            for averaged in self._rival_criteria(trial):
-                np.minimum(rivals, averaged, out=rivals)
-        best = [families[list(forms)].min(axis=0) for forms in self.bases.contestants]
-        return Scores(null - np.array(best).reshape(-1, sets), null - rivals)
+            for averaged in self._nameless_criteria(trial):
+                np.minimum(nameless, averaged, out=nameless)
+        best = [families[list(forms)].min(axis=0) for forms in self.bases.by_effect]
+        return Scores(null - np.array(best).reshape(-1, sets), null - nameless)
 
     def criteria(self, deviation: FloatArray) -> Criteria:
         """Return the criteria of one set of deviations, shape (N,)."""
         null: list[float] = []
         fits: list[FloatArray] = []
         averages: list[FloatArray] = []
-        rivals: list[FloatArray] = []
+        nameless: list[FloatArray] = []
         # Variance of an effect before any reading, over that which all leave: one reading's worth.
         prior = float(self.space.degrees)
         for trial in self._trials(deviation[:, np.newaxis]):
@@ -179,27 +179,27 @@ class Contest:
             fits.append(self._criterion(trial, trial.squares - together))
             shrunk = together * prior / (1.0 + prior)
             averages.append(self._criterion(trial, trial.squares - shrunk) + rank * np.log1p(prior))
-            rivals.extend(averaged[:, 0] for averaged in self._rival_criteria(trial))
+            nameless.extend(averaged[:, 0] for averaged in self._nameless_criteria(trial))
         return Criteria(
             np.array(null),
             np.array(fits),
             np.array(averages),
-            np.array(rivals).reshape(len(rivals), len(self.rivals)),
+            np.array(nameless).reshape(len(nameless), len(self.nameless)),
         )
 
-    def of_others(self, design: Design, entries: Iterable[Entry], least_visible: float) -> Contest:
-        """Return the contest of other entries beside the same model, without rivals."""
+    def of_others(self, design: Design, entries: Iterable[Entry], least_visible: float) -> Comparison:
+        """Return the comparison of other entries beside the same model, without nameless shapes."""
         bases = bases_of(design, self.space, entries, least_visible)
         shared = self.space.factors.T @ bases.columns
         roots = tuple(bases.roots(metric, shared) for metric in self._metrics)
-        return replace(self, bases=bases, rivals=(), _shared=shared, _roots=roots)
+        return replace(self, bases=bases, nameless=(), _shared=shared, _roots=roots)
 
     def _trials(self, deviations: FloatArray) -> Iterator[_Trial]:
         contrasts = self.space.of(deviations)
         squares = np.sum(contrasts**2, axis=0)
         by_factor = self.space.factors.T @ contrasts
         by_column = self.bases.columns.T @ contrasts
-        by_rival = self._rival_columns.T @ contrasts
+        by_nameless = self._nameless_columns.T @ contrasts
         for index, metric in enumerate(self._metrics):
             coordinates = metric.coordinates(by_factor)
             back = metric.root.T @ coordinates
@@ -208,7 +208,9 @@ class Contest:
                 index,
                 squares - np.sum(coordinates**2, axis=0),
                 by_column - self._shared[active].T @ back,
-                by_rival - self._rival_shared[active].T @ back if index in self._rival_modes else by_rival,
+                by_nameless - self._nameless_shared[active].T @ back
+                if index in self._nameless_modes
+                else by_nameless,
             )
 
     def _criterion(self, trial: _Trial, squares: FloatArray) -> FloatArray:
@@ -225,12 +227,12 @@ class Contest:
                 blocks = products.reshape(group.blocks, group.width, -1)
                 yield group, np.sum((roots @ blocks) ** 2, axis=1)
 
-    def _rival_criteria(self, trial: _Trial) -> Iterator[FloatArray]:
-        """Yield for each size that is tried the criterion of every rival, shape (rivals, B)."""
-        found = self._rival_modes.get(trial.index)
-        if found is None or not self.rivals:
+    def _nameless_criteria(self, trial: _Trial) -> Iterator[FloatArray]:
+        """Yield for each size that is tried the criterion of every nameless shape, (shapes, B)."""
+        found = self._nameless_modes.get(trial.index)
+        if found is None or not self.nameless:
             return
-        squared = (found.turn @ trial.rival_products[self._rival_places]) ** 2
+        squared = (found.turn @ trial.nameless_products[self._nameless_places]) ** 2
         for size in SIZES:
             spread = 1.0 + size * found.strengths
             explained = ((size / spread)[:, np.newaxis, :] @ squared)[:, 0]
@@ -239,7 +241,7 @@ class Contest:
 
 
 def _coarse(grid: FloatArray, parts: tuple[NoisePart, ...]) -> list[int]:
-    """Return the rows of the grid under which the rivals are tried: all geometry, but little of the rest."""
+    """Return the rows of the grid for nameless shapes: all geometry, but little of the rest."""
     kept = np.ones(len(grid), dtype=np.bool_)
     for column, part in zip(grid.T, parts, strict=True):
         if part.source is not NoiseSource.POSITION:

@@ -1,1 +1,0 @@
-"""Where a model fails: tests of its residuals, each with what it shows in plain words."""
