@@ -19,8 +19,8 @@ from zlmreport.evaluation.evaluate import evaluate
 from zlmreport.job.options import Options
 from zlmreport.language import same
 from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.plugin.protocols import Standard
 from zlmreport.plugins import find_plugins
-from zlmreport.protocols import Standard
 from zlmreport.testing import simulated_test
 from zlmreport.uncertainty.budget import Budget, effect_along
 from zlmreport.uncertainty.contribution import Acts, Contribution, Distribution

@@ -12,8 +12,8 @@ from measure import Cost, Measured, Sizes, alternately, cpu, median, peak_megaby
 from sample import RUNS, TARGETS
 from zlmreport.evaluation.statistics import PositionStatistics, position_statistics
 from zlmreport.measurement.approach import Approach
+from zlmreport.plugin.protocols import Standard
 from zlmreport.plugins import find_plugins
-from zlmreport.protocols import Standard
 from zlmreport.quantities.arrays import FloatArray
 
 STANDARDS = (

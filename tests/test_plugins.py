@@ -17,8 +17,8 @@ from testing.exemplary import ExemplaryRenderer, ExemplarySource, ExemplaryStand
 from testing.exemplary_effect import ExemplaryEffect
 from testing.exemplary_program import ExemplaryProgram
 from zlmreport.errors import AccessError, InputError, Place
-from zlmreport.hookspecs import hookimpl
 from zlmreport.job.options import Options
+from zlmreport.plugin.hookspecs import hookimpl
 from zlmreport.plugins import DISABLE, FILES, Kind, Plugin, Registry, collect, find_plugins
 
 SOUND_PLUGIN = (Plugin("sound", "sound_module"), offering([ExemplaryStandard()]))
@@ -258,7 +258,7 @@ def _failed(name: str, registry: Registry) -> str:
 
 def test_installed_plugin_is_found(install: Any) -> None:
     install("mine", "from testing.exemplary import ExemplarySource\n"
-        "from zlmreport.hookspecs import hookimpl\n"
+        "from zlmreport.plugin.hookspecs import hookimpl\n"
         "@hookimpl\n"
         "def zlmreport_sources():\n"
         "    return [ExemplarySource()]\n")  # fmt: skip
@@ -314,7 +314,7 @@ def file(tmp_path: Path) -> Any:
 
 EFFECT_FILE = """\
 from testing.exemplary_effect import ExemplaryEffect
-from zlmreport.hookspecs import hookimpl
+from zlmreport.plugin.hookspecs import hookimpl
 
 class Mine(ExemplaryEffect):
     identifier = "my-effect"

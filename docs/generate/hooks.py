@@ -8,12 +8,12 @@ from collections.abc import Callable, Iterator
 
 from markdown import code, table
 
-from zlmreport import hookspecs
 from zlmreport.emulation.emulator import Emulator
 from zlmreport.foresight.motion import Motion, ProgramStop, Reading
 from zlmreport.live.reading import LiveReading
+from zlmreport.plugin import hookspecs
+from zlmreport.plugin.protocols import Connection, SourceContext
 from zlmreport.plugins import Kind
-from zlmreport.protocols import Connection, SourceContext
 from zlmreport.step_gauge.path import Probing, ProbingPath, Travel
 
 _PROTOCOLS = (

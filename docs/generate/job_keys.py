@@ -15,8 +15,8 @@ from zlmreport.job.fleet_keys import FleetKeys
 from zlmreport.job.model import JobKeys
 from zlmreport.job.options import Options
 from zlmreport.language import Language
+from zlmreport.plugin.protocols import PartProgram, ProbingProgram
 from zlmreport.plugins import find_plugins
-from zlmreport.protocols import PartProgram, ProbingProgram
 
 Schema: TypeAlias = Mapping[str, Any]
 

@@ -9,8 +9,8 @@ from markdown import table
 from zlmreport.language import Language
 from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.plugin.protocols import Standard
 from zlmreport.plugins import find_plugins
-from zlmreport.protocols import Standard
 from zlmreport.testing import simulated_test
 
 _MOST = 60

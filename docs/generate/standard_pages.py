@@ -11,8 +11,8 @@ from zlmreport.evaluation.quantity import Group
 from zlmreport.evaluation.requirements import Basis
 from zlmreport.language import Language
 from zlmreport.measurement.axis import Axis, AxisKind
+from zlmreport.plugin.protocols import Standard
 from zlmreport.plugins import find_plugins
-from zlmreport.protocols import Standard
 from zlmreport.testing import simulated_test
 
 _EN, _DE = Language.ENGLISH, Language.GERMAN

@@ -29,8 +29,8 @@ from zlmreport.job.job import Job
 from zlmreport.language import Words
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.model.study import Fitted, Study
+from zlmreport.plugin.protocols import Renderer, SourceContext, Standard, carries_attachments, relationship_of
 from zlmreport.plugins import Registry
-from zlmreport.protocols import Renderer, SourceContext, Standard, carries_attachments, relationship_of
 from zlmreport.signing.signer import Signer
 from zlmreport.step_gauge.set_up import gauge_set_up
 from zlmreport.step_gauge.uncertainty import contributions_of_job

@@ -11,11 +11,11 @@ from pydantic import Field
 from capture.moves import Axis
 from zlmreport.emulation.emulator import Emulator, Scene
 from zlmreport.errors import AccessError, Place
-from zlmreport.hookspecs import hookimpl
 from zlmreport.job.options import Options
 from zlmreport.language import same
 from zlmreport.live.reading import Fault, LiveReading
-from zlmreport.protocols import Instrument
+from zlmreport.plugin.hookspecs import hookimpl
+from zlmreport.plugin.protocols import Instrument
 
 _LOST = {"faults": Fault.BEAM_LOST, "value": float("nan"), "message": "the beam is broken"}
 

@@ -13,7 +13,7 @@ from environments import ROOT
 from zlmreport.cli.arguments import parse
 
 _MINE = """\
-from zlmreport.hookspecs import hookimpl
+from zlmreport.plugin.hookspecs import hookimpl
 from testing.exemplary_effect import ExemplaryEffect
 
 @hookimpl

@@ -13,8 +13,8 @@ import pytest
 from zlmreport.cli import main
 from zlmreport.errors import Place
 from zlmreport.measurement.axis import Axis
+from zlmreport.plugin.protocols import SourceContext
 from zlmreport.plugins import find_plugins
-from zlmreport.protocols import SourceContext
 
 SIMULATION = """\
 schema: zlmreport/simulation/1

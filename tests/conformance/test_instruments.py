@@ -6,8 +6,8 @@ from collections.abc import Callable
 
 import pytest
 
+from zlmreport.plugin.protocols import Instrument
 from zlmreport.plugins import find_plugins
-from zlmreport.protocols import Instrument
 from zlmreport.testing import INSTRUMENT_CHECKS
 
 

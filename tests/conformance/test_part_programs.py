@@ -7,8 +7,8 @@ from collections.abc import Callable
 import pytest
 
 from plugins.part_programs.controls import CONTROLS
+from zlmreport.plugin.protocols import PartProgram
 from zlmreport.plugins import find_plugins
-from zlmreport.protocols import PartProgram
 from zlmreport.testing import PART_PROGRAM_CHECKS
 
 PROGRAMS = find_plugins().part_programs

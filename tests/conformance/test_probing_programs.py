@@ -7,8 +7,8 @@ from collections.abc import Callable
 import pytest
 
 from plugins.probing_programs.languages import LANGUAGES
+from zlmreport.plugin.protocols import ProbingProgram
 from zlmreport.plugins import find_plugins
-from zlmreport.protocols import ProbingProgram
 from zlmreport.testing import PROBING_PROGRAM_CHECKS
 
 PROGRAMS = find_plugins().probing_programs

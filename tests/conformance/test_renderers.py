@@ -6,8 +6,8 @@ from collections.abc import Callable
 
 import pytest
 
+from zlmreport.plugin.protocols import Renderer
 from zlmreport.plugins import find_plugins
-from zlmreport.protocols import Renderer
 from zlmreport.testing import RENDERER_CHECKS
 
 RENDERERS = find_plugins().renderers

@@ -11,8 +11,8 @@ import pytest
 from environments import ROOT
 from zlmreport.errors import Place
 from zlmreport.measurement.axis import Axis, AxisKind
+from zlmreport.plugin.protocols import SourceContext
 from zlmreport.plugins import find_plugins
-from zlmreport.protocols import SourceContext
 from zlmreport.step_gauge.calibration_file import read_calibration
 from zlmreport.step_gauge.set_up import GaugeSetUp
 from zlmreport.testing import SOURCE_CHECKS

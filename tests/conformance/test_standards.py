@@ -6,8 +6,8 @@ from collections.abc import Callable
 
 import pytest
 
+from zlmreport.plugin.protocols import Standard
 from zlmreport.plugins import find_plugins
-from zlmreport.protocols import Standard
 from zlmreport.testing import STANDARD_CHECKS
 
 STANDARDS = find_plugins().standards

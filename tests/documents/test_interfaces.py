@@ -8,11 +8,12 @@ import re
 import pytest
 
 from documents.pages import DOCS
-from zlmreport import errors, hookspecs
+from zlmreport import errors
 from zlmreport.emulation.emulator import Emulator
 from zlmreport.live.reading import LiveReading
+from zlmreport.plugin import hookspecs
+from zlmreport.plugin.protocols import Connection, SourceContext
 from zlmreport.plugins import Kind
-from zlmreport.protocols import Connection, SourceContext
 
 _PAGE = (DOCS / "reference" / "plugin-interfaces.md").read_text(encoding="utf-8")
 _LIVE_HOOKS = [

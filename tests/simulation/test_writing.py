@@ -10,7 +10,7 @@ import pytest
 from simulation.files import REGISTRY, SOUND, described, loaded, with_line
 from zlmreport.errors import Place
 from zlmreport.measurement.measurement_set import MeasurementSet
-from zlmreport.protocols import SourceContext
+from zlmreport.plugin.protocols import SourceContext
 from zlmreport.simulation.simulate import simulate
 from zlmreport.simulation.writing import job_text, readings_table
 

@@ -23,7 +23,7 @@ from zlmreport.job.options import JobPath, Options
 from zlmreport.language import Words, same
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.measurement.provenance import Provenance, SourceFile
-from zlmreport.protocols import SourceContext
+from zlmreport.plugin.protocols import SourceContext
 from zlmreport.testing import bidirectional_test
 
 

@@ -17,7 +17,7 @@ from zlmreport.job.options import JobPath, Options
 from zlmreport.language import Words, same
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.measurement_set import MeasurementSet
-from zlmreport.protocols import SourceContext
+from zlmreport.plugin.protocols import SourceContext
 from zlmreport.quantities.arrays import read_only_floats, read_only_integers
 from zlmreport.testing import SOURCE_CHECKS, check_source, simulated_test, sources
 

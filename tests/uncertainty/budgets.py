@@ -9,7 +9,7 @@ from plugins.standards.installed import STANDARDS
 from zlmreport.evaluation.evaluate import evaluate
 from zlmreport.language import same
 from zlmreport.measurement.measurement_set import MeasurementSet
-from zlmreport.protocols import Standard
+from zlmreport.plugin.protocols import Standard
 from zlmreport.uncertainty.budget import Budget
 from zlmreport.uncertainty.contribution import Acts, Contribution, Distribution
 from zlmreport.uncertainty.monte_carlo import TRIALS, Expanded, propagate

@@ -19,7 +19,7 @@ from verification.issued import (
 from verification.test_verify import differing
 from zlmreport import pipeline
 from zlmreport.job.loading import load
-from zlmreport.protocols import made
+from zlmreport.plugin.protocols import made
 from zlmreport.verification import verify as verifying
 from zlmreport.verification.findings import Verdict, Verification
 

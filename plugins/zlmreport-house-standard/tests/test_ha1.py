@@ -8,14 +8,19 @@ from functools import partial
 
 import pytest
 
-from zlmreport.evaluation.decision import decided, decision_rule
-from zlmreport.evaluation.evaluate import evaluate
-from zlmreport.language import same
-from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.plugin import (
+    Acts,
+    Budget,
+    Contribution,
+    Distribution,
+    MeasurementSet,
+    decided,
+    decision_rule,
+    evaluate,
+    same_in_all_languages,
+    with_uncertainty,
+)
 from zlmreport.testing import STANDARD_CHECKS, bidirectional_test
-from zlmreport.uncertainty.budget import Budget
-from zlmreport.uncertainty.contribution import Acts, Contribution, Distribution
-from zlmreport.uncertainty.expanded import with_uncertainty
 from zlmreport_house_standard.ha1 import HouseAcceptance, HouseAcceptanceOptions
 
 #: The worked example of the rule: mm, and µm in a row for each target.
@@ -57,7 +62,12 @@ def test_the_uncertainty_of_its_parameters_takes_no_work_of_its_own(example: Mea
     options = HouseAcceptanceOptions()
     evaluation = evaluate(HouseAcceptance(), example, options, {})
     error = Contribution(
-        same("noise"), 0.1e-6, Acts.AT_EACH_READING, Distribution.NORMAL, same("u = 0.1 µm"), same("")
+        same_in_all_languages("noise"),
+        0.1e-6,
+        Acts.AT_EACH_READING,
+        Distribution.NORMAL,
+        same_in_all_languages("u = 0.1 µm"),
+        same_in_all_languages(""),
     )
 
     (found,) = with_uncertainty(

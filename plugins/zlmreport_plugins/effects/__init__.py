@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from zlmreport.hookspecs import hookimpl
-from zlmreport.protocols import Effect
+from zlmreport.plugin import Effect, hookimpl
 from zlmreport_plugins.effects.abbe import Abbe
 from zlmreport_plugins.effects.air_index import AirIndex
 from zlmreport_plugins.effects.backlash import Backlash

@@ -4,13 +4,19 @@ from __future__ import annotations
 
 import numpy as np
 
-from zlmreport.language import Words
-from zlmreport.measurement.axis import Axis
-from zlmreport.model import needs
-from zlmreport.model.design import Design
-from zlmreport.model.effect import Confusion, Effect, Shape
-from zlmreport.model.parameter import Dimension, Parameter
-from zlmreport.quantities.arrays import FloatArray
+from zlmreport.plugin import (
+    Axis,
+    Confusion,
+    Design,
+    Dimension,
+    Effect,
+    FloatArray,
+    Parameter,
+    Shape,
+    Words,
+    needs_linear_axis,
+    needs_stated,
+)
 from zlmreport_plugins.effects import told_apart
 
 
@@ -46,7 +52,7 @@ class Abbe(Effect):
 
     def untestable(self, design: Design) -> Words | None:
         """Demand a linear axis, and the record of its angles."""
-        return needs.linear_axis(design) or needs.stated(design.axis.angular_errors, "axis.angular_errors")
+        return needs_linear_axis(design) or needs_stated(design.axis.angular_errors, "axis.angular_errors")
 
     def columns(self, design: Design, theta: FloatArray) -> FloatArray:  # noqa: ARG002 - no θ
         """Return one column: the angle at the position."""

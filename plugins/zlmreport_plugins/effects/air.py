@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-from zlmreport.correction.refractive_index import index_change
-from zlmreport.measurement.conditions import STATE_OF_AIR
-from zlmreport.model.design import Design
-from zlmreport.quantities.arrays import FloatArray
+from zlmreport.plugin import STATE_OF_AIR, Design, FloatArray, index_change
 
 LOGS = STATE_OF_AIR
 

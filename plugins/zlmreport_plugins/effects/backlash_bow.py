@@ -4,12 +4,18 @@ from __future__ import annotations
 
 import numpy as np
 
-from zlmreport.language import Words
-from zlmreport.model import needs
-from zlmreport.model.design import Design
-from zlmreport.model.effect import Confusion, Effect, Shape
-from zlmreport.model.parameter import Dimension, Parameter
-from zlmreport.quantities.arrays import FloatArray
+from zlmreport.plugin import (
+    Confusion,
+    Design,
+    Dimension,
+    Effect,
+    FloatArray,
+    Parameter,
+    Shape,
+    Words,
+    needs_both_directions,
+    needs_targets,
+)
 from zlmreport_plugins.effects import told_apart
 
 
@@ -38,7 +44,7 @@ class BacklashBow(Effect):
 
     def untestable(self, design: Design) -> Words | None:
         """Demand both directions, and targets between the ends."""
-        return needs.both_directions(design) or needs.targets(design, 3)
+        return needs_both_directions(design) or needs_targets(design, 3)
 
     def columns(self, design: Design, theta: FloatArray) -> FloatArray:  # noqa: ARG002 - no θ
         """Return one column: a parabola over the travel, with the sign of the approach."""

@@ -4,12 +4,17 @@ from __future__ import annotations
 
 import numpy as np
 
-from zlmreport.language import Words
-from zlmreport.model import needs
-from zlmreport.model.design import Design
-from zlmreport.model.effect import Confusion, Effect, Shape
-from zlmreport.model.parameter import Dimension, Parameter
-from zlmreport.quantities.arrays import FloatArray
+from zlmreport.plugin import (
+    Confusion,
+    Design,
+    Dimension,
+    Effect,
+    FloatArray,
+    Parameter,
+    Shape,
+    Words,
+    needs_both_directions,
+)
 from zlmreport_plugins.effects import told_apart
 
 
@@ -42,7 +47,7 @@ class BacklashGradient(Effect):
 
     def untestable(self, design: Design) -> Words | None:
         """Demand both directions."""
-        return needs.both_directions(design)
+        return needs_both_directions(design)
 
     def columns(self, design: Design, theta: FloatArray) -> FloatArray:  # noqa: ARG002 - no θ
         """Return one column: the position, with the sign of the approach."""

@@ -7,14 +7,19 @@ from typing import Literal
 import numpy as np
 from pydantic import Field
 
-from zlmreport.job.options import Options
-from zlmreport.language import Words
-from zlmreport.measurement.axis import Axis
-from zlmreport.model import needs
-from zlmreport.model.design import Design
-from zlmreport.model.effect import Confusion, Effect, Shape
-from zlmreport.model.parameter import Dimension, Parameter
-from zlmreport.quantities.arrays import FloatArray
+from zlmreport.plugin import (
+    Axis,
+    Confusion,
+    Design,
+    Dimension,
+    Effect,
+    FloatArray,
+    Options,
+    Parameter,
+    Shape,
+    Words,
+    needs_stated,
+)
 from zlmreport_plugins.effects import told_apart
 
 
@@ -67,7 +72,7 @@ class CompensationShift(Effect):
 
     def untestable(self, design: Design) -> Words | None:
         """Demand the table."""
-        return needs.stated(design.axis.compensation_table, "axis.compensation_table")
+        return needs_stated(design.axis.compensation_table, "axis.compensation_table")
 
     def columns(self, design: Design, theta: FloatArray) -> FloatArray:  # noqa: ARG002 - no θ
         """Return one column: what the table should do, less what it does."""

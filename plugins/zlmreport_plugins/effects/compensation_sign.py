@@ -4,12 +4,17 @@ from __future__ import annotations
 
 import numpy as np
 
-from zlmreport.language import Words
-from zlmreport.model import needs
-from zlmreport.model.design import Design
-from zlmreport.model.effect import Confusion, Effect, Shape
-from zlmreport.model.parameter import Dimension, Parameter
-from zlmreport.quantities.arrays import FloatArray
+from zlmreport.plugin import (
+    Confusion,
+    Design,
+    Dimension,
+    Effect,
+    FloatArray,
+    Parameter,
+    Shape,
+    Words,
+    needs_stated,
+)
 from zlmreport_plugins.effects import told_apart
 
 
@@ -51,7 +56,7 @@ class CompensationSign(Effect):
 
     def untestable(self, design: Design) -> Words | None:
         """Demand the table."""
-        return needs.stated(design.axis.compensation_table, "axis.compensation_table")
+        return needs_stated(design.axis.compensation_table, "axis.compensation_table")
 
     def columns(self, design: Design, theta: FloatArray) -> FloatArray:  # noqa: ARG002 - no θ
         """Return one column: C(P)."""

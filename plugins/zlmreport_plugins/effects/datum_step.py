@@ -4,12 +4,17 @@ from __future__ import annotations
 
 import numpy as np
 
-from zlmreport.language import Words
-from zlmreport.model import needs
-from zlmreport.model.design import Design
-from zlmreport.model.effect import Confusion, Effect, Shape
-from zlmreport.model.parameter import Dimension, Parameter
-from zlmreport.quantities.arrays import FloatArray
+from zlmreport.plugin import (
+    Confusion,
+    Design,
+    Dimension,
+    Effect,
+    FloatArray,
+    Parameter,
+    Shape,
+    Words,
+    needs_passing_time,
+)
 from zlmreport_plugins.effects import told_apart
 
 _MOST_MOMENTS = 200
@@ -55,7 +60,7 @@ class DatumStep(Effect):
     def untestable(self, design: Design) -> Words | None:
         """Demand readings at several moments."""
         few = len(np.unique(design.time)) < _LEAST_MOMENTS
-        return (needs.passing_time(design) or _FEW_MOMENTS) if few else None
+        return (needs_passing_time(design) or _FEW_MOMENTS) if few else None
 
     def grid(self, design: Design) -> FloatArray:
         """Return moments between readings, spread evenly over them, but for the first and the last gap."""

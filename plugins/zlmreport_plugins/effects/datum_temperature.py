@@ -4,13 +4,18 @@ from __future__ import annotations
 
 import numpy as np
 
-from zlmreport.language import Words
-from zlmreport.model import needs
-from zlmreport.model.design import Design
-from zlmreport.model.effect import Confusion, Effect, Shape
-from zlmreport.model.parameter import Dimension, Parameter
-from zlmreport.quantities.arrays import FloatArray
-from zlmreport.quantities.temperature import above_reference
+from zlmreport.plugin import (
+    Confusion,
+    Design,
+    Dimension,
+    Effect,
+    FloatArray,
+    Parameter,
+    Shape,
+    Words,
+    above_reference_temperature,
+    needs_logged,
+)
 from zlmreport_plugins.effects import told_apart
 
 _LOG = "axis_temperature"
@@ -41,8 +46,8 @@ class DatumTemperature(Effect):
 
     def untestable(self, design: Design) -> Words | None:
         """Demand the temperature of the axis."""
-        return needs.logged(design, _LOG)
+        return needs_logged(design, _LOG)
 
     def columns(self, design: Design, theta: FloatArray) -> FloatArray:  # noqa: ARG002 - no θ
         """Return one column: temperature above 20 °C."""
-        return above_reference(design.conditions[_LOG])[:, np.newaxis]
+        return above_reference_temperature(design.conditions[_LOG])[:, np.newaxis]

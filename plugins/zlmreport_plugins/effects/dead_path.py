@@ -4,12 +4,18 @@ from __future__ import annotations
 
 import numpy as np
 
-from zlmreport.language import Words
-from zlmreport.model import needs
-from zlmreport.model.design import Design
-from zlmreport.model.effect import Confusion, Effect, Shape
-from zlmreport.model.parameter import Dimension, Parameter
-from zlmreport.quantities.arrays import FloatArray
+from zlmreport.plugin import (
+    Confusion,
+    Design,
+    Dimension,
+    Effect,
+    FloatArray,
+    Parameter,
+    Shape,
+    Words,
+    needs_linear_axis,
+    needs_logged,
+)
 from zlmreport_plugins.effects import told_apart
 from zlmreport_plugins.effects.air import LOGS, logged_index_change
 
@@ -46,7 +52,7 @@ class DeadPath(Effect):
 
     def untestable(self, design: Design) -> Words | None:
         """Demand a linear axis, and the state of the air."""
-        return needs.linear_axis(design) or needs.logged(design, *LOGS)
+        return needs_linear_axis(design) or needs_logged(design, *LOGS)
 
     def columns(self, design: Design, theta: FloatArray) -> FloatArray:  # noqa: ARG002 - no θ
         """Return one column: change of the index."""

@@ -4,14 +4,20 @@ from __future__ import annotations
 
 import numpy as np
 
-from zlmreport.language import Words
-from zlmreport.measurement.axis import Axis
-from zlmreport.model import needs
-from zlmreport.model.design import Design
-from zlmreport.model.effect import Effect, Shape
-from zlmreport.model.harmonic import harmonic_columns, harmonic_parameters
-from zlmreport.model.parameter import Dimension, Parameter
-from zlmreport.quantities.arrays import FloatArray
+from zlmreport.plugin import (
+    Axis,
+    Design,
+    Dimension,
+    Effect,
+    FloatArray,
+    Parameter,
+    Shape,
+    Words,
+    harmonic_columns,
+    harmonic_parameters,
+    needs_both_directions,
+    needs_whole_period,
+)
 
 _KEY = "axis.screw_pitch"
 _LARGEST = 3e-6
@@ -44,7 +50,7 @@ class DirectionalPitch(Effect):
 
     def untestable(self, design: Design) -> Words | None:
         """Demand both directions, the pitch, and a travel of one turn."""
-        return needs.both_directions(design) or needs.whole_period(design, design.axis.screw_pitch, _KEY)
+        return needs_both_directions(design) or needs_whole_period(design, design.axis.screw_pitch, _KEY)
 
     def grid(self, design: Design) -> FloatArray:
         """Return the pitch that the job states: it is known."""

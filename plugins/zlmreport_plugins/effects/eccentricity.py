@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
-from zlmreport.language import Words
-from zlmreport.model import needs
-from zlmreport.model.design import Design
-from zlmreport.model.effect import Confusion, Effect, Shape
-from zlmreport.model.harmonic import harmonic_columns, harmonic_parameters
-from zlmreport.quantities.arrays import FloatArray
+from zlmreport.plugin import (
+    Confusion,
+    Design,
+    Effect,
+    FloatArray,
+    Shape,
+    Words,
+    harmonic_columns,
+    harmonic_parameters,
+    needs_rotary_axis,
+)
 from zlmreport_plugins.effects import told_apart
 
 _LARGEST = 200e-6
@@ -35,7 +40,7 @@ class Eccentricity(Effect):
 
     def untestable(self, design: Design) -> Words | None:
         """Demand a rotary axis."""
-        return needs.rotary_axis(design)
+        return needs_rotary_axis(design)
 
     def columns(self, design: Design, theta: FloatArray) -> FloatArray:  # noqa: ARG002 - no θ
         """Return sine and cosine."""

@@ -4,14 +4,19 @@ from __future__ import annotations
 
 import numpy as np
 
-from zlmreport.language import Words
-from zlmreport.measurement.axis import Axis
-from zlmreport.model import needs
-from zlmreport.model.design import Design
-from zlmreport.model.effect import Effect, Shape
-from zlmreport.model.harmonic import harmonic_columns, harmonic_parameters
-from zlmreport.model.parameter import Dimension, Parameter
-from zlmreport.quantities.arrays import FloatArray
+from zlmreport.plugin import (
+    Axis,
+    Design,
+    Dimension,
+    Effect,
+    FloatArray,
+    Parameter,
+    Shape,
+    Words,
+    harmonic_columns,
+    harmonic_parameters,
+    needs_whole_period,
+)
 from zlmreport_plugins.effects.harmonic_options import COMBINATIONS, HarmonicOptions
 
 _KEY = "axis.signal_period"
@@ -62,7 +67,7 @@ class EncoderInterpolation(Effect):
 
     def untestable(self, design: Design) -> Words | None:
         """Demand the signal period, and a travel that holds one."""
-        return needs.whole_period(design, design.axis.signal_period, _KEY)
+        return needs_whole_period(design, design.axis.signal_period, _KEY)
 
     def grid(self, design: Design) -> FloatArray:
         """Return the signal period that the job states: it is known."""

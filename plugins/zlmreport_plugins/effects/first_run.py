@@ -4,12 +4,17 @@ from __future__ import annotations
 
 import numpy as np
 
-from zlmreport.language import Words
-from zlmreport.model import needs
-from zlmreport.model.design import Design
-from zlmreport.model.effect import Confusion, Effect, Shape
-from zlmreport.model.parameter import Dimension, Parameter
-from zlmreport.quantities.arrays import FloatArray
+from zlmreport.plugin import (
+    Confusion,
+    Design,
+    Dimension,
+    Effect,
+    FloatArray,
+    Parameter,
+    Shape,
+    Words,
+    needs_runs,
+)
 from zlmreport_plugins.effects import told_apart
 
 #: With two runs nothing says which of them stands off.
@@ -44,7 +49,7 @@ class FirstRun(Effect):
 
     def untestable(self, design: Design) -> Words | None:
         """Demand other runs to compare with."""
-        return needs.runs(design, _LEAST_RUNS)
+        return needs_runs(design, _LEAST_RUNS)
 
     def columns(self, design: Design, theta: FloatArray) -> FloatArray:  # noqa: ARG002 - no θ
         """Return one column: 1 in the first run."""

@@ -6,14 +6,21 @@ import math
 
 import numpy as np
 
-from zlmreport.language import Words
-from zlmreport.measurement.axis import Axis
-from zlmreport.model import needs
-from zlmreport.model.design import Design
-from zlmreport.model.effect import Confusion, Effect, Shape
-from zlmreport.model.harmonic import harmonic_columns, harmonic_parameters
-from zlmreport.model.parameter import Dimension, Parameter
-from zlmreport.quantities.arrays import FloatArray
+from zlmreport.plugin import (
+    Axis,
+    Confusion,
+    Design,
+    Dimension,
+    Effect,
+    FloatArray,
+    Parameter,
+    Shape,
+    Words,
+    harmonic_columns,
+    harmonic_parameters,
+    needs_rotary_axis,
+    needs_targets,
+)
 from zlmreport_plugins.effects import told_apart
 
 _LARGEST = 200e-6
@@ -54,7 +61,7 @@ class GearMesh(Effect):
 
     def untestable(self, design: Design) -> Words | None:
         """Demand a rotary axis, and enough targets for a wave."""
-        return needs.rotary_axis(design) or needs.targets(design, _LEAST_TARGETS)
+        return needs_rotary_axis(design) or needs_targets(design, _LEAST_TARGETS)
 
     def grid(self, design: Design) -> FloatArray:
         """Return the number that the job states, or the numbers that the targets can tell."""

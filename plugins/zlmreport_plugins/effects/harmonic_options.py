@@ -6,7 +6,7 @@ from typing import Annotated
 
 from pydantic import AfterValidator, Field
 
-from zlmreport.job.options import Options
+from zlmreport.plugin import Options
 
 #: In which a contest tries such an effect.
 COMBINATIONS = ((1,), (2,), (1, 2))

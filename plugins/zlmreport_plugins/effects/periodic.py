@@ -4,13 +4,19 @@ from __future__ import annotations
 
 import numpy as np
 
-from zlmreport.language import Words
-from zlmreport.model import needs
-from zlmreport.model.design import Design
-from zlmreport.model.effect import Confusion, Effect, Shape
-from zlmreport.model.harmonic import harmonic_columns, harmonic_parameters
-from zlmreport.model.parameter import Dimension, Parameter
-from zlmreport.quantities.arrays import FloatArray
+from zlmreport.plugin import (
+    Confusion,
+    Design,
+    Dimension,
+    Effect,
+    FloatArray,
+    Parameter,
+    Shape,
+    Words,
+    harmonic_columns,
+    harmonic_parameters,
+    needs_targets,
+)
 from zlmreport_plugins.effects import told_apart
 
 _LARGEST = 20e-6
@@ -56,7 +62,7 @@ class Periodic(Effect):
 
     def untestable(self, design: Design) -> Words | None:
         """Demand enough targets for a wave."""
-        return needs.targets(design, _LEAST_TARGETS)
+        return needs_targets(design, _LEAST_TARGETS)
 
     def grid(self, design: Design) -> FloatArray:
         """Return periods, even in 1/Λ: steps by which a wave shifts a quarter of a period over the travel."""

@@ -5,13 +5,18 @@ from __future__ import annotations
 import numpy as np
 from pydantic import Field
 
-from zlmreport.job.options import Options
-from zlmreport.language import Words
-from zlmreport.model import needs
-from zlmreport.model.design import Design
-from zlmreport.model.effect import Confusion, Effect, Shape
-from zlmreport.model.parameter import Dimension, Parameter
-from zlmreport.quantities.arrays import FloatArray
+from zlmreport.plugin import (
+    Confusion,
+    Design,
+    Dimension,
+    Effect,
+    FloatArray,
+    Options,
+    Parameter,
+    Shape,
+    Words,
+    needs_targets,
+)
 from zlmreport_plugins.effects import told_apart
 
 _ORDERS_OF_A_CONTEST = (2, 3, 4, 5)
@@ -66,7 +71,7 @@ class Polynomial(Effect):
 
     def untestable(self, design: Design) -> Words | None:
         """Demand more targets than coefficients."""
-        return needs.targets(design, self.order + 2)
+        return needs_targets(design, self.order + 2)
 
     def columns(self, design: Design, theta: FloatArray) -> FloatArray:  # noqa: ARG002 - no θ
         """Return the powers of p."""

@@ -4,12 +4,18 @@ from __future__ import annotations
 
 import numpy as np
 
-from zlmreport.language import Words
-from zlmreport.model import needs
-from zlmreport.model.design import Design
-from zlmreport.model.effect import Confusion, Effect, Shape
-from zlmreport.model.parameter import Dimension, Parameter
-from zlmreport.quantities.arrays import FloatArray
+from zlmreport.plugin import (
+    Confusion,
+    Design,
+    Dimension,
+    Effect,
+    FloatArray,
+    Parameter,
+    Shape,
+    Words,
+    needs_linear_axis,
+    needs_logged,
+)
 from zlmreport_plugins.effects import told_apart
 from zlmreport_plugins.effects.faces import FACE
 
@@ -43,7 +49,7 @@ class ProbeRadius(Effect):
 
     def untestable(self, design: Design) -> Words | None:
         """Demand a linear axis, and the faces."""
-        return needs.linear_axis(design) or needs.logged(design, FACE)
+        return needs_linear_axis(design) or needs_logged(design, FACE)
 
     def columns(self, design: Design, theta: FloatArray) -> FloatArray:  # noqa: ARG002 - no θ
         """Return one column: the sign of the face."""

@@ -4,12 +4,17 @@ from __future__ import annotations
 
 import numpy as np
 
-from zlmreport.language import Words
-from zlmreport.model import needs
-from zlmreport.model.design import Design
-from zlmreport.model.effect import Confusion, Effect, Shape
-from zlmreport.model.parameter import Dimension, Parameter
-from zlmreport.quantities.arrays import FloatArray
+from zlmreport.plugin import (
+    Confusion,
+    Design,
+    Dimension,
+    Effect,
+    FloatArray,
+    Parameter,
+    Shape,
+    Words,
+    needs_targets,
+)
 from zlmreport_plugins.effects import told_apart
 
 #: Of the travel: a shorter distance ends before the second target, a longer one is a straight line.
@@ -62,7 +67,7 @@ class ReversalRelaxation(Effect):
 
     def untestable(self, design: Design) -> Words | None:
         """Demand targets at different distances."""
-        return needs.targets(design, 3)
+        return needs_targets(design, 3)
 
     def grid(self, design: Design) -> FloatArray:
         """Return lengths in a geometric row."""

@@ -4,12 +4,17 @@ from __future__ import annotations
 
 import numpy as np
 
-from zlmreport.language import Words
-from zlmreport.model import needs
-from zlmreport.model.design import Design
-from zlmreport.model.effect import Confusion, Effect, Shape
-from zlmreport.model.parameter import Dimension, Parameter
-from zlmreport.quantities.arrays import FloatArray
+from zlmreport.plugin import (
+    Confusion,
+    Design,
+    Dimension,
+    Effect,
+    FloatArray,
+    Parameter,
+    Shape,
+    Words,
+    needs_targets,
+)
 from zlmreport_plugins.effects import told_apart
 
 _LEAST_TARGETS = 5
@@ -52,7 +57,7 @@ class ScaleJoint(Effect):
 
     def untestable(self, design: Design) -> Words | None:
         """Demand targets on both sides of an inner gap."""
-        return needs.targets(design, _LEAST_TARGETS)
+        return needs_targets(design, _LEAST_TARGETS)
 
     def grid(self, design: Design) -> FloatArray:
         """Return the middle of every gap between targets but the outer ones."""

@@ -7,14 +7,20 @@ from typing import Literal
 import numpy as np
 from pydantic import Field
 
-from zlmreport.job.options import Options
-from zlmreport.language import Words
-from zlmreport.model import needs
-from zlmreport.model.design import Design
-from zlmreport.model.effect import Confusion, Effect, Shape
-from zlmreport.model.parameter import Dimension, Parameter
-from zlmreport.quantities.arrays import FloatArray
-from zlmreport.quantities.temperature import above_reference
+from zlmreport.plugin import (
+    Confusion,
+    Design,
+    Dimension,
+    Effect,
+    FloatArray,
+    Options,
+    Parameter,
+    Shape,
+    Words,
+    above_reference_temperature,
+    needs_linear_axis,
+    needs_logged,
+)
 from zlmreport_plugins.effects import told_apart
 
 _LOG = "screw_temperature"
@@ -73,10 +79,12 @@ class ScrewExpansion(Effect):
 
     def untestable(self, design: Design) -> Words | None:
         """Demand a linear axis, and the temperature of the screw."""
-        return needs.linear_axis(design) or needs.logged(design, _LOG)
+        return needs_linear_axis(design) or needs_logged(design, _LOG)
 
     def columns(self, design: Design, theta: FloatArray) -> FloatArray:  # noqa: ARG002 - no θ
         """Return one column: distance from the bearing times temperature above 20 °C."""
         first, last = design.axis.travel or design.span
         bearing = first if self.fixed_bearing == "first" else last
-        return ((design.position - bearing) * above_reference(design.conditions[_LOG]))[:, np.newaxis]
+        return ((design.position - bearing) * above_reference_temperature(design.conditions[_LOG]))[
+            :, np.newaxis
+        ]

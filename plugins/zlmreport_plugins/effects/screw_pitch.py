@@ -4,14 +4,21 @@ from __future__ import annotations
 
 import numpy as np
 
-from zlmreport.language import Words
-from zlmreport.measurement.axis import Axis
-from zlmreport.model import needs
-from zlmreport.model.design import Design
-from zlmreport.model.effect import Confusion, Effect, Shape
-from zlmreport.model.harmonic import harmonic_columns, harmonic_parameters
-from zlmreport.model.parameter import Dimension, Parameter
-from zlmreport.quantities.arrays import FloatArray
+from zlmreport.plugin import (
+    Axis,
+    Confusion,
+    Design,
+    Dimension,
+    Effect,
+    FloatArray,
+    Parameter,
+    Shape,
+    Words,
+    harmonic_columns,
+    harmonic_parameters,
+    needs_linear_axis,
+    needs_whole_period,
+)
 from zlmreport_plugins.effects import told_apart
 from zlmreport_plugins.effects.harmonic_options import COMBINATIONS, HarmonicOptions
 
@@ -61,7 +68,7 @@ class ScrewPitch(Effect):
 
     def untestable(self, design: Design) -> Words | None:
         """Demand a linear axis, its pitch, and a travel of one turn."""
-        return needs.linear_axis(design) or needs.whole_period(design, design.axis.screw_pitch, _KEY)
+        return needs_linear_axis(design) or needs_whole_period(design, design.axis.screw_pitch, _KEY)
 
     def grid(self, design: Design) -> FloatArray:
         """Return the pitch that the job states: it is known."""

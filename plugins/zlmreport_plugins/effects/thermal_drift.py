@@ -4,12 +4,17 @@ from __future__ import annotations
 
 import numpy as np
 
-from zlmreport.language import Words
-from zlmreport.model import needs
-from zlmreport.model.design import Design
-from zlmreport.model.effect import Confusion, Effect, Shape
-from zlmreport.model.parameter import Dimension, Parameter
-from zlmreport.quantities.arrays import FloatArray
+from zlmreport.plugin import (
+    Confusion,
+    Design,
+    Dimension,
+    Effect,
+    FloatArray,
+    Parameter,
+    Shape,
+    Words,
+    needs_passing_time,
+)
 from zlmreport_plugins.effects import told_apart
 from zlmreport_plugins.effects.time_constants import time_constants, warmed_up
 
@@ -57,7 +62,7 @@ class ThermalDrift(Effect):
 
     def untestable(self, design: Design) -> Words | None:
         """Demand that time passes."""
-        return needs.passing_time(design)
+        return needs_passing_time(design)
 
     def grid(self, design: Design) -> FloatArray:
         """Return time constants."""

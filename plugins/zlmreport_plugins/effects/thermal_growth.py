@@ -4,12 +4,18 @@ from __future__ import annotations
 
 import numpy as np
 
-from zlmreport.language import Words
-from zlmreport.model import needs
-from zlmreport.model.design import Design
-from zlmreport.model.effect import Confusion, Effect, Shape
-from zlmreport.model.parameter import Dimension, Parameter
-from zlmreport.quantities.arrays import FloatArray
+from zlmreport.plugin import (
+    Confusion,
+    Design,
+    Dimension,
+    Effect,
+    FloatArray,
+    Parameter,
+    Shape,
+    Words,
+    needs_linear_axis,
+    needs_passing_time,
+)
 from zlmreport_plugins.effects import told_apart
 from zlmreport_plugins.effects.time_constants import time_constants, warmed_up
 
@@ -57,7 +63,7 @@ class ThermalGrowth(Effect):
 
     def untestable(self, design: Design) -> Words | None:
         """Demand a linear axis, and that time passes."""
-        return needs.linear_axis(design) or needs.passing_time(design)
+        return needs_linear_axis(design) or needs_passing_time(design)
 
     def grid(self, design: Design) -> FloatArray:
         """Return time constants."""

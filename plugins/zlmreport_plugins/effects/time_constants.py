@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from zlmreport.model.design import Design
-from zlmreport.quantities.arrays import FloatArray
+from zlmreport.plugin import Design, FloatArray
 
 #: Of the duration: a shorter one ends with the first readings, a longer one is a straight line.
 _SHORTEST, _LONGEST = 0.05, 1.5

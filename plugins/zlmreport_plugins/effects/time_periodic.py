@@ -4,13 +4,19 @@ from __future__ import annotations
 
 import numpy as np
 
-from zlmreport.language import Words
-from zlmreport.model import needs
-from zlmreport.model.design import Design
-from zlmreport.model.effect import Confusion, Effect, Shape
-from zlmreport.model.harmonic import harmonic_columns, harmonic_parameters
-from zlmreport.model.parameter import Dimension, Parameter
-from zlmreport.quantities.arrays import FloatArray
+from zlmreport.plugin import (
+    Confusion,
+    Design,
+    Dimension,
+    Effect,
+    FloatArray,
+    Parameter,
+    Shape,
+    Words,
+    harmonic_columns,
+    harmonic_parameters,
+    needs_passing_time,
+)
 from zlmreport_plugins.effects import told_apart
 
 _LARGEST = 10e-6
@@ -43,7 +49,7 @@ class TimePeriodic(Effect):
 
     def untestable(self, design: Design) -> Words | None:
         """Demand that time passes."""
-        return needs.passing_time(design)
+        return needs_passing_time(design)
 
     def grid(self, design: Design) -> FloatArray:
         """Return periods, even in 1/T."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from zlmreport.language import Words
+from zlmreport.plugin import Words
 
 BEAM_REALIGNED = Words(
     en="align the beam anew until it returns to the same spot along the whole travel, and repeat",

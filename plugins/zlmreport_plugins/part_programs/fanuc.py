@@ -19,17 +19,17 @@ from typing import Any, Literal
 
 from pydantic import Field
 
-from zlmreport.foresight.motion import Motion
-from zlmreport.foresight.program_text import (
+from zlmreport.plugin import (
+    Motion,
+    PartProgram,
     ProgramOptions,
+    Words,
     axis_address,
-    heading,
+    hookimpl,
+    program_heading,
     program_number,
-    remark,
+    reading_remark,
 )
-from zlmreport.hookspecs import hookimpl
-from zlmreport.language import Words
-from zlmreport.protocols import PartProgram
 
 _ADDRESS = re.compile("[XYZABCUVW]")
 
@@ -66,7 +66,7 @@ def _lines(motion: Motion, options: FanucOptions) -> Iterator[str]:
     axis = axis_address(motion, options, _ADDRESS, "X, Y, Z, A, B, C, U, V or W")
     yield "%"
     yield f"O{options.number:04d}"
-    yield from (_remark(text) for text in heading(motion))
+    yield from (_remark(text) for text in program_heading(motion))
     yield _remark("G codes of milling, on lathes those of system B or C")
     yield _remark(f"{options.work_offset} of {axis} must be zero")
     yield f"G21 G90 G94 G40 G49 G80 {options.work_offset}"
@@ -76,7 +76,7 @@ def _lines(motion: Motion, options: FanucOptions) -> Iterator[str]:
     for stop in motion.in_decimals(options.decimals).stops:
         yield f"G01 {axis}{stop.position:.{options.decimals}f}"
         if stop.reading:
-            yield f"N{stop.reading.number} G04 X{dwell} {_remark(remark(stop.reading))}"
+            yield f"N{stop.reading.number} G04 X{dwell} {_remark(reading_remark(stop.reading))}"
     yield "M30"
     yield "%"
 

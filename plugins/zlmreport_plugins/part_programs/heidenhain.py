@@ -16,17 +16,17 @@ from typing import Any
 
 from pydantic import Field
 
-from zlmreport.foresight.motion import Motion
-from zlmreport.foresight.program_text import (
+from zlmreport.plugin import (
+    Motion,
+    PartProgram,
     ProgramOptions,
+    Words,
     axis_address,
-    heading,
+    hookimpl,
+    program_heading,
     program_number,
-    remark,
+    reading_remark,
 )
-from zlmreport.hookspecs import hookimpl
-from zlmreport.language import Words
-from zlmreport.protocols import PartProgram
 
 _ADDRESS = re.compile("[XYZABCUVW]")
 _NOT_IN_NAMES = re.compile(r"[^A-Za-z0-9_-]")
@@ -56,11 +56,11 @@ def _blocks(motion: Motion, options: HeidenhainOptions) -> Iterator[str]:
     name = _NOT_IN_NAMES.sub("_", motion.number)
     feed, dwell = program_number(motion.feed), program_number(motion.dwell)
     yield f"BEGIN PGM {name} MM"
-    yield from (f"; {text}" for text in heading(motion))
+    yield from (f"; {text}" for text in program_heading(motion))
     for stop in motion.in_decimals(options.decimals).stops:
         yield f"L {axis}{stop.position:+.{options.decimals}f} R0 F{feed} M91"
         if stop.reading:
-            yield f"; reading {stop.reading.number}, {remark(stop.reading)}"
+            yield f"; reading {stop.reading.number}, {reading_remark(stop.reading)}"
             yield "CYCL DEF 9.0 DWELL TIME"
             yield f"CYCL DEF 9.1 DWELL {dwell if '.' in dwell else f'{dwell}.0'}"
     yield f"END PGM {name} MM"

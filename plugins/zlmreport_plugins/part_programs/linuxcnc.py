@@ -16,17 +16,17 @@ from typing import Any
 
 from pydantic import Field
 
-from zlmreport.foresight.motion import Motion
-from zlmreport.foresight.program_text import (
+from zlmreport.plugin import (
+    Motion,
+    PartProgram,
     ProgramOptions,
+    Words,
     axis_address,
-    heading,
+    hookimpl,
+    program_heading,
     program_number,
-    remark,
+    reading_remark,
 )
-from zlmreport.hookspecs import hookimpl
-from zlmreport.language import Words
-from zlmreport.protocols import PartProgram
 
 _ADDRESS = re.compile("[XYZABCUVW]")
 
@@ -52,14 +52,14 @@ class LinuxCnc:
 
 def _lines(motion: Motion, options: LinuxCncOptions) -> Iterator[str]:
     axis = axis_address(motion, options, _ADDRESS, "X, Y, Z, A, B, C, U, V or W")
-    yield from (f"({text})" for text in heading(motion))
+    yield from (f"({text})" for text in program_heading(motion))
     yield "G21 G90 G94 G40 G49 G80 (mm, absolute, feed per minute, no offsets)"
     yield "G61.1 (exact stop)"
     yield f"F{program_number(motion.feed)}"
     for stop in motion.in_decimals(options.decimals).stops:
         yield f"G53 G1 {axis}{stop.position:.{options.decimals}f}"
         if stop.reading:
-            yield f"(reading {stop.reading.number}, {remark(stop.reading)})"
+            yield f"(reading {stop.reading.number}, {reading_remark(stop.reading)})"
             yield f"G4 P{program_number(motion.dwell)}"
     yield "M2"
 

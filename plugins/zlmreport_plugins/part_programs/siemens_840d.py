@@ -17,17 +17,17 @@ from typing import Any
 
 from pydantic import Field
 
-from zlmreport.foresight.motion import Motion
-from zlmreport.foresight.program_text import (
+from zlmreport.plugin import (
+    Motion,
+    PartProgram,
     ProgramOptions,
+    Words,
     axis_address,
-    heading,
+    hookimpl,
+    program_heading,
     program_number,
-    remark,
+    reading_remark,
 )
-from zlmreport.hookspecs import hookimpl
-from zlmreport.language import Words
-from zlmreport.protocols import PartProgram
 
 #: Names of axes begin with the letter of a coordinate: X, X1, Z_2. Words of the language do not fit.
 _ADDRESS = re.compile("[ABCUVWXYZ]([0-9][0-9A-Z_]{0,29}|_[0-9A-Z_]{0,29})?")
@@ -57,7 +57,7 @@ class Siemens840d:
 
 def _lines(motion: Motion, options: Siemens840dOptions) -> Iterator[str]:
     axis = axis_address(motion, options, _ADDRESS, "X or X1")
-    yield from (f"; {text}" for text in heading(motion))
+    yield from (f"; {text}" for text in program_heading(motion))
     yield "G710 G90 G94 G40 D0 ; mm, absolute, feed per minute, no offsets"
     yield "G60 ; exact stop"
     yield f"F{program_number(motion.feed)}"
@@ -65,7 +65,8 @@ def _lines(motion: Motion, options: Siemens840dOptions) -> Iterator[str]:
         yield f"SUPA G1 {axis}={stop.position:.{options.decimals}f}"
         if stop.reading:
             yield "STOPRE"
-            yield f"N{stop.reading.number} G4 F{program_number(motion.dwell)} ; {remark(stop.reading)}"
+            dwell = program_number(motion.dwell)
+            yield f"N{stop.reading.number} G4 F{dwell} ; {reading_remark(stop.reading)}"
     yield "M30"
 
 

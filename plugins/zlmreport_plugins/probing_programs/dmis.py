@@ -16,10 +16,10 @@ from typing import Any
 
 from pydantic import Field
 
-from zlmreport.hookspecs import hookimpl
 from zlmreport.job.options import Options
 from zlmreport.language import Words
-from zlmreport.protocols import ProbingProgram
+from zlmreport.plugin.hookspecs import hookimpl
+from zlmreport.plugin.protocols import ProbingProgram
 from zlmreport.quantities.units import MILLIMETRE
 from zlmreport.step_gauge.path import Probing, ProbingPath
 from zlmreport.step_gauge.program_text import coordinates, direction, plain

@@ -12,11 +12,11 @@ from typing import Any
 from pydantic import Field
 
 from zlmreport.errors import InputError
-from zlmreport.hookspecs import hookimpl
 from zlmreport.job.machine_keys import TOOL
 from zlmreport.job.options import Options
 from zlmreport.language import Words
-from zlmreport.protocols import ProbingProgram
+from zlmreport.plugin.hookspecs import hookimpl
+from zlmreport.plugin.protocols import ProbingProgram
 from zlmreport.step_gauge.dme_commands import beginning, command
 from zlmreport.step_gauge.path import ProbingPath
 

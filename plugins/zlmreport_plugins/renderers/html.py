@@ -9,9 +9,7 @@ from __future__ import annotations
 from base64 import b64encode
 from functools import cache
 
-from zlmreport.certificate.document import Certificate
-from zlmreport.hookspecs import hookimpl
-from zlmreport.language import Words
+from zlmreport.plugin import Certificate, Words, hookimpl
 
 #: The drawings set their look in attributes, so styles inside the page are allowed.
 _ALLOWED = (
@@ -33,43 +31,50 @@ class HtmlRenderer:
 
     def render(self, certificate: Certificate) -> bytes:
         """Return the page, UTF-8."""
-        from zlmreport.figures.draw import to_svg  # noqa: PLC0415 (brings matplotlib)
-        from zlmreport.typesetting.compose import Setting, compose  # noqa: PLC0415 (brings Jinja)
+        from zlmreport.plugin import (  # noqa: PLC0415 (brings Jinja)
+            HtmlSetting,
+            compose_html,
+            figure_to_svg,
+        )
 
         letterhead = certificate.letterhead
         logo = letterhead.logo if letterhead else None
         script = _script() if certificate.linked else ""
-        setting = Setting(
+        setting = HtmlSetting(
             style=_style(certificate.paper, with_linked=bool(script)),
-            drawings=tuple(to_svg(figure, certificate.language) for figure in certificate.figures),
+            drawings=tuple(figure_to_svg(figure, certificate.language) for figure in certificate.figures),
             logo=_data_address(logo, letterhead.logo_type) if letterhead and logo else "",
             policy=_policy(script),
             script=script,
         )
-        return compose(certificate, setting).encode()
+        return compose_html(certificate, setting).encode()
 
 
 @cache
 def _style(paper: str, *, with_linked: bool) -> str:
-    from zlmreport.typesetting.linked import style  # noqa: PLC0415 (brings Jinja)
-    from zlmreport.typesetting.resources import font, font_faces, style_sheet  # noqa: PLC0415 (brings Jinja)
+    from zlmreport.plugin import (  # noqa: PLC0415 (brings Jinja)
+        font_face_rules,
+        font_file,
+        linked_style,
+        style_sheet,
+    )
 
-    faces = font_faces(lambda face: _data_address(font(f"{face.stem}.woff2"), "font/woff2"))
+    faces = font_face_rules(lambda face: _data_address(font_file(f"{face.stem}.woff2"), "font/woff2"))
     sheets = f"{faces}\n{style_sheet('certificate', 'screen', paper)}"
-    return f"{sheets}\n{style()}" if with_linked else sheets
+    return f"{sheets}\n{linked_style()}" if with_linked else sheets
 
 
 def _script() -> str:
-    from zlmreport.typesetting.linked import script  # noqa: PLC0415 (brings Jinja)
+    from zlmreport.plugin import linked_script  # noqa: PLC0415 (brings Jinja)
 
-    return script()
+    return linked_script()
 
 
 def _policy(script: str) -> str:
     """Return what the page may do: use what it contains, and run this script or none."""
-    from zlmreport.typesetting.linked import fingerprint  # noqa: PLC0415 (brings Jinja)
+    from zlmreport.plugin import script_fingerprint  # noqa: PLC0415 (brings Jinja)
 
-    allowed = [f"script-src {fingerprint(script)}"] if script else []
+    allowed = [f"script-src {script_fingerprint(script)}"] if script else []
     return "; ".join([*_ALLOWED, *allowed])
 
 

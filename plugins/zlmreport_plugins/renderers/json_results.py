@@ -12,19 +12,26 @@ import math
 from collections.abc import Iterator
 from typing import Any, TypeAlias
 
-from zlmreport.certificate.attachments import Relationship, Source
-from zlmreport.certificate.document import Certificate
-from zlmreport.evaluation.conformity import Decision
-from zlmreport.evaluation.evaluation import Evaluation, Parameter
-from zlmreport.hookspecs import hookimpl
-from zlmreport.language import Language, Words
-from zlmreport.measurement.approach import Approach
-from zlmreport.measurement.axis import Axis
-from zlmreport.measurement.measurement_set import MeasurementSet
-from zlmreport.measurement.provenance import SourceFile
-from zlmreport.model.report import report_error, report_model
-from zlmreport.quantities.units import Unit
-from zlmreport.uncertainty.budget import COVERAGE_PROBABILITY, NoBudget
+from zlmreport.plugin import (
+    COVERAGE_PROBABILITY,
+    Approach,
+    Axis,
+    Certificate,
+    CertificateSource,
+    Decision,
+    EvaluatedParameter,
+    Evaluation,
+    Language,
+    MeasurementSet,
+    NoBudget,
+    Relationship,
+    SourceFile,
+    Unit,
+    Words,
+    hookimpl,
+    report_error,
+    report_model,
+)
 
 SCHEMA = "zlmreport/results/1"
 
@@ -118,7 +125,7 @@ def _evaluation(evaluation: Evaluation, language: Language) -> Json:
     }
 
 
-def _parameter(parameter: Parameter, unit: Unit, language: Language) -> Json:
+def _parameter(parameter: EvaluatedParameter, unit: Unit, language: Language) -> Json:
     values: Json = {
         "symbol": parameter.quantity.symbol,
         "name": parameter.quantity.name.in_language(language),
@@ -279,7 +286,7 @@ def _file(file: SourceFile) -> Json:
     return {"name": file.name, "sha256": file.sha256, "size": file.size}
 
 
-def _source(source: Source) -> Json:
+def _source(source: CertificateSource) -> Json:
     """Return a file that the certificate was made from, under its name as an attachment."""
     return {
         "role": source.role.key,

@@ -20,8 +20,8 @@ from zlmreport.cli.terminal import shown_path
 from zlmreport.errors import AccessError, Place
 from zlmreport.job.job import Job
 from zlmreport.live.reading import LiveReading
+from zlmreport.plugin.protocols import Connection
 from zlmreport.plugins import Registry
-from zlmreport.protocols import Connection
 
 
 def capture(  # noqa: PLR0913 - whom, what, with what, shown where, and how to go on

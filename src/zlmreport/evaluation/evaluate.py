@@ -18,7 +18,7 @@ from zlmreport.quantities.notation import plain
 
 
 class EvaluatingStandard(Protocol):
-    """The part of a standard that evaluation needs (the whole: `zlmreport.protocols.Standard`)."""
+    """The part of a standard that evaluation needs (the whole: `zlmreport.plugin.protocols.Standard`)."""
 
     identifier: str
     designation: str

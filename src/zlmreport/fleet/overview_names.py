@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 from zlmreport.evaluation.quantity import Quantity
 from zlmreport.fleet.trend_fleet import Trend
-from zlmreport.protocols import Standard
+from zlmreport.plugin.protocols import Standard
 from zlmreport.quantities.units import printed_symbol
 
 #: Units that stand at the number without a blank.

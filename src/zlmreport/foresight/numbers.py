@@ -26,7 +26,7 @@ _ROUNDING = 1e-9
 
 
 class DemandingStandard(Protocol):
-    """The part of a standard that a plan needs (the whole: `zlmreport.protocols.Standard`)."""
+    """The part of a standard that a plan needs (the whole: `zlmreport.plugin.protocols.Standard`)."""
 
     designation: str
 

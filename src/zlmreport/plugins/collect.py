@@ -8,21 +8,21 @@ from typing import Any, cast
 
 import pluggy
 
-from zlmreport import hookspecs
 from zlmreport.errors import InputError, Place, Problem
-from zlmreport.plugins.fitness import check, misspelt_hooks
-from zlmreport.plugins.kind import Kind
-from zlmreport.plugins.origin import FailedPlugin, Plugin, UnfitError, reason_of
-from zlmreport.plugins.registry import DISABLE, Registry
-from zlmreport.protocols import (
+from zlmreport.model.effect import Effect
+from zlmreport.plugin import hookspecs
+from zlmreport.plugin.protocols import (
     DataSource,
-    Effect,
     Instrument,
     PartProgram,
     ProbingProgram,
     Renderer,
     Standard,
 )
+from zlmreport.plugins.fitness import check, misspelt_hooks
+from zlmreport.plugins.kind import Kind
+from zlmreport.plugins.origin import FailedPlugin, Plugin, UnfitError, reason_of
+from zlmreport.plugins.registry import DISABLE, Registry
 
 
 def collect(

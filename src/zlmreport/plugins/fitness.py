@@ -8,15 +8,15 @@ from collections import Counter
 from collections.abc import Iterator
 from typing import Any
 
-from zlmreport import hookspecs
 from zlmreport.errors import Place, Problem, did_you_mean
 from zlmreport.job.fields import keys_in
 from zlmreport.job.options import Options
 from zlmreport.language import Words
+from zlmreport.model.effect import Effect
+from zlmreport.plugin import hookspecs
 from zlmreport.plugins.kind import Kind
 from zlmreport.plugins.origin import Plugin, UnfitError
 from zlmreport.plugins.registry import DISABLE
-from zlmreport.protocols import Effect
 
 _IDENTIFIER = re.compile(r"[A-Za-z0-9][A-Za-z0-9:._-]*")
 _SUFFIX = re.compile(r"(\.[A-Za-z0-9]+)+")

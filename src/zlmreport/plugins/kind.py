@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from enum import Enum
 
-from zlmreport.protocols import (
+from zlmreport.model.effect import Effect
+from zlmreport.plugin.protocols import (
     DataSource,
-    Effect,
     Instrument,
     PartProgram,
     ProbingProgram,

@@ -9,17 +9,17 @@ from typing import TypeVar
 
 from zlmreport.errors import InputError, Place, did_you_mean
 from zlmreport.job.job import Job
-from zlmreport.plugins.kind import Kind
-from zlmreport.plugins.origin import FailedPlugin, Plugin
-from zlmreport.protocols import (
+from zlmreport.model.effect import Effect
+from zlmreport.plugin.protocols import (
     DataSource,
-    Effect,
     Instrument,
     PartProgram,
     ProbingProgram,
     Renderer,
     Standard,
 )
+from zlmreport.plugins.kind import Kind
+from zlmreport.plugins.origin import FailedPlugin, Plugin
 
 #: Environment variable that switches plugins off.
 DISABLE = "ZLMREPORT_DISABLE_PLUGINS"

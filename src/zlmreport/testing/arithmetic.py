@@ -11,7 +11,7 @@ from zlmreport.evaluation.evaluation import Arithmetic
 from zlmreport.evaluation.statistics import PositionStatistics, position_statistics
 from zlmreport.job.options import Options
 from zlmreport.measurement.approach import Approach
-from zlmreport.protocols import Standard
+from zlmreport.plugin.protocols import Standard
 from zlmreport.quantities.arrays import FloatArray
 from zlmreport.testing.expectations import expect, same_value
 

@@ -38,7 +38,9 @@ _MEMBERS = (
 def is_complete(effect: Effect, _: Designs) -> None:
     """Check that the protocol is complete."""
     missing = [member for member in _MEMBERS if not hasattr(effect, member)]
-    expect(not missing, f"{effect!r} has no {', '.join(missing)} (subclass zlmreport.protocols.Effect)")
+    expect(
+        not missing, f"{effect!r} has no {', '.join(missing)} (subclass zlmreport.plugin.protocols.Effect)"
+    )
 
 
 def is_described(effect: Effect, _: Designs) -> None:

@@ -12,7 +12,7 @@ from zlmreport.evaluation.evaluation import Evaluation
 from zlmreport.figures.figure import Arrow, Band, Bracket, Curve, Figure, Panel, Readings
 from zlmreport.job.options import Options
 from zlmreport.language import Language
-from zlmreport.protocols import Standard
+from zlmreport.plugin.protocols import Standard
 from zlmreport.quantities.arrays import FloatArray
 from zlmreport.quantities.notation import plain
 from zlmreport.quantities.units import ANGLES, LENGTHS, Unit

@@ -20,7 +20,7 @@ from zlmreport.emulation.faults import Planned, Trouble, Troubles
 from zlmreport.emulation.serve import serve
 from zlmreport.errors import AccessError, ZlmreportError
 from zlmreport.live.reading import LiveReading
-from zlmreport.protocols import Instrument
+from zlmreport.plugin.protocols import Instrument
 from zlmreport.testing.expectations import (
     expect,
     expect_identifier,

@@ -14,7 +14,7 @@ from zlmreport.errors import InputError
 from zlmreport.foresight.motion import Motion
 from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.planning.methods import Method
-from zlmreport.protocols import PartProgram
+from zlmreport.plugin.protocols import PartProgram
 from zlmreport.testing.expectations import expect, run_all
 from zlmreport.testing.motions import NUMBER, PLACE, sample_motion
 from zlmreport.testing.program_expectations import (

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 from zlmreport.errors import InputError
-from zlmreport.protocols import ProbingProgram
+from zlmreport.plugin.protocols import ProbingProgram
 from zlmreport.quantities.units import MILLIMETRE
 from zlmreport.step_gauge.path import Probing, ProbingPath
 from zlmreport.step_gauge.path_settings import PathKind

@@ -13,7 +13,7 @@ from html.parser import HTMLParser
 from xml.etree import ElementTree as ET
 
 from zlmreport.language import Language
-from zlmreport.protocols import Renderer
+from zlmreport.plugin.protocols import Renderer
 from zlmreport.testing.certificates import MARKUP, NUMBER, sample_certificate
 from zlmreport.testing.expectations import expect, expect_identifier, expect_members, expect_words, run_all
 

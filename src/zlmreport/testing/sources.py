@@ -13,7 +13,7 @@ import numpy as np
 from zlmreport.errors import Place, ZlmreportError
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.measurement_set import MeasurementSet
-from zlmreport.protocols import DataSource, SourceContext
+from zlmreport.plugin.protocols import DataSource, SourceContext
 from zlmreport.testing.expectations import (
     expect,
     expect_identifier,

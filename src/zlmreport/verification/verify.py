@@ -12,8 +12,8 @@ from zlmreport.certificate.build import GENERATOR
 from zlmreport.certificate.document import Certificate
 from zlmreport.errors import InputError, Place, ZlmreportError
 from zlmreport.job.loading import load
+from zlmreport.plugin.protocols import Renderer, made, relationship_of
 from zlmreport.plugins import Registry
-from zlmreport.protocols import Renderer, made, relationship_of
 from zlmreport.verification import files, numerals, pages, values
 from zlmreport.verification.carrier import Carrier, guarded, opened, read_file
 from zlmreport.verification.digital import digital_findings

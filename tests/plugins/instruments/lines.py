@@ -14,7 +14,7 @@ from zlmreport.emulation.emulator import Emulator
 from zlmreport.emulation.faults import Troubles
 from zlmreport.emulation.serve import serve
 from zlmreport.live.reading import LiveReading
-from zlmreport.protocols import Instrument
+from zlmreport.plugin.protocols import Instrument
 
 
 @contextmanager

@@ -13,7 +13,7 @@ from zlmreport.errors import InputError, Place
 from zlmreport.language import Language
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.measurement_set import MeasurementSet
-from zlmreport.protocols import DataSource, SourceContext
+from zlmreport.plugin.protocols import DataSource, SourceContext
 
 DATA = Path(__file__).parents[2] / "data"
 #: Where the job names the source.

@@ -19,7 +19,7 @@ from zlmreport.live.reading import Fault
 from zlmreport.measurement import axis as axes
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.measurement_set import MeasurementSet, MissingReading
-from zlmreport.protocols import SourceContext
+from zlmreport.plugin.protocols import SourceContext
 from zlmreport_plugins.sources.serial_interferometer.source import SerialInterferometer
 
 #: The last reading before an axis is quite there may be among the hundred of a mean, m.

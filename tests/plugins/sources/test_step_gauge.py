@@ -12,8 +12,8 @@ from environments import ROOT
 from zlmreport.errors import InputError, Place
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.plugin.protocols import SourceContext
 from zlmreport.plugins import find_plugins
-from zlmreport.protocols import SourceContext
 from zlmreport.quantities.arrays import FloatArray
 from zlmreport.step_gauge.calibration_file import read_calibration, section
 from zlmreport.step_gauge.gauge import StepGauge

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from zlmreport.protocols import Standard
+from zlmreport.plugin.protocols import Standard
 from zlmreport_plugins.standards import iso230_2, nmtba, vdi
 
 STANDARDS: dict[str, Standard] = {

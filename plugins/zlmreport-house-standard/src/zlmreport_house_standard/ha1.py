@@ -12,23 +12,39 @@ from typing import Annotated
 import numpy as np
 from pydantic import Field
 
-from zlmreport.evaluation.checks.positions import positions_in_all
-from zlmreport.evaluation.checks.readings import both_directions, no_missing_readings, number_of_runs
-from zlmreport.evaluation.evaluation import Arithmetic, Evaluation
-from zlmreport.evaluation.quantity import Group, PositionQuantity, Quantity
-from zlmreport.evaluation.ranges import largest
-from zlmreport.evaluation.requirements import Basis, Finding
-from zlmreport.evaluation.statistics import PositionStatistics
-from zlmreport.figures import alternatives
-from zlmreport.figures.figure import Bracket, Figure
-from zlmreport.figures.prescribed import LIMITS, MEANS, Diagram, panel, worst
-from zlmreport.hookspecs import hookimpl
-from zlmreport.job.options import Options
-from zlmreport.language import Words
-from zlmreport.measurement.approach import Approach
-from zlmreport.measurement.measurement_set import MeasurementSet
-from zlmreport.protocols import Standard
-from zlmreport.quantities.arrays import FloatArray
+from zlmreport.plugin import (
+    LIMIT_ROLES,
+    MEAN_ROLES,
+    Approach,
+    Arithmetic,
+    Basis,
+    Bracket,
+    Diagram,
+    Evaluation,
+    Figure,
+    Finding,
+    FloatArray,
+    MeasurementSet,
+    Options,
+    PositionQuantity,
+    PositionStatistics,
+    Quantity,
+    QuantityGroup,
+    Standard,
+    Words,
+    alternative_text,
+    both_directions,
+    diagram_panel,
+    graph_in_words,
+    hookimpl,
+    largest_over_positions,
+    marks_in_words,
+    no_missing_readings,
+    number_of_runs,
+    positions_in_all,
+    range_in_words,
+    worst_position,
+)
 
 
 class HouseAcceptanceOptions(Options):
@@ -43,7 +59,7 @@ _DEVIATION = Quantity(
     symbol="D",
     notation="D",
     name=Words(en="largest mean deviation", de="größte mittlere Abweichung"),
-    group=Group.SYSTEMATIC,
+    group=QuantityGroup.SYSTEMATIC,
     formula="max(|x̄_{i}↑|, |x̄_{i}↓|)",
     meaning=Words(
         en="how far a feature may on average lie from where the program puts it",
@@ -54,7 +70,7 @@ _HYSTERESIS = Quantity(
     symbol="H",
     notation="H",
     name=Words(en="largest reversal", de="größte Umkehrspanne"),
-    group=Group.SYSTEMATIC,
+    group=QuantityGroup.SYSTEMATIC,
     formula="max|x̄_{i}↑ − x̄_{i}↓|",
     meaning=Words(
         en="the step left on a surface where the axis turns round",
@@ -65,7 +81,7 @@ _WIDTH = Quantity(
     symbol="W",
     notation="W",
     name=Words(en="largest range of readings", de="größte Spannweite der Messwerte"),
-    group=Group.RANDOM,
+    group=QuantityGroup.RANDOM,
     formula="max(w_{i}↑, w_{i}↓)",
     meaning=Words(
         en="by how much parts differ that are made one after the other",
@@ -76,7 +92,7 @@ _TOTAL = Quantity(
     symbol="T",
     notation="T",
     name=Words(en="weighted total deviation", de="gewichtete Gesamtabweichung"),
-    group=Group.COMPOSITE,
+    group=QuantityGroup.COMPOSITE,
     formula="max(|x̄_{i}↑| + k·w_{i}↑, |x̄_{i}↓| + k·w_{i}↓)",
     meaning=Words(
         en="the deviation to expect of a single part",
@@ -104,7 +120,7 @@ def range_of_readings(statistics: PositionStatistics) -> FloatArray:
 
 def _largest_of_all(values: FloatArray) -> FloatArray:
     """Return the largest value over both approaches: (..., approach, position) to (...)."""
-    return largest(largest(values))
+    return largest_over_positions(largest_over_positions(values))
 
 
 def _figure(evaluation: Evaluation, weight: float) -> Figure:
@@ -113,15 +129,15 @@ def _figure(evaluation: Evaluation, weight: float) -> Figure:
     statistics = evaluation.statistics
     mean = statistics.mean
     half_width = weight * range_of_readings(statistics)
-    shown = panel(
+    shown = diagram_panel(
         curves=[
-            diagram.curve(f"x̄_{{i}}{each.arrow}", MEANS[each], mean[each.index])
+            diagram.curve(f"x̄_{{i}}{each.arrow}", MEAN_ROLES[each], mean[each.index])
             for each in diagram.approaches
         ],
         bands=[
             diagram.band(
                 f"x̄_{{i}}{each.arrow} ± k·w_{{i}}{each.arrow}",
-                LIMITS[each],
+                LIMIT_ROLES[each],
                 mean[each.index] - half_width[each.index],
                 mean[each.index] + half_width[each.index],
             )
@@ -131,7 +147,7 @@ def _figure(evaluation: Evaluation, weight: float) -> Figure:
         arrows=[
             diagram.arrow(
                 _HYSTERESIS.notation,
-                worst(np.abs(statistics.reversal_value)),
+                worst_position(np.abs(statistics.reversal_value)),
                 statistics.mean_positive,
                 statistics.mean_negative,
             )
@@ -145,23 +161,23 @@ def _figure(evaluation: Evaluation, weight: float) -> Figure:
         en="Axis {axis}: mean deviations with their weighted ranges",
         de="Achse {axis}: mittlere Abweichungen mit gewichteter Spannweite",
     )
-    alternative = alternatives.text(
-        alternatives.graph_of(evaluation),
-        alternatives.range_of(diagram.axis, Words(en="Mean deviations", de="Mittlere Abweichungen"), mean),
-        alternatives.marks(diagram.axis, (*shown.arrows, *shown.brackets)),
+    alternative = alternative_text(
+        graph_in_words(evaluation),
+        range_in_words(diagram.axis, Words(en="Mean deviations", de="Mittlere Abweichungen"), mean),
+        marks_in_words(diagram.axis, (*shown.arrows, *shown.brackets)),
     )
     return diagram.figure("acceptance", title.given(axis=diagram.axis.name), alternative, [shown])
 
 
 def _from_zero(diagram: Diagram, quantity: Quantity, values: FloatArray) -> Bracket | None:
     """Return a quantity as a bracket from zero to the value, (approach, position), farthest from it."""
-    farthest = worst(np.abs(values).ravel())
+    farthest = worst_position(np.abs(values).ravel())
     end = np.where(np.arange(values.size).reshape(values.shape) == farthest, values, np.nan)
     return diagram.bracket(quantity.symbol, np.minimum(end, 0.0), np.maximum(end, 0.0))
 
 
 class HouseAcceptance:
-    """House acceptance HA-1 (`zlmreport.protocols.Standard`)."""
+    """House acceptance HA-1 (`zlmreport.plugin.protocols.Standard`)."""
 
     identifier = "house:ha-1"
     designation = "HA-1"
@@ -198,7 +214,7 @@ class HouseAcceptance:
         return Arithmetic(
             parameters={
                 "D": _largest_of_all(np.abs(statistics.mean)),
-                "H": largest(np.abs(statistics.reversal_value)),
+                "H": largest_over_positions(np.abs(statistics.reversal_value)),
                 "W": _largest_of_all(ranges),
                 "T": _largest_of_all(np.abs(statistics.mean) + options.weight * ranges),
             },

@@ -6,10 +6,7 @@ import time
 from collections.abc import Mapping
 from types import MappingProxyType
 
-from zlmreport.live.patience import Patience
-from zlmreport.live.polling import ask
-from zlmreport.live.port import Port
-from zlmreport.quantities.units import CELSIUS, HECTOPASCAL, PERCENT
+from zlmreport.plugin import CELSIUS, HECTOPASCAL, PERCENT, Patience, Port, ask_instrument
 from zlmreport_plugins.instruments.ids3010.messages import Answer, answer_to, question
 
 #: Of the methods, on older and on newer firmware.
@@ -66,7 +63,7 @@ class Client:
         number = self._number
         namespace = _ECU if of_ecu else self._namespace
         asked = question(number, f"{namespace}.{method}", *parameters)
-        answer = ask(self._port, asked, lambda arrived: answer_to(number, arrived), self._wait)
+        answer = ask_instrument(self._port, asked, lambda arrived: answer_to(number, arrived), self._wait)
         now = time.monotonic()
         if isinstance(answer, bytes):
             self._patience.hear(answer, now)

@@ -6,9 +6,7 @@ import json
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from zlmreport.emulation.emulator import Scene
-from zlmreport.emulation.faults import Trouble
-from zlmreport.quantities.units import CELSIUS, HECTOPASCAL, PERCENT, Scale
+from zlmreport.plugin import CELSIUS, HECTOPASCAL, PERCENT, ReadingScale, Scene, Trouble
 
 _PER_METRE = 1e12
 #: How long it takes to begin to measure, s; a real one takes longer.
@@ -91,7 +89,7 @@ class Ids3010Emulator:
     def _absolute(self, time: float) -> list[Any]:
         return [self._warning(time), round(self._scene.axis.position(time) * _PER_METRE)]
 
-    def _sensor(self, condition: str, unit: Scale) -> Callable[[float], list[Any]]:
+    def _sensor(self, condition: str, unit: ReadingScale) -> Callable[[float], list[Any]]:
         """Return what asks a sensor of the environmental unit."""
         return lambda time: [0, round(unit.from_si(self._scene.condition(condition, time)), 3)]
 

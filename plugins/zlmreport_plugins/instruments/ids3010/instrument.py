@@ -8,14 +8,22 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from zlmreport.emulation.emulator import Emulator, Scene
-from zlmreport.job.options import Options
-from zlmreport.language import Words
-from zlmreport.live.connection import LiveConnection
-from zlmreport.live.options import PolledOptions
-from zlmreport.live.polling import at_rate, unreadable
-from zlmreport.live.port import Framing, Port
-from zlmreport.live.reading import NO_CONDITIONS, NO_FAULT, Fault, LiveReading
+from zlmreport.plugin import (
+    NO_CONDITIONS,
+    NO_FAULT,
+    Emulator,
+    Fault,
+    Framing,
+    LiveConnection,
+    LiveReading,
+    Options,
+    PolledOptions,
+    Port,
+    Scene,
+    Words,
+    readings_at_rate,
+    unreadable_reading,
+)
 from zlmreport_plugins.instruments.ids3010.client import RUNNING, Client
 from zlmreport_plugins.instruments.ids3010.emulator import Ids3010Emulator
 
@@ -75,7 +83,7 @@ class _Talk:
         self._client = Client(self._port, self._options.timeout)
         self._client.find_namespace()
         self._start()
-        yield from at_rate(self._options.rate, self._reading)
+        yield from readings_at_rate(self._options.rate, self._reading)
 
     def zero(self) -> None:
         """Let the axis count from here."""
@@ -107,7 +115,7 @@ class _Talk:
         value = answer.values[axis] if answer is not None and axis < len(answer.values) else None
         if answer is None or not mode or not isinstance(value, int) or isinstance(value, bool):
             error = f" ({answer.error})" if answer is not None and answer.error else ""
-            return unreadable(now, f"the instrument gave no displacement{error}")
+            return unreadable_reading(now, f"the instrument gave no displacement{error}")
         faults, message = NO_FAULT, ""
         if mode != RUNNING:
             faults = Fault.BEAM_LOST

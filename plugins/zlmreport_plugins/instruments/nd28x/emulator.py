@@ -5,9 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 
-from zlmreport.emulation.emulator import Scene
-from zlmreport.emulation.faults import Trouble
-from zlmreport.quantities.units import MILLIMETRE
+from zlmreport.plugin import MILLIMETRE, Scene, Trouble
 from zlmreport_plugins.instruments.nd28x.dialogue import ACK, NAK, PRINT, STX
 
 _COMMAND = re.compile(rb"\x1b([A-Z][0-9]{4})\r|\x02|\x1b[^\r]*\r|[^\x1b\x02]")

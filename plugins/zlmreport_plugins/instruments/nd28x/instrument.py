@@ -8,16 +8,24 @@ from typing import Literal
 
 from pydantic import Field
 
-from zlmreport.emulation.emulator import Emulator, Scene
-from zlmreport.job.options import Options
-from zlmreport.language import Words
-from zlmreport.live.connection import LiveConnection
-from zlmreport.live.options import PolledOptions
-from zlmreport.live.patience import Patience
-from zlmreport.live.polling import ask, at_rate, unreadable
-from zlmreport.live.port import Framing, Port
-from zlmreport.live.reading import Fault, LiveReading
-from zlmreport.quantities.units import INCH, MILLIMETRE
+from zlmreport.plugin import (
+    INCH,
+    MILLIMETRE,
+    Emulator,
+    Fault,
+    Framing,
+    LiveConnection,
+    LiveReading,
+    Options,
+    Patience,
+    PolledOptions,
+    Port,
+    Scene,
+    Words,
+    ask_instrument,
+    readings_at_rate,
+    unreadable_reading,
+)
 from zlmreport_plugins.instruments.nd28x import dialogue
 from zlmreport_plugins.instruments.nd28x.dialogue import PrintedUnit
 from zlmreport_plugins.instruments.nd28x.emulator import Nd28xEmulator
@@ -64,7 +72,7 @@ class Nd28x:
                 f"look whether its interface is set to {framing}",
                 time.monotonic(),
             )
-            return at_rate(options.rate, lambda: _reading(port, options, patience))
+            return readings_at_rate(options.rate, lambda: _reading(port, options, patience))
 
         return LiveConnection(port, readings)
 
@@ -76,19 +84,19 @@ class Nd28x:
 def _reading(port: Port, options: Nd28xOptions, patience: Patience) -> LiveReading:
     """Ask for a reading."""
     wait = options.timeout / 8 + _BITS / options.baud_rate
-    position = ask(port, dialogue.CURRENT_POSITION, dialogue.position_in, wait)
+    position = ask_instrument(port, dialogue.CURRENT_POSITION, dialogue.position_in, wait)
     now = time.monotonic()
-    printed = ask(port, dialogue.PRINT, dialogue.printed_in, wait)
+    printed = ask_instrument(port, dialogue.PRINT, dialogue.printed_in, wait)
     heard_at = time.monotonic()
     for answer in (position, printed):
         if isinstance(answer, bytes):
             patience.hear(answer, heard_at)
     if isinstance(printed, bytes):
         patience.check(heard_at)
-        return unreadable(now, "the display did not answer, or not clearly")
+        return unreadable_reading(now, "the display did not answer, or not clearly")
     if printed.unit is PrintedUnit.FAULT:
         patience.understand(heard_at)
-        text = ask(port, dialogue.ERROR_TEXT, dialogue.text_in, wait)
+        text = ask_instrument(port, dialogue.ERROR_TEXT, dialogue.text_in, wait)
         said = f" ({text})" if isinstance(text, str) and text else ""
         return LiveReading(
             float("nan"),
@@ -99,7 +107,7 @@ def _reading(port: Port, options: Nd28xOptions, patience: Patience) -> LiveReadi
         )
     if isinstance(position, bytes):
         patience.check(heard_at)
-        return unreadable(now, "the display did not answer, or not clearly")
+        return unreadable_reading(now, "the display did not answer, or not clearly")
     patience.understand(heard_at)
     in_unit = position / dialogue.STEPS_PER_UNIT[printed.unit]
     return LiveReading(_UNITS[printed.unit].to_si(in_unit) * options.factor, now)

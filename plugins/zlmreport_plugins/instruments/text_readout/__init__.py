@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from zlmreport.hookspecs import hookimpl
-from zlmreport.protocols import Instrument
+from zlmreport.plugin import Instrument, hookimpl
 from zlmreport_plugins.instruments.text_readout.instrument import TextReadout
 
 

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import re
 
-from zlmreport.live.lines import Lines
-from zlmreport.live.reading import Fault, LiveReading
-from zlmreport.quantities.units import POSITION_UNITS, unit_named
+from zlmreport.plugin import POSITION_UNITS, Fault, LiveReading, WholeLines, unit_named
 from zlmreport_plugins.instruments.text_readout.options import TextReadoutOptions
 
 
@@ -25,7 +23,7 @@ class TextDecoder:
         self._pattern = re.compile(options.pattern)
         self._no_reading = [re.compile(each) for each in options.no_reading]
         self._unit = unit_named(options.unit, POSITION_UNITS)
-        self._lines = Lines()
+        self._lines = WholeLines()
 
     def feed(self, data: bytes, now: float) -> list[LiveReading]:
         """Return the readings of the lines that these bytes complete."""

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from zlmreport.emulation.emulator import Scene
-from zlmreport.emulation.faults import Trouble
-from zlmreport.quantities.units import MILLIMETRE
+from zlmreport.plugin import MILLIMETRE, Scene, Trouble
 
 _RATE = 10.0
 

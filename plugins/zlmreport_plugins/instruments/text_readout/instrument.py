@@ -5,15 +5,20 @@ from __future__ import annotations
 import time
 from collections.abc import Iterator
 
-from zlmreport.emulation.emulator import Emulator, Scene
-from zlmreport.job.options import Options
-from zlmreport.language import Words
-from zlmreport.live.connection import LiveConnection
-from zlmreport.live.patience import Patience
-from zlmreport.live.polling import ask, at_rate, unreadable
-from zlmreport.live.port import Port
-from zlmreport.live.reading import LiveReading
-from zlmreport.live.streaming import streamed
+from zlmreport.plugin import (
+    Emulator,
+    LiveConnection,
+    LiveReading,
+    Options,
+    Patience,
+    Port,
+    Scene,
+    Words,
+    ask_instrument,
+    readings_at_rate,
+    streamed_readings,
+    unreadable_reading,
+)
 from zlmreport_plugins.instruments.text_readout.decoder import TextDecoder
 from zlmreport_plugins.instruments.text_readout.emulator import TextEmulator
 from zlmreport_plugins.instruments.text_readout.options import TextReadoutOptions
@@ -50,9 +55,9 @@ class TextReadout:
             if options.request:
                 request = options.request.encode("utf-8")
                 wait = options.timeout / 4
-                return at_rate(options.rate, lambda: _answer(port, request, decoder, patience, wait))
+                return readings_at_rate(options.rate, lambda: _answer(port, request, decoder, patience, wait))
             port.drop_input()
-            return streamed(port, _WithoutFirst(decoder), patience, _WAIT)
+            return streamed_readings(port, _WithoutFirst(decoder), patience, _WAIT)
 
         return LiveConnection(port, readings)
 
@@ -86,12 +91,12 @@ def _answer(port: Port, request: bytes, decoder: TextDecoder, patience: Patience
         whole = arrived.lstrip(b"\r\n").splitlines(keepends=True)
         return (whole[0],) if whole and whole[0].endswith((b"\r", b"\n")) else None
 
-    answer = ask(port, request, line_in, wait)
+    answer = ask_instrument(port, request, line_in, wait)
     now = time.monotonic()
     if isinstance(answer, bytes):
         patience.hear(answer, now)
         patience.check(now)
-        return unreadable(now, "the readout did not answer")
+        return unreadable_reading(now, "the readout did not answer")
     understood = decoder.understood
     reading = decoder.reading(answer[0], now)
     patience.hear(answer[0], now)

@@ -7,9 +7,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import AfterValidator, Field, model_validator
 
-from zlmreport.live.options import PolledOptions
-from zlmreport.live.port import Framing
-from zlmreport.quantities.units import POSITION_UNITS, unit_named
+from zlmreport.plugin import POSITION_UNITS, Framing, PolledOptions, unit_named
 
 #: A number with decimal point or comma, its sign apart or not, and a unit if it has one.
 USUAL = r"(?P<value>[+-]?\s*\d+(?:[.,]\d+)?)\s*(?P<unit>mm|inch|in|µm|um|deg)?"

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from zlmreport.live.lines import Lines
-from zlmreport.live.reading import NO_FAULT, Fault, LiveReading
-from zlmreport.live.streaming import WrongDeviceError
+from zlmreport.plugin import NO_FAULT, Fault, LiveReading, WholeLines, WrongDeviceError
 from zlmreport_plugins.instruments.umd.frame import AxisCounts, Frame, frame_in
 from zlmreport_plugins.instruments.umd.low_speed import Counting, LowSpeed
 from zlmreport_plugins.instruments.umd.models import Model
@@ -59,7 +57,7 @@ class UmdDecoder:
         self.understood = 0
         self._model = model
         self._setup = setup
-        self._lines = Lines()
+        self._lines = WholeLines()
         self._low_speed = LowSpeed(model, setup.temperatures)
         self._counting: Counting | None = None
         self._before: Frame | None = None

@@ -8,11 +8,16 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from zlmreport.correction.refractive_index import index_change
-from zlmreport.emulation.emulator import Scene
-from zlmreport.emulation.faults import Trouble
-from zlmreport.measurement.conditions import STATE_OF_AIR
-from zlmreport.quantities.units import CELSIUS, HECTOPASCAL, PERCENT, Scale
+from zlmreport.plugin import (
+    CELSIUS,
+    HECTOPASCAL,
+    PERCENT,
+    STATE_OF_AIR,
+    ReadingScale,
+    Scene,
+    Trouble,
+    index_change,
+)
 from zlmreport_plugins.instruments.umd.frame import Code
 from zlmreport_plugins.instruments.umd.models import Model
 
@@ -47,7 +52,7 @@ class _Manner:
     counts: int
     phase_steps: int
     says: Mapping[int, tuple[int, int]]
-    sensors: Mapping[int, tuple[int, str, Scale, int]] = field(default_factory=dict)
+    sensors: Mapping[int, tuple[int, str, ReadingScale, int]] = field(default_factory=dict)
     greeting: bytes = b""
 
 

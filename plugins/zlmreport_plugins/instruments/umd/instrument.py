@@ -9,17 +9,23 @@ from typing import Annotated, Literal
 import numpy as np
 from pydantic import Field
 
-from zlmreport.correction.refractive_index import STANDARD_HUMIDITY, STANDARD_PRESSURE, refractive_index
-from zlmreport.emulation.emulator import Emulator, Scene
-from zlmreport.job.options import Options
-from zlmreport.language import Words
-from zlmreport.live.connection import LiveConnection
-from zlmreport.live.options import PortOptions
-from zlmreport.live.patience import Patience
-from zlmreport.live.port import Framing, Port
-from zlmreport.live.reading import LiveReading
-from zlmreport.live.streaming import streamed
-from zlmreport.quantities.temperature import REFERENCE_TEMPERATURE
+from zlmreport.plugin import (
+    REFERENCE_TEMPERATURE,
+    STANDARD_HUMIDITY,
+    STANDARD_PRESSURE,
+    Emulator,
+    Framing,
+    LiveConnection,
+    LiveReading,
+    Options,
+    Patience,
+    Port,
+    PortOptions,
+    Scene,
+    Words,
+    refractive_index,
+    streamed_readings,
+)
 from zlmreport_plugins.instruments.umd.decoder import Setup, UmdDecoder
 from zlmreport_plugins.instruments.umd.emulator import UmdEmulator
 from zlmreport_plugins.instruments.umd.models import Model
@@ -85,7 +91,7 @@ class Umd:
                 "look whether it is that instrument",
                 time.monotonic(),
             )
-            return streamed(port, UmdDecoder(self._model, _setup(options)), patience, _WAIT)
+            return streamed_readings(port, UmdDecoder(self._model, _setup(options)), patience, _WAIT)
 
         return LiveConnection(port, readings)
 

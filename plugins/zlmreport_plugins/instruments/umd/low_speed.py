@@ -10,8 +10,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 
-from zlmreport.live.reading import NO_CONDITIONS
-from zlmreport.quantities.units import CELSIUS, PERCENT
+from zlmreport.plugin import CELSIUS, NO_CONDITIONS, PERCENT
 from zlmreport_plugins.instruments.umd.frame import Code, Frame
 from zlmreport_plugins.instruments.umd.models import Model
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from zlmreport.hookspecs import hookimpl
+from zlmreport.plugin import hookimpl
 from zlmreport_plugins.renderers.dcc.renderer import DccRenderer
 
 

@@ -6,14 +6,19 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from xml.etree import ElementTree as ET
 
-from zlmreport.certificate.document import Certificate
-from zlmreport.certificate.identity import lines as address_lines
-from zlmreport.certificate.place import place_of_work
-from zlmreport.certificate.statements import ONLY_THIS_ITEM
-from zlmreport.errors import InputError, Problem
-from zlmreport.job.job import Job
-from zlmreport.job.model import Customer, Laboratory
-from zlmreport.language import Language, Words
+from zlmreport.plugin import (
+    ONLY_THIS_ITEM,
+    Certificate,
+    Customer,
+    InputError,
+    Job,
+    Laboratory,
+    Language,
+    Problem,
+    Words,
+    address_lines,
+    place_of_work,
+)
 from zlmreport_plugins.renderers.dcc.xml import dcc, group
 
 #: The DCC's words for whose place it is.

@@ -5,9 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from xml.etree import ElementTree as ET
 
-from zlmreport.job.job import Job
-from zlmreport.language import Words
-from zlmreport.measurement.conditions import CONDITION_NAMES
+from zlmreport.plugin import CONDITION_NAMES, Job, Words
 from zlmreport_plugins.renderers.dcc.administrative import Writer, serial_number
 from zlmreport_plugins.renderers.dcc.quantities import (
     DEGREE_CELSIUS,

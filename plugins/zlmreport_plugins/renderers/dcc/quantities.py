@@ -8,8 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from xml.etree import ElementTree as ET
 
-from zlmreport.quantities.units import Unit
-from zlmreport.uncertainty.budget import COVERAGE_PROBABILITY
+from zlmreport.plugin import COVERAGE_PROBABILITY, Unit
 from zlmreport_plugins.renderers.dcc.xml import dcc, si
 
 MICROMETRE_PER_METRE_KELVIN = r"\micro\metre\metre\tothe{-1}\kelvin\tothe{-1}"

@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-from zlmreport.certificate.attachments import Relationship
-from zlmreport.certificate.document import Certificate
-from zlmreport.errors import InputError, Place
-from zlmreport.language import Words
+from zlmreport.plugin import Certificate, InputError, Place, Relationship, Words
 from zlmreport_plugins.renderers.dcc.administrative import administrative_data
 from zlmreport_plugins.renderers.dcc.results import measurement_results
 from zlmreport_plugins.renderers.dcc.xml import SCHEMA_LOCATION, dcc, written

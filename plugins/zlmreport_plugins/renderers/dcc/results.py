@@ -8,14 +8,18 @@ from xml.etree import ElementTree as ET
 
 import numpy as np
 
-from zlmreport.certificate.conformity import STATEMENTS
-from zlmreport.certificate.document import Certificate
-from zlmreport.evaluation.conformity import Conformity, Decision
-from zlmreport.evaluation.evaluation import Evaluation, Parameter
-from zlmreport.job.job import Job
-from zlmreport.language import Words
-from zlmreport.measurement.approach import Approach
-from zlmreport.quantities.arrays import FloatArray
+from zlmreport.plugin import (
+    CONFORMITY_STATEMENTS,
+    Approach,
+    Certificate,
+    Conformity,
+    Decision,
+    EvaluatedParameter,
+    Evaluation,
+    FloatArray,
+    Job,
+    Words,
+)
 from zlmreport_plugins.renderers.dcc.administrative import Writer, software
 from zlmreport_plugins.renderers.dcc.conditions import equipment, influences, state
 from zlmreport_plugins.renderers.dcc.quantities import quantity, real, real_list, unit_of
@@ -114,7 +118,7 @@ def _measurement_result(
     )
 
 
-def _parameter(parameter: Parameter, evaluation: Evaluation, writer: Writer) -> ET.Element:
+def _parameter(parameter: EvaluatedParameter, evaluation: Evaluation, writer: Writer) -> ET.Element:
     axis_unit = evaluation.measurements.axis.deviation_unit
     unit = unit_of(axis_unit)
     uncertainty = parameter.expanded_uncertainty
@@ -131,12 +135,12 @@ def _parameter(parameter: Parameter, evaluation: Evaluation, writer: Writer) -> 
     )
 
 
-def _conformity(parameter: Parameter, evaluation: Evaluation, writer: Writer) -> ET.Element | None:
+def _conformity(parameter: EvaluatedParameter, evaluation: Evaluation, writer: Writer) -> ET.Element | None:
     """Return what is stated of a parameter's limit, with the limits; None where it has none."""
     decision, limit = parameter.decision, parameter.limit
     if decision is None or limit is None:
         return None
-    _, statement = STATEMENTS[decision.conformity]
+    _, statement = CONFORMITY_STATEMENTS[decision.conformity]
     stated = _CONFORMITY.get(decision.conformity)
     return dcc(
         "measurementMetaData",

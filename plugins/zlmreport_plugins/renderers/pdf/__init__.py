@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-from zlmreport.certificate.document import Certificate
-from zlmreport.errors import AccessError, Place
-from zlmreport.hookspecs import hookimpl
-from zlmreport.language import Words
+from zlmreport.plugin import AccessError, Certificate, Place, Words, hookimpl
 
 
 class PdfRenderer:

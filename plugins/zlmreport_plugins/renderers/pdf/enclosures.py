@@ -9,7 +9,7 @@ from typing import Any
 import pydyf
 from weasyprint import Attachment
 
-from zlmreport.certificate.document import Certificate
+from zlmreport.plugin import Certificate
 from zlmreport_plugins.renderers.pdf.supply import Supply
 
 _ADDRESS = "attachment:{}"

@@ -20,16 +20,27 @@ from weasyprint.draw.text import draw_first_line
 from weasyprint.matrix import Matrix
 from weasyprint.text.line_break import create_layout
 
-from zlmreport.figures.canvas import Colour, Face, Fill, Run, Segment, Stroke
-from zlmreport.figures.figure import Figure
-from zlmreport.figures.sketch import figure_size
-from zlmreport.language import Language
+from zlmreport.plugin import (
+    Colour,
+    Figure,
+    Fill,
+    FontFace,
+    Language,
+    Segment,
+    Stroke,
+    TextRun,
+    figure_size,
+)
 
 #: The family under which the document's style sheet brings the bundled faces in.
 FAMILY = "IBM Plex Sans"
 
 _PIXELS_PER_POINT = 96 / 72
-_FACES = {Face.REGULAR: ("normal", 400), Face.ITALIC: ("italic", 400), Face.SEMIBOLD: ("normal", 600)}
+_FACES = {
+    FontFace.REGULAR: ("normal", 400),
+    FontFace.ITALIC: ("italic", 400),
+    FontFace.SEMIBOLD: ("normal", 600),
+}
 # A hundredth of a point is 4 µm of paper.
 _OPERATORS = {"M": "%.2f %.2f m", "L": "%.2f %.2f l", "C": "%.2f %.2f %.2f %.2f %.2f %.2f c", "Z": "h"}
 _PAINTING = {(True, False): "S", (False, True): "f", (True, True): "B"}
@@ -50,11 +61,11 @@ class PageGraph:
 
     def draw(self, stream: Any, concrete_width: float, concrete_height: float, style: Any) -> None:
         """Draw the figure into the page, in the size that the document gives it."""
-        from zlmreport.figures.draw import draw  # noqa: PLC0415 - brings matplotlib
+        from zlmreport.plugin import draw_with_matplotlib  # noqa: PLC0415 - brings matplotlib
 
         width, height = figure_size(self._figure)
         stream.transform(a=concrete_width / width, d=concrete_height / height)
-        draw(self._figure, self._language, StreamCanvas(stream, style.font_config))
+        draw_with_matplotlib(self._figure, self._language, StreamCanvas(stream, style.font_config))
 
 
 class StreamCanvas:
@@ -87,7 +98,7 @@ class StreamCanvas:
         path = [_OPERATORS[operator] % points for operator, points in segments]
         self._stream.stream.append("\n".join((*path, _PAINTING[stroke is not None, fill is not None])))
 
-    def text(self, kind: str, runs: Sequence[Run], colour: Colour, angle: float) -> None:
+    def text(self, kind: str, runs: Sequence[TextRun], colour: Colour, angle: float) -> None:
         """Set a line of text, each run laid out by Pango as the document's own text is."""
         del kind
         self._take_fill(Fill(colour))
@@ -117,7 +128,7 @@ class StreamCanvas:
             self._fill = fill
 
 
-def _meant(runs: Sequence[Run]) -> Any:
+def _meant(runs: Sequence[TextRun]) -> Any:
     """Return what a symbol reads as: some readers see a space where a bar ends or an index begins."""
     return pydyf.Dictionary({"ActualText": pydyf.String("".join(run.text for run in runs))})
 

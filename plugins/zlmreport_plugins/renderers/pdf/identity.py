@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import Any
 from xml.sax.saxutils import escape
 
-from zlmreport.certificate.document import Certificate
+from zlmreport.plugin import Certificate
 
 # PDF/A wants every name that it does not know itself described in the file.
 _DESCRIPTIONS = """\

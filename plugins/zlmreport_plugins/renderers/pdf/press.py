@@ -17,10 +17,17 @@ from cssselect2 import ElementWrapper
 from weasyprint import CSS, HTML, VERSION
 from weasyprint.text.fonts import FontConfiguration
 
-from zlmreport.certificate.document import Certificate
-from zlmreport.figures.draw import to_svg
-from zlmreport.typesetting.compose import GRAPH_ADDRESS, LOGO_ADDRESS, compose
-from zlmreport.typesetting.resources import FACES, font, font_faces, style_sheet
+from zlmreport.plugin import (
+    FONT_FACES,
+    GRAPH_ADDRESS,
+    LOGO_ADDRESS,
+    Certificate,
+    compose_html,
+    figure_to_svg,
+    font_face_rules,
+    font_file,
+    style_sheet,
+)
 from zlmreport_plugins.renderers.pdf import identity, structure
 from zlmreport_plugins.renderers.pdf.enclosures import associate_once, enclosures
 from zlmreport_plugins.renderers.pdf.graphs import PageGraph
@@ -57,16 +64,19 @@ class Press:
         self._lock = Lock()
         profile = (files("weasyprint.pdf") / "sRGB2014.icc").read_bytes()
         self._profiles = {_PROFILE: _ColourProfile("sRGB2014", profile)}
-        faces = font_faces(lambda face: _FONT_ADDRESS.format(face.stem))
+        faces = font_face_rules(lambda face: _FONT_ADDRESS.format(face.stem))
         supply = Supply(
-            {_FONT_ADDRESS.format(face.stem): (font(f"{face.stem}.ttf"), "font/ttf") for face in FACES}
+            {
+                _FONT_ADDRESS.format(face.stem): (font_file(f"{face.stem}.ttf"), "font/ttf")
+                for face in FONT_FACES
+            }
         )
         self._style = self._parsed(f"{faces}\n{style_sheet('certificate', 'paged')}", supply)
         self._papers = {paper: self._parsed(style_sheet(paper), supply) for paper in ("A4", "Letter")}
 
     def print(self, certificate: Certificate) -> bytes:
         """Return a certificate as PDF."""
-        document = _Document(ET.fromstring(compose(certificate)), Supply(_contents(certificate)))  # noqa: S314 (set here)
+        document = _Document(ET.fromstring(compose_html(certificate)), Supply(_contents(certificate)))  # noqa: S314 (set here)
         with self._lock:
             pdf: bytes = document.write_pdf(
                 stylesheets=[self._style, self._papers[certificate.paper]],
@@ -115,7 +125,7 @@ def _contents(certificate: Certificate) -> Contents:
         contents[LOGO_ADDRESS] = letterhead.logo, letterhead.logo_type
     if not DRAWS_ON_PAGES:
         for number, figure in enumerate(certificate.figures):
-            drawing = to_svg(figure, certificate.language).encode()
+            drawing = figure_to_svg(figure, certificate.language).encode()
             contents[GRAPH_ADDRESS.format(number)] = drawing, "image/svg+xml"
     return contents
 

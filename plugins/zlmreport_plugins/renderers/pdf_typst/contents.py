@@ -9,12 +9,14 @@ from collections.abc import Iterable
 from itertools import count
 from typing import Any, TypeAlias
 
-from zlmreport.certificate.attachments import Attachment
-from zlmreport.certificate.document import (
+from zlmreport.plugin import (
+    Attachment,
     Block,
     Certificate,
     Facts,
+    FontFace,
     Formulas,
+    GatheredBlock,
     Graph,
     Letterhead,
     Notice,
@@ -22,9 +24,9 @@ from zlmreport.certificate.document import (
     Paragraph,
     Section,
     Table,
+    facts_side_by_side,
+    gather_facts,
 )
-from zlmreport.figures.canvas import Face
-from zlmreport.typesetting.facts import GatheredBlock, gather_facts, side_by_side
 from zlmreport_plugins.renderers.pdf_typst.graphs import graph_data
 from zlmreport_plugins.renderers.pdf_typst.tables import formulas_data, table_data
 from zlmreport_plugins.renderers.pdf_typst.words import fitted
@@ -60,9 +62,9 @@ def contents(certificate: Certificate) -> Data:
             "description": certificate.description,
             "keywords": certificate.keywords,
         },
-        "title": fitted(certificate.title, _TITLE, Face.SEMIBOLD),
+        "title": fitted(certificate.title, _TITLE, FontFace.SEMIBOLD),
         "subtitle": fitted(certificate.subtitle, _SUBTITLE),
-        "number": fitted(certificate.number, _SUBTITLE, Face.SEMIBOLD),
+        "number": fitted(certificate.number, _SUBTITLE, FontFace.SEMIBOLD),
         "letterhead": _letterhead(letterhead) if letterhead else None,
         "words": _words(certificate.page_words),
         "cover": compositor.blocks(certificate.cover),
@@ -91,7 +93,7 @@ class _Compositor:
         return {
             "key": section.key,
             "number": str(number),
-            "title": fitted(section.title, _SECTION, Face.SEMIBOLD),
+            "title": fitted(section.title, _SECTION, FontFace.SEMIBOLD),
             "new-page": section.new_page,
             "blocks": self.blocks(section.blocks),
         }
@@ -112,7 +114,7 @@ class _Compositor:
             case Notice(heading, items):
                 return {
                     "kind": "notice",
-                    "heading": fitted(heading, _NOTICE, Face.SEMIBOLD),
+                    "heading": fitted(heading, _NOTICE, FontFace.SEMIBOLD),
                     "items": [fitted(item, _NOTICE) for item in items],
                     "whole": len(heading) + sum(map(len, items)) <= _WHOLE,
                 }
@@ -137,14 +139,14 @@ class _Compositor:
 
 
 def _facts(groups: tuple[Facts, ...]) -> Data:
-    columns = side_by_side(groups)
+    columns = facts_side_by_side(groups)
     for_names, for_values = _FACTS[len(columns)]
     return {
         "kind": "facts",
         "columns": [
             [
                 {
-                    "heading": fitted(group.heading, for_names + for_values, Face.SEMIBOLD),
+                    "heading": fitted(group.heading, for_names + for_values, FontFace.SEMIBOLD),
                     "pairs": [
                         [fitted(name, for_names), fitted(value, for_values)] for name, value in group.pairs
                     ],
@@ -164,7 +166,7 @@ def _length(group: Facts) -> int:
 
 def _letterhead(letterhead: Letterhead) -> Data:
     return {
-        "laboratory": fitted(letterhead.laboratory.name, _LETTERHEAD, Face.SEMIBOLD),
+        "laboratory": fitted(letterhead.laboratory.name, _LETTERHEAD, FontFace.SEMIBOLD),
         "lines": [fitted(line, _LETTERHEAD) for line in letterhead.laboratory.lines],
         "accreditation": fitted(letterhead.accreditation, _LETTERHEAD),
         "logo": _bytes(letterhead.logo) if letterhead.logo else None,

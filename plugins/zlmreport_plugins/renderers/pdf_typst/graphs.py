@@ -10,15 +10,22 @@ from collections.abc import Sequence
 from functools import cache
 from typing import Any
 
-from zlmreport.figures.canvas import Colour, Face, Fill, Run, Segment, Stroke
-from zlmreport.figures.figure import Figure
-from zlmreport.figures.pen import draw
-from zlmreport.figures.sketch import figure_size
-from zlmreport.figures.svg import hexadecimal
-from zlmreport.language import Language
+from zlmreport.plugin import (
+    Colour,
+    Figure,
+    Fill,
+    FontFace,
+    Language,
+    Segment,
+    Stroke,
+    TextRun,
+    draw_figure,
+    figure_size,
+    hexadecimal_colour,
+)
 from zlmreport_plugins.renderers.pdf_typst.symbols import parted
 
-_FACES = {Face.REGULAR: "regular", Face.ITALIC: "italic", Face.SEMIBOLD: "semibold"}
+_FACES = {FontFace.REGULAR: "regular", FontFace.ITALIC: "italic", FontFace.SEMIBOLD: "semibold"}
 # A hundredth of a point is 4 µm of paper.
 _OPERATORS = {"M": "M%.2f %.2f", "L": "L%.2f %.2f", "C": "C%.2f %.2f %.2f %.2f %.2f %.2f", "Z": "Z"}
 
@@ -27,7 +34,7 @@ def graph_data(figure: Figure, language: Language) -> dict[str, Any]:
     """Return a figure's drawing: its size in points, an image, and labels."""
     width, height = figure_size(figure)
     canvas = GraphCanvas()
-    draw(figure, language, canvas)
+    draw_figure(figure, language, canvas)
     return {
         "width": width,
         "height": height,
@@ -58,7 +65,7 @@ class GraphCanvas:
         data = "".join([_OPERATORS[operator] % points for operator, points in segments])
         self._paths.append(f'<path d="{data}"{_look(stroke, fill)}/>')
 
-    def text(self, kind: str, runs: Sequence[Run], colour: Colour, angle: float) -> None:
+    def text(self, kind: str, runs: Sequence[TextRun], colour: Colour, angle: float) -> None:
         """Keep a line of text."""
         del kind
         first = runs[0]
@@ -67,7 +74,7 @@ class GraphCanvas:
             for run in runs
             for stretch in parted(run.text, run.face)
         ]
-        self.labels.append([first.x, first.y, angle, hexadecimal(colour), spans])
+        self.labels.append([first.x, first.y, angle, hexadecimal_colour(colour), spans])
 
     def image(self, width: float, height: float) -> str:
         """Return the outlines as an SVG image of a size in points."""
@@ -78,8 +85,10 @@ class GraphCanvas:
 @cache
 def _look(stroke: Stroke | None, fill: Fill | None) -> str:
     """Return the attributes of a path: a drawing has a few looks, and they come again and again."""
-    inside = f' fill="{hexadecimal(fill.colour)}" fill-opacity="{fill.opacity}"' if fill else ' fill="none"'
+    inside = (
+        f' fill="{hexadecimal_colour(fill.colour)}" fill-opacity="{fill.opacity}"' if fill else ' fill="none"'
+    )
     if stroke is None:
         return inside
     dashes = f' stroke-dasharray="{" ".join(map(str, stroke.dashes))}"' if stroke.dashes else ""
-    return f'{inside} stroke="{hexadecimal(stroke.colour)}" stroke-width="{stroke.width}"{dashes}'
+    return f'{inside} stroke="{hexadecimal_colour(stroke.colour)}" stroke-width="{stroke.width}"{dashes}'

@@ -5,9 +5,7 @@ from __future__ import annotations
 import re
 from unicodedata import category, name
 
-from zlmreport.errors import InputError, Place
-from zlmreport.figures.canvas import Face
-from zlmreport.figures.metrics import has_letter
+from zlmreport.plugin import FontFace, InputError, Place, has_letter
 
 #: What is seen only by what it does: line ends, joiners, direction marks.
 _UNSEEN = frozenset({"Cf", "Zl", "Zp"})
@@ -27,7 +25,7 @@ def demand_letters(document: str, number: str) -> None:
         chr(int(each["code"], 16)) for each in _ESCAPED.finditer(document) if each["code"]
     }
     seen = (letter for letter in letters if category(letter) not in _UNSEEN)
-    lacking = sorted(letter for letter in seen if not has_letter(letter, Face.REGULAR))
+    lacking = sorted(letter for letter in seen if not has_letter(letter, FontFace.REGULAR))
     if lacking:
         told = ", ".join(map(_told, lacking[:_MOST_TOLD]))
         more = f" and {len(lacking) - _MOST_TOLD} more" if len(lacking) > _MOST_TOLD else ""

@@ -10,7 +10,7 @@ from threading import Lock
 
 import typst
 
-from zlmreport.certificate.document import Certificate
+from zlmreport.plugin import Certificate
 from zlmreport_plugins.renderers.pdf_typst.contents import contents, enclosures
 from zlmreport_plugins.renderers.pdf_typst.letters import demand_letters
 

@@ -12,9 +12,7 @@ from itertools import groupby
 from typing import Any, TypeAlias
 from unicodedata import combining, normalize
 
-from zlmreport.figures.canvas import Face
-from zlmreport.figures.metrics import advance, mark_offset
-from zlmreport.quantities.notation import spans
+from zlmreport.plugin import FontFace, mark_offset, notation_spans, text_advance
 
 #: A text; or a mark with its place, right of and above the pen, in em.
 Stretch: TypeAlias = tuple[str] | tuple[str, float, float]
@@ -27,8 +25,8 @@ def symbol_data(notation: str) -> dict[str, Any]:
     Each word is a list of spans: whether it is italic, whether it is a subscript, and a stretch.
     """
     words: list[list[Any]] = [[]]
-    for span in spans(notation):
-        face = Face.ITALIC if span.italic else Face.REGULAR
+    for span in notation_spans(notation):
+        face = FontFace.ITALIC if span.italic else FontFace.REGULAR
         for number, text in enumerate(span.text.split(" ")):
             if number:
                 words.append([])
@@ -37,7 +35,7 @@ def symbol_data(notation: str) -> dict[str, Any]:
 
 
 @lru_cache(maxsize=4096)
-def parted(text: str, face: Face) -> tuple[Stretch, ...]:
+def parted(text: str, face: FontFace) -> tuple[Stretch, ...]:
     """Return the stretches of a text; the whole of it where the typeface has no place for a mark."""
     whole = normalize("NFC", text)
     try:
@@ -51,14 +49,14 @@ def has_marks(text: str) -> bool:
     return not text.isascii() and any(map(combining, normalize("NFC", text)))
 
 
-def _parted(text: str, face: Face) -> Iterator[Stretch]:
+def _parted(text: str, face: FontFace) -> Iterator[Stretch]:
     before = ""
     for is_mark, letters in groupby(text, lambda letter: bool(combining(letter))):
         stretch = "".join(letters)
         if is_mark and before:
             for mark in stretch:
                 right, above = mark_offset(before, mark, face)
-                yield mark, right - advance(before, face), above
+                yield mark, right - text_advance(before, face), above
         else:
             yield (stretch,)
             before = stretch[-1]

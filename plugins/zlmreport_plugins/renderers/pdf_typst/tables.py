@@ -7,20 +7,25 @@ from itertools import repeat
 from math import inf
 from typing import Any
 
-from zlmreport.certificate.document import (
+from zlmreport.plugin import (
     Align,
     Cell,
     Column,
     Explained,
+    FontFace,
     Formulas,
     Mark,
     RowGroup,
     Symbol,
     Table,
     Verdict,
+    column_measures,
+    column_widths,
+    columns_stand_apart,
+    decimal_padding,
+    table_lines,
+    table_size,
 )
-from zlmreport.figures.canvas import Face
-from zlmreport.typesetting import columns
 from zlmreport_plugins.renderers.pdf_typst.symbols import symbol_data
 from zlmreport_plugins.renderers.pdf_typst.words import fitted
 
@@ -48,18 +53,18 @@ def table_data(table: Table) -> dict[str, Any]:
     """Return the columns and rows of a table."""
     columns_data = _columns(table)
     rooms = columns_data.pop("rooms")
-    padding = iter(columns.decimal_padding(table))
+    padding = iter(decimal_padding(table))
     return {
         **columns_data,
         "align": [column.align.value for column in table.columns],
-        "apart": columns.stands_apart(table.columns),
+        "apart": columns_stand_apart(table.columns),
         "headings": [
-            {"content": _cell(column.heading, room, face=Face.SEMIBOLD), "unit": column.unit}
+            {"content": _cell(column.heading, room, face=FontFace.SEMIBOLD), "unit": column.unit}
             for column, room in zip(table.columns, rooms, strict=True)
         ],
         "groups": [
             {
-                "heading": fitted(group.heading, _GROUP, Face.SEMIBOLD),
+                "heading": fitted(group.heading, _GROUP, FontFace.SEMIBOLD),
                 "note": fitted(group.note, _GROUP),
                 "section": group.section,
                 "rows": [_row(row, rooms, next(padding)) for row in group.rows],
@@ -81,19 +86,19 @@ def _columns(table: Table) -> dict[str, Any]:
 
     Columns of numbers were made wide enough for each of them, and never part one.
     """
-    needs = columns.measures(table)
-    size = columns.size(table, needs)
-    widths = columns.widths(needs, size.page_em)
+    needs = column_measures(table)
+    size = table_size(table, needs)
+    widths = column_widths(needs, size.page_em)
     available = [size.page_em * width / 100 for width in widths]
     return {
         "size": size.name,
         "widths": widths,
-        "whole": columns.lines(table, available) <= _WHOLE_LINES,
+        "whole": table_lines(table, available) <= _WHOLE_LINES,
         "breakable": any(_is_long(cell) for group in table.groups for row in group.rows for cell in row),
         "rooms": [
             inf if column.align is Align.RIGHT else width - _PADDING - (_APART if apart else 0.0)
             for width, column, apart in zip(
-                available, table.columns, columns.stands_apart(table.columns), strict=True
+                available, table.columns, columns_stand_apart(table.columns), strict=True
             )
         ],
     }
@@ -114,7 +119,7 @@ def _row(row: Sequence[Cell], rooms: Sequence[float], padding: Iterable[str] = r
     return [_cell(cell, room, lacking) for cell, room, lacking in zip(row, rooms, padding, strict=False)]
 
 
-def _cell(cell: Cell, room: float, padding: str = "", face: Face = Face.REGULAR) -> Any:
+def _cell(cell: Cell, room: float, padding: str = "", face: FontFace = FontFace.REGULAR) -> Any:
     """Return a cell: a text as it stands, and what is more than a text with its kind."""
     match cell:
         case Symbol(notation):

@@ -6,8 +6,7 @@ import re
 from itertools import groupby
 from typing import Any, TypeAlias
 
-from zlmreport.figures.canvas import Face
-from zlmreport.figures.metrics import advance
+from zlmreport.plugin import FontFace, text_advance
 from zlmreport_plugins.renderers.pdf_typst.symbols import has_marks, parted
 
 #: A text, or its stretches, each with the way in which it is set.
@@ -24,7 +23,7 @@ _LEAST_ROOM = 6.0
 _WIDEST_LETTER = 1.0
 
 
-def fitted(text: str, room: float, face: Face = Face.REGULAR) -> Text:
+def fitted(text: str, room: float, face: FontFace = FontFace.REGULAR) -> Text:
     """Return a text for a place of a width, in em: as it stands where every word fits and none has marks."""
     longest = max(map(len, text.split()), default=0)
     if _WIDEST_LETTER * longest <= room and not has_marks(text):
@@ -39,10 +38,10 @@ def fitted(text: str, room: float, face: Face = Face.REGULAR) -> Text:
     ]
 
 
-def _way(word: str, room: float, face: Face) -> str:
+def _way(word: str, room: float, face: FontFace) -> str:
     if has_marks(word):
         return MARKED
-    if _WIDEST_LETTER * len(word) <= room or advance(word, face) <= room:
+    if _WIDEST_LETTER * len(word) <= room or text_advance(word, face) <= room:
         return AS_WORDS
     is_of_language = word.strip(".,;:!?()").replace("-", "").isalpha() and len(word) <= _LONGEST_WORD
     return BY_SYLLABLES if is_of_language and room >= _LEAST_ROOM else ANYWHERE

@@ -7,8 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from zlmreport.errors import Place, Problem, did_you_mean
-from zlmreport.measurement.text_file import TextFile, quoted
+from zlmreport.plugin import Place, Problem, TextFile, did_you_mean, quoted
 
 UNIT, CYCLES, POSITIONS = "UNIT", "CYCLES", "POSITIONS"
 TARGET, FORWARD, BACKWARD = "TGT_DATA", "REF_DATA_FWD", "REF_DATA_BWD"

@@ -6,11 +6,7 @@ import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
-from zlmreport.errors import Place, Problem
-from zlmreport.measurement.approach import Approach
-from zlmreport.measurement.collect import Reading
-from zlmreport.measurement.numeral import parse_number
-from zlmreport.quantities.units import Unit
+from zlmreport.plugin import Approach, Place, Problem, Reading, Unit, parse_number
 from zlmreport_plugins.sources.ecmc.entries import (
     BACKWARD,
     CYCLES,

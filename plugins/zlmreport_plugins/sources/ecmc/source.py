@@ -7,17 +7,23 @@ from typing import Annotated
 
 from pydantic import AfterValidator, Field
 
-from zlmreport.errors import InputError, Problem
-from zlmreport.job.options import JobPath, Options
-from zlmreport.language import Words
-from zlmreport.measurement.approach import Approach
-from zlmreport.measurement.axis import position_units
-from zlmreport.measurement.collect import collect
-from zlmreport.measurement.measurement_set import MeasurementSet
-from zlmreport.measurement.provenance import Provenance
-from zlmreport.measurement.text_file import known_encoding, read_text
-from zlmreport.protocols import SourceContext
-from zlmreport.quantities.units import Unit, unit_named
+from zlmreport.plugin import (
+    Approach,
+    InputError,
+    JobPath,
+    MeasurementSet,
+    Options,
+    Problem,
+    Provenance,
+    SourceContext,
+    Unit,
+    Words,
+    collect_readings,
+    known_encoding,
+    position_units,
+    read_text,
+    unit_named,
+)
 from zlmreport_plugins.sources.ecmc.entries import UNIT, Entry, Key, entries
 from zlmreport_plugins.sources.ecmc.log import Log
 
@@ -69,7 +75,7 @@ class Ecmc:
         readings = list(log.readings(_unit(found, context), forward))
         remarks = (_ORDER, _EXCHANGED) if options.exchange_directions else (_ORDER,)
         provenance = Provenance(self.identifier, (text.source,), remarks)
-        return collect(readings, context.axis, provenance, place=text.place(), problems=problems)
+        return collect_readings(readings, context.axis, provenance, place=text.place(), problems=problems)
 
 
 def _unit(found: Mapping[Key, Entry], context: SourceContext) -> Unit:

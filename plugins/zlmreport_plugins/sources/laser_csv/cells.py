@@ -6,11 +6,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
-from zlmreport.errors import Problem
-from zlmreport.measurement.approach import Approach
-from zlmreport.measurement.collect import is_run, no_run
-from zlmreport.measurement.numeral import parse_number
-from zlmreport.quantities.formatting import DecimalSign
+from zlmreport.plugin import Approach, DecimalSign, Problem, is_run_number, no_run_number, parse_number
 from zlmreport_plugins.sources.laser_csv.columns import Column
 from zlmreport_plugins.sources.laser_csv.names import direction
 from zlmreport_plugins.sources.laser_csv.table import Row, Table
@@ -53,9 +49,9 @@ class Cells:
     def run(self, row: Row, column: Column) -> float | None:
         """Return the number of a run."""
         run = self.demanded_number(row, column)
-        if run is None or is_run(run):
+        if run is None or is_run_number(run):
             return run
-        self.note(row, column, no_run(run))
+        self.note(row, column, no_run_number(run))
         return None
 
     def approach(self, row: Row, column: Column) -> Approach | None:

@@ -7,12 +7,21 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from zlmreport.errors import InputError, Problem, did_you_mean
-from zlmreport.measurement.axis import Axis, position_units
-from zlmreport.measurement.conditions import CONDITIONS
-from zlmreport.measurement.text_file import quoted
-from zlmreport.protocols import SourceContext
-from zlmreport.quantities.units import SECOND, TIME_UNITS, Scale, Unit, unit_named
+from zlmreport.plugin import (
+    CONDITIONS,
+    SECOND,
+    TIME_UNITS,
+    Axis,
+    InputError,
+    Problem,
+    ReadingScale,
+    SourceContext,
+    Unit,
+    did_you_mean,
+    position_units,
+    quoted,
+    unit_named,
+)
 from zlmreport_plugins.sources.laser_csv.names import COLUMN_NAMES, folded, names_direction
 from zlmreport_plugins.sources.laser_csv.options import LaserCsvOptions
 from zlmreport_plugins.sources.laser_csv.table import Row, Table
@@ -70,7 +79,7 @@ class Column:
     index: int
     text: str
     name: str
-    unit: Unit | Scale | None
+    unit: Unit | ReadingScale | None
 
 
 def headings(header: Row) -> tuple[Heading, ...]:
@@ -171,7 +180,7 @@ def column_of(
         raise InputError.at(place, f"column {quoted(heading.text)}: {error}") from error
 
 
-def _unit(name: str, spelling: str | None, axis: Axis) -> Unit | Scale | None:
+def _unit(name: str, spelling: str | None, axis: Axis) -> Unit | ReadingScale | None:
     if name in {"target", "position"}:
         return unit_named(spelling, position_units(axis.kind)) if spelling else axis.position_unit
     if name == "deviation":

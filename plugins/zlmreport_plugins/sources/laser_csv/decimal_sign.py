@@ -5,9 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-from zlmreport.errors import InputError, Place
-from zlmreport.measurement.text_file import quoted
-from zlmreport.quantities.formatting import DecimalSign
+from zlmreport.plugin import DecimalSign, InputError, Place, quoted
 from zlmreport_plugins.sources.laser_csv.table import Table
 
 _ONE_SIGN = re.compile(r"[+\-−]?([0-9]*)([.,])([0-9]*)([eE][+-]?[0-9]+)?")

@@ -6,11 +6,7 @@ import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
-from zlmreport.errors import InputError, Problem
-from zlmreport.measurement.approach import Approach
-from zlmreport.measurement.collect import Reading
-from zlmreport.measurement.conditions import CONDITIONS
-from zlmreport.protocols import SourceContext
+from zlmreport.plugin import CONDITIONS, Approach, InputError, Problem, Reading, SourceContext
 from zlmreport_plugins.sources.laser_csv.cells import Cells
 from zlmreport_plugins.sources.laser_csv.columns import (
     Column,

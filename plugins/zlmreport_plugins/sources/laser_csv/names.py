@@ -6,15 +6,12 @@ import re
 from collections.abc import Mapping
 from types import MappingProxyType
 
-from zlmreport.errors import did_you_mean
-from zlmreport.measurement.approach import Approach
-from zlmreport.measurement.conditions import CONDITIONS
-from zlmreport.quantities.formatting import MINUS
+from zlmreport.plugin import CONDITIONS, MINUS_SIGN, Approach, did_you_mean
 
 #: The columns that have a meaning; any other is kept as a condition under its own name.
 COLUMN_NAMES = ("target", "direction", "run", "deviation", "position", "time", *CONDITIONS)
 
-_SIGNS = {"+": Approach.POSITIVE, "-": Approach.NEGATIVE, MINUS: Approach.NEGATIVE}
+_SIGNS = {"+": Approach.POSITIVE, "-": Approach.NEGATIVE, MINUS_SIGN: Approach.NEGATIVE}
 _ARROWS = {"↑": Approach.POSITIVE, "↓": Approach.NEGATIVE}
 _WORDS = {
     **dict.fromkeys(("up", "forward", "forwards", "fwd", "positive", "pos"), Approach.POSITIVE),
@@ -27,7 +24,7 @@ _NUMBERS = {
     "1": Approach.POSITIVE,
     "+1": Approach.POSITIVE,
     "-1": Approach.NEGATIVE,
-    f"{MINUS}1": Approach.NEGATIVE,
+    f"{MINUS_SIGN}1": Approach.NEGATIVE,
 }
 _SPELLED_OUT: Mapping[str, Approach] = MappingProxyType({**_SIGNS, **_ARROWS, **_WORDS})
 _DIRECTIONS: Mapping[str, Approach] = MappingProxyType({**_SPELLED_OUT, **_NUMBERS})

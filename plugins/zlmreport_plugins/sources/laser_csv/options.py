@@ -7,17 +7,24 @@ from typing import Annotated, Literal, Self
 
 from pydantic import AfterValidator, Field, field_validator, model_validator
 
-from zlmreport.errors import did_you_mean
-from zlmreport.job.options import JobPath, Options
-from zlmreport.measurement.approach import Approach
-from zlmreport.measurement.conditions import CONDITIONS
-from zlmreport.measurement.text_file import known_encoding
-from zlmreport.quantities.formatting import DecimalSign
-from zlmreport.quantities.units import POSITION_UNITS, TIME_UNITS, Scale, Unit, unit_named
+from zlmreport.plugin import (
+    CONDITIONS,
+    POSITION_UNITS,
+    TIME_UNITS,
+    Approach,
+    DecimalSign,
+    JobPath,
+    Options,
+    ReadingScale,
+    Unit,
+    did_you_mean,
+    known_encoding,
+    unit_named,
+)
 from zlmreport_plugins.sources.laser_csv.names import COLUMN_NAMES, direction, folded, run_and_direction
 
 _DELIMITERS = {"comma": ",", "semicolon": ";", "tab": "\t"}
-_UNITS: Mapping[str, Mapping[str, Unit | Scale]] = {
+_UNITS: Mapping[str, Mapping[str, Unit | ReadingScale]] = {
     **dict.fromkeys(("target", "deviation", "position"), POSITION_UNITS),
     "time": TIME_UNITS,
     **{name: kind.units for name, kind in CONDITIONS.items()},

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 
-from zlmreport.language import Words
+from zlmreport.plugin import Words
 from zlmreport_plugins.sources.laser_csv.columns import Column
 from zlmreport_plugins.sources.laser_csv.long_layout import LongLayout
 from zlmreport_plugins.sources.laser_csv.names import COLUMN_NAMES

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from zlmreport.errors import Problem
-from zlmreport.job.options import Options
-from zlmreport.language import Words
-from zlmreport.measurement.collect import collect
-from zlmreport.measurement.measurement_set import MeasurementSet
-from zlmreport.measurement.provenance import Provenance
-from zlmreport.measurement.text_file import read_text
-from zlmreport.protocols import SourceContext
+from zlmreport.plugin import (
+    MeasurementSet,
+    Options,
+    Problem,
+    Provenance,
+    SourceContext,
+    Words,
+    collect_readings,
+    read_text,
+)
 from zlmreport_plugins.sources.laser_csv.cells import Cells
 from zlmreport_plugins.sources.laser_csv.columns import heading_of
 from zlmreport_plugins.sources.laser_csv.decimal_sign import decimal_sign
@@ -45,7 +47,7 @@ class LaserCsv:
         readings = list(layout.readings(cells, -1.0 if options.sign == "nominal-actual" else 1.0))
         problems: list[Problem] = [*table.problems, *cells.problems]
         provenance = Provenance(self.identifier, (text.source,), tuple(remarks(layout, options)))
-        return collect(readings, context.axis, provenance, place=text.place(), problems=problems)
+        return collect_readings(readings, context.axis, provenance, place=text.place(), problems=problems)
 
 
 def _names_column(text: str, options: LaserCsvOptions) -> bool:

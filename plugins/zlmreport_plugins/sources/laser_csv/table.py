@@ -6,8 +6,7 @@ import re
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
-from zlmreport.errors import InputError, Place, Problem
-from zlmreport.measurement.text_file import TextFile, quoted
+from zlmreport.plugin import InputError, Place, Problem, TextFile, quoted
 
 #: In order of precedence: a comma may stand in a name or a number of a table that semicolons part.
 _DELIMITERS = {"\t": "tab", ";": "semicolon", ",": "comma"}

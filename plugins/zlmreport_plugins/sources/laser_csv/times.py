@@ -5,8 +5,7 @@ from __future__ import annotations
 import datetime as dt
 import math
 
-from zlmreport.measurement.numeral import parse_number
-from zlmreport.measurement.text_file import quoted
+from zlmreport.plugin import parse_number, quoted
 from zlmreport_plugins.sources.laser_csv.cells import Cells, ReadTime
 from zlmreport_plugins.sources.laser_csv.columns import Column
 from zlmreport_plugins.sources.laser_csv.table import Row

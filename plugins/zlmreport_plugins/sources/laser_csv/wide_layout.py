@@ -5,11 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from zlmreport.errors import InputError, Problem
-from zlmreport.measurement.approach import Approach
-from zlmreport.measurement.collect import Reading
-from zlmreport.measurement.text_file import quoted
-from zlmreport.protocols import SourceContext
+from zlmreport.plugin import Approach, InputError, Problem, Reading, SourceContext, quoted
 from zlmreport_plugins.sources.laser_csv.cells import Cells
 from zlmreport_plugins.sources.laser_csv.columns import (
     Column,

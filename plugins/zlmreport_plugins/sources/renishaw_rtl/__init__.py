@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from zlmreport.hookspecs import hookimpl
-from zlmreport.protocols import DataSource
+from zlmreport.plugin import DataSource, hookimpl
 from zlmreport_plugins.sources.renishaw_rtl.source import RenishawRtl
 
 

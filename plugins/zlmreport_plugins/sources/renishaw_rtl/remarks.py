@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from zlmreport.errors import Problem
-from zlmreport.language import Words, same
-from zlmreport.measurement.numeral import parse_number
+from zlmreport.plugin import Problem, Words, parse_number, same_in_all_languages
 from zlmreport_plugins.sources.renishaw_rtl.sections import Entry, Section
 
 #: Of a text in a file that is printed as a remark.
@@ -63,7 +61,8 @@ def _recorded(entry: Entry) -> Words | None:
         return None
     kind = entry.key.rstrip("0123456789")
     quantity, units = next(
-        ((words, units) for key, words, units in _RECORDED if key == kind), (same(entry.name), None)
+        ((words, units) for key, words, units in _RECORDED if key == kind),
+        (same_in_all_languages(entry.name), None),
     )
     if units is None:
         return Words(en="{quantity}: {text}.", de="{quantity}: {text}.").given(

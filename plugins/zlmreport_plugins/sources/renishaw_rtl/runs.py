@@ -9,10 +9,7 @@ from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from zlmreport.errors import Place, Problem
-from zlmreport.measurement.approach import Approach
-from zlmreport.measurement.numeral import parse_number
-from zlmreport.measurement.text_file import quoted
+from zlmreport.plugin import Approach, Place, Problem, parse_number, quoted
 from zlmreport_plugins.sources.renishaw_rtl.sections import Line, Section
 
 _NUMBER = re.compile(r"[0-9]{1,9}")

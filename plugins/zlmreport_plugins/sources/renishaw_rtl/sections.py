@@ -6,8 +6,7 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
-from zlmreport.errors import InputError, Place, Problem, did_you_mean
-from zlmreport.measurement.text_file import TextFile, quoted
+from zlmreport.plugin import InputError, Place, Problem, TextFile, did_you_mean, quoted
 
 _HEAD = re.compile(r"([A-Z][A-Z0-9 -]*)::")
 

@@ -8,16 +8,30 @@ from typing import Annotated
 
 from pydantic import AfterValidator, Field
 
-from zlmreport.errors import InputError, Place, Problem
-from zlmreport.job.options import JobPath, Options
-from zlmreport.language import Words
-from zlmreport.measurement.axis import AxisKind, position_units
-from zlmreport.measurement.collect import Reading, collect
-from zlmreport.measurement.measurement_set import MeasurementSet
-from zlmreport.measurement.provenance import Provenance
-from zlmreport.measurement.text_file import TextFile, known_encoding, quoted, read_text
-from zlmreport.protocols import SourceContext
-from zlmreport.quantities.units import MICROMETRE, MILLIRADIAN, POSITION_UNITS, Unit, unit_named
+from zlmreport.plugin import (
+    MICROMETRE,
+    MILLIRADIAN,
+    POSITION_UNITS,
+    AxisKind,
+    InputError,
+    JobPath,
+    MeasurementSet,
+    Options,
+    Place,
+    Problem,
+    Provenance,
+    Reading,
+    SourceContext,
+    TextFile,
+    Unit,
+    Words,
+    collect_readings,
+    known_encoding,
+    position_units,
+    quoted,
+    read_text,
+    unit_named,
+)
 from zlmreport_plugins.sources.renishaw_rtl.remarks import remarks
 from zlmreport_plugins.sources.renishaw_rtl.runs import Deviation, Pass, deviations, passes
 from zlmreport_plugins.sources.renishaw_rtl.sections import Section, sections
@@ -86,7 +100,7 @@ class RenishawRtl:
             message = f"has {len(targets)} targets and {len(taken)} runs, and only {len(found)} readings"
             raise InputError([Problem(text.place(), message), *problems])
         said = [_unit_remark(options, unit, kind), *remarks(parts, problems)]
-        return collect(
+        return collect_readings(
             _readings(taken, targets, unit, context),
             context.axis,
             Provenance(self.identifier, (text.source,), tuple(said)),

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import re
 
-from zlmreport.errors import InputError, Problem
-from zlmreport.measurement.numeral import parse_number
+from zlmreport.plugin import InputError, Problem, parse_number
 from zlmreport_plugins.sources.renishaw_rtl.sections import Line, Section, as_entry
 
 _COUNT = re.compile(r"[0-9]{1,9}")

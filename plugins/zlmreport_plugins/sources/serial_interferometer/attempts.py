@@ -6,16 +6,15 @@ from collections import defaultdict
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
-from zlmreport.capture.events import Recorded
-from zlmreport.capture.history import Entry, History
+from zlmreport.plugin import JournalEntry, JournalHistory, ReadingRecorded
 
 
 @dataclass(frozen=True, slots=True)
 class Taken:
     """A reading that counts: its entry in the journal, and the event in it."""
 
-    entry: Entry
-    event: Recorded
+    entry: JournalEntry
+    event: ReadingRecorded
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,7 +39,7 @@ class Part:
     left_out: int
 
 
-def counted(history: History) -> tuple[Mapping[int, Taken], tuple[Part, ...]]:
+def counted(history: JournalHistory) -> tuple[Mapping[int, Taken], tuple[Part, ...]]:
     """Return the readings that count, by the numbers of their visits, and what was left out.
 
     Readings of two attempts are not mixed, for each has a datum of its own. The attempt with the most
@@ -59,5 +58,5 @@ def counted(history: History) -> tuple[Mapping[int, Taken], tuple[Part, ...]]:
     return readings, tuple(parts)
 
 
-def _taken(entries: Iterable[Entry]) -> Iterable[Taken]:
-    return (Taken(entry, entry.event) for entry in entries if isinstance(entry.event, Recorded))
+def _taken(entries: Iterable[JournalEntry]) -> Iterable[Taken]:
+    return (Taken(entry, entry.event) for entry in entries if isinstance(entry.event, ReadingRecorded))

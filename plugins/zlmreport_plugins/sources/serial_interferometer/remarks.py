@@ -4,15 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 
-from zlmreport.capture.events import DatumHolds, DatumMoved, Ended, Resumed, ZeroLost
-from zlmreport.capture.history import History
-from zlmreport.language import Words
-from zlmreport.measurement.axis import Axis
+from zlmreport.plugin import (
+    Axis,
+    CaptureEnded,
+    CaptureResumed,
+    DatumHolds,
+    DatumMoved,
+    JournalHistory,
+    Words,
+    ZeroLost,
+)
 from zlmreport_plugins.sources.serial_interferometer.attempts import Part, Taken
 
 
 def remarks(
-    history: History, taken: Mapping[int, Taken], parts: Sequence[Part], axis: Axis
+    history: JournalHistory, taken: Mapping[int, Taken], parts: Sequence[Part], axis: Axis
 ) -> Iterator[Words]:
     """Yield what a reader of the results must know of a capture."""
     header = history.header
@@ -39,7 +45,7 @@ def remarks(
             en="{missing} of {all} visits of the plan have no reading.",
             de="{missing} von {all} geplanten Messpunkten haben keinen Messwert.",
         ).given(missing=missing, all=len(header.visits))
-    if any(isinstance(entry.event, Ended) for entry in history.entries):
+    if any(isinstance(entry.event, CaptureEnded) for entry in history.entries):
         yield Words(
             en="The operator closed the test before the plan was done.",
             de="Die Messung wurde beendet, bevor der Plan abgearbeitet war.",
@@ -59,10 +65,10 @@ def _datum(datum: float | None, axis: Axis) -> Words:
     ).given(position=axis.position_unit.from_si(datum), unit=axis.position_unit.symbol)
 
 
-def _interruptions(history: History, axis: Axis) -> Iterator[Words]:
+def _interruptions(history: JournalHistory, axis: Axis) -> Iterator[Words]:
     events = [entry.event for entry in history.entries]
     lost = sum(isinstance(event, ZeroLost | DatumMoved) for event in events)
-    resumed = sum(isinstance(event, Resumed) for event in events)
+    resumed = sum(isinstance(event, CaptureResumed) for event in events)
     if resumed > lost:
         yield Words(
             en="The capture was interrupted and went on (interruptions: {count}).",

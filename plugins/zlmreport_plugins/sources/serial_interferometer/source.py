@@ -5,17 +5,23 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
-from zlmreport.capture.header import Header
-from zlmreport.capture.history import History, read_history
-from zlmreport.capture.options import CaptureOptions
-from zlmreport.errors import AccessError, InputError, Place
-from zlmreport.job.options import Options
-from zlmreport.language import Words
-from zlmreport.measurement.axis import Axis
-from zlmreport.measurement.collect import Reading, collect
-from zlmreport.measurement.measurement_set import MeasurementSet
-from zlmreport.measurement.provenance import Provenance
-from zlmreport.protocols import SourceContext
+from zlmreport.plugin import (
+    AccessError,
+    Axis,
+    CaptureOptions,
+    InputError,
+    JournalHeader,
+    JournalHistory,
+    MeasurementSet,
+    Options,
+    Place,
+    Provenance,
+    Reading,
+    SourceContext,
+    Words,
+    collect_readings,
+    read_journal,
+)
 from zlmreport_plugins.sources.serial_interferometer.attempts import Taken, counted
 from zlmreport_plugins.sources.serial_interferometer.remarks import remarks
 
@@ -36,7 +42,7 @@ class SerialInterferometer:
     def read(self, options: CaptureOptions, context: SourceContext) -> MeasurementSet:
         """Read a journal; raise `AccessError` for one that is damaged or not finished."""
         place = Place(str(options.journal))
-        history = read_history(options.journal)
+        history = read_journal(options.journal)
         if history is None or not history.progress.is_over:
             raise AccessError.at(place, _unfinished(history))
         _demand_axis(history.header, context.axis, place)
@@ -45,11 +51,11 @@ class SerialInterferometer:
             self.identifier, (history.file,), tuple(remarks(history, taken, parts, context.axis))
         )
         readings = _readings(history, taken, place)
-        found = collect(readings, context.axis, provenance, place=place)
+        found = collect_readings(readings, context.axis, provenance, place=place)
         return replace(found, datum=history.header.datum)
 
 
-def _unfinished(history: History | None) -> str:
+def _unfinished(history: JournalHistory | None) -> str:
     if history is None:
         return f"holds nothing yet; '{_COMMAND}' begins the capture"
     progress = history.progress
@@ -59,7 +65,7 @@ def _unfinished(history: History | None) -> str:
     )
 
 
-def _demand_axis(header: Header, axis: Axis, place: Place) -> None:
+def _demand_axis(header: JournalHeader, axis: Axis, place: Place) -> None:
     if (header.axis, header.kind) != (axis.name, axis.kind):
         raise InputError.at(
             place,
@@ -68,7 +74,7 @@ def _demand_axis(header: Header, axis: Axis, place: Place) -> None:
         )
 
 
-def _readings(history: History, taken: Mapping[int, Taken], place: Place) -> Iterator[Reading]:
+def _readings(history: JournalHistory, taken: Mapping[int, Taken], place: Place) -> Iterator[Reading]:
     """Yield the visits of the test in their order; those that were not taken have no deviation."""
     for visit in history.header.visits:
         found = taken.get(visit.number)

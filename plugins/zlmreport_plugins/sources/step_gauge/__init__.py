@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from zlmreport.hookspecs import hookimpl
-from zlmreport.protocols import DataSource
+from zlmreport.plugin.hookspecs import hookimpl
+from zlmreport.plugin.protocols import DataSource
 from zlmreport_plugins.sources.step_gauge.source import StepGaugeSource
 
 

@@ -7,7 +7,7 @@ from zlmreport.job.options import Options
 from zlmreport.language import Words
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.measurement.text_file import TextFile, read_text
-from zlmreport.protocols import SourceContext
+from zlmreport.plugin.protocols import SourceContext
 from zlmreport.quantities.units import MILLIMETRE
 from zlmreport.step_gauge.deviations import deviations_of
 from zlmreport.step_gauge.gauge import Side

@@ -6,8 +6,7 @@ The editions are rows of one table (`editions`); their formulas differ by the co
 
 from __future__ import annotations
 
-from zlmreport.hookspecs import hookimpl
-from zlmreport.protocols import Standard
+from zlmreport.plugin import Standard, hookimpl
 from zlmreport_plugins.standards.iso230_2.editions import EDITIONS
 from zlmreport_plugins.standards.iso230_2.standard import Iso230Part2
 

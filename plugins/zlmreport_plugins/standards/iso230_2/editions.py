@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from zlmreport.evaluation.requirements import Basis
+from zlmreport.plugin import Basis
 
 
 @dataclass(frozen=True, slots=True)

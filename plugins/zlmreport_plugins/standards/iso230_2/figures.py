@@ -6,12 +6,27 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from zlmreport.evaluation.evaluation import Evaluation
-from zlmreport.figures import alternatives
-from zlmreport.figures.figure import Arrow, Band, Curve, Figure, Panel, Role
-from zlmreport.figures.prescribed import DIRECTIONS, LIMITS, MEANS, Diagram, panel, worst
-from zlmreport.language import Words
-from zlmreport.measurement.approach import Approach
+from zlmreport.plugin import (
+    APPROACH_TITLES,
+    LIMIT_ROLES,
+    MEAN_ROLES,
+    Approach,
+    Arrow,
+    Band,
+    Curve,
+    Diagram,
+    Evaluation,
+    Figure,
+    Panel,
+    Role,
+    Words,
+    alternative_text,
+    diagram_panel,
+    graph_in_words,
+    marks_in_words,
+    range_in_words,
+    worst_position,
+)
 from zlmreport_plugins.standards.iso230_2 import formulas
 from zlmreport_plugins.standards.iso230_2.editions import Edition
 
@@ -43,12 +58,12 @@ class _Graphs:
         self.mean_bidirectional = statistics.mean_bidirectional
         self.upper = formulas.upper_limit(statistics, self.k)
         self.lower = formulas.lower_limit(statistics, self.k)
-        self.worst_reversal = worst(np.abs(statistics.reversal_value))
-        self.worst_repeatability = worst(evaluation.column("R"))
+        self.worst_reversal = worst_position(np.abs(statistics.reversal_value))
+        self.worst_repeatability = worst_position(evaluation.column("R"))
 
     def means(self) -> Figure:
         """Return the means and limits of both directions, with B_i and R_i where they are largest."""
-        shown = panel(
+        shown = diagram_panel(
             bands=[self._limits(approach) for approach in Approach],
             readings=self.diagram.readings(),
             curves=self._means(),
@@ -64,7 +79,7 @@ class _Graphs:
 
     def overall(self) -> Figure:
         """Return the bidirectional parameters at the places where they arise."""
-        shown = panel(
+        shown = diagram_panel(
             bands=[self._limits(approach) for approach in Approach],
             curves=self._means(),
             arrows=self._bidirectional_arrows("B", "R"),
@@ -92,14 +107,14 @@ class _Graphs:
     def _direction(self, approach: Approach) -> Panel:
         accuracy, systematic, repeatability = _SYMBOLS[approach]
         lower, upper, mean = (array[approach.index] for array in (self.lower, self.upper, self.mean))
-        return panel(
-            DIRECTIONS[approach],
+        return diagram_panel(
+            APPROACH_TITLES[approach],
             bands=[self._limits(approach)],
             readings=self.diagram.readings(approach),
             curves=[self._mean(approach)],
             arrows=[
                 self.diagram.arrow(
-                    f"R{approach.arrow}", worst(self.evaluation.column(repeatability)), lower, upper
+                    f"R{approach.arrow}", worst_position(self.evaluation.column(repeatability)), lower, upper
                 )
             ],
             brackets=[
@@ -110,7 +125,7 @@ class _Graphs:
 
     def _mean(self, approach: Approach) -> Curve | None:
         notation = f"x̄{self.i}{approach.arrow}"
-        return self.diagram.curve(notation, MEANS[approach], self.mean[approach.index])
+        return self.diagram.curve(notation, MEAN_ROLES[approach], self.mean[approach.index])
 
     def _means(self) -> list[Curve | None]:
         both = self.diagram.curve(f"x̄{self.i}", Role.MEAN_BIDIRECTIONAL, self.mean_bidirectional)
@@ -120,7 +135,7 @@ class _Graphs:
         arrow = approach.arrow
         return self.diagram.band(
             f"x̄{self.i}{arrow} ± {self.k}s{self.i}{arrow}",
-            LIMITS[approach],
+            LIMIT_ROLES[approach],
             self.lower[approach.index],
             self.upper[approach.index],
         )
@@ -137,13 +152,13 @@ class _Graphs:
 
     def _figure(self, key: str, title: Words, *panels: Panel) -> Figure:
         axis = self.diagram.axis
-        alternative = alternatives.text(
-            alternatives.graph_of(self.evaluation),
+        alternative = alternative_text(
+            graph_in_words(self.evaluation),
             *(
-                alternatives.range_of(axis, _MEAN[approach], self.mean[approach.index])
+                range_in_words(axis, _MEAN[approach], self.mean[approach.index])
                 for approach in self.diagram.approaches
             ),
-            alternatives.marks(axis, [mark for each in panels for mark in each.arrows]),
-            alternatives.marks(axis, [mark for each in panels for mark in each.brackets]),
+            marks_in_words(axis, [mark for each in panels for mark in each.arrows]),
+            marks_in_words(axis, [mark for each in panels for mark in each.brackets]),
         )
         return self.diagram.figure(key, title.given(axis=axis.name), alternative, panels)

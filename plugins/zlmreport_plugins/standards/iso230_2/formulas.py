@@ -13,9 +13,14 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from zlmreport.evaluation.ranges import average, largest, smallest, width
-from zlmreport.evaluation.statistics import PositionStatistics
-from zlmreport.quantities.arrays import FloatArray
+from zlmreport.plugin import (
+    FloatArray,
+    PositionStatistics,
+    largest_over_positions,
+    mean_over_positions,
+    range_over_positions,
+    smallest_over_positions,
+)
 
 
 def unidirectional_repeatability(statistics: PositionStatistics, k: int) -> FloatArray:
@@ -49,7 +54,9 @@ def bidirectional_width(upper: FloatArray, lower: FloatArray) -> FloatArray:
 
     Shape (..., approach, position) to (...); NaN where a direction was not measured at all.
     """
-    width_of_both: FloatArray = np.max(largest(upper), axis=-1) - np.min(smallest(lower), axis=-1)
+    width_of_both: FloatArray = np.max(largest_over_positions(upper), axis=-1) - np.min(
+        smallest_over_positions(lower), axis=-1
+    )
     return width_of_both
 
 
@@ -79,7 +86,7 @@ def parameters(
     """
     upper, lower = upper_limit(statistics, k), lower_limit(statistics, k)
     mean, mean_bidirectional = statistics.mean, statistics.mean_bidirectional
-    accuracy, systematic = width(upper, lower), width(mean, mean)
+    accuracy, systematic = range_over_positions(upper, lower), range_over_positions(mean, mean)
     reversal = statistics.reversal_value
     return {
         "A": bidirectional_width(upper, lower),
@@ -88,10 +95,10 @@ def parameters(
         "E": bidirectional_width(mean, mean),
         "E_fwd": systematic[..., 0],
         "E_bwd": systematic[..., 1],
-        "M": width(mean_bidirectional, mean_bidirectional),
-        "R": largest(repeatability["R"]),
-        "R_fwd": largest(repeatability["R_fwd"]),
-        "R_bwd": largest(repeatability["R_bwd"]),
-        "B": largest(np.abs(reversal)),
-        "B_mean": average(reversal),
+        "M": range_over_positions(mean_bidirectional, mean_bidirectional),
+        "R": largest_over_positions(repeatability["R"]),
+        "R_fwd": largest_over_positions(repeatability["R_fwd"]),
+        "R_bwd": largest_over_positions(repeatability["R_bwd"]),
+        "B": largest_over_positions(np.abs(reversal)),
+        "B_mean": mean_over_positions(reversal),
     }

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from zlmreport.language import Words
+from zlmreport.plugin import Words
 
 _ALWAYS_POSITIVE = Words(
     "all positions are approached in the positive direction",

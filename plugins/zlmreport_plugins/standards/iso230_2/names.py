@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from zlmreport.language import Words
+from zlmreport.plugin import Words
 
 _SINCE_1988 = {
     "A": Words("Bidirectional accuracy of positioning", "Zweiseitige Positioniergenauigkeit"),

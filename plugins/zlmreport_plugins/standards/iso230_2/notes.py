@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from zlmreport.language import Words
+from zlmreport.plugin import Words
 from zlmreport_plugins.standards.iso230_2.editions import Edition
 
 _FULL_WIDTHS = Words(

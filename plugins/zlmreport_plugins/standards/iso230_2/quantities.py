@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-from zlmreport.evaluation.quantity import Group, PositionQuantity, Quantity
-from zlmreport.language import Words
+from zlmreport.plugin import PositionQuantity, Quantity, QuantityGroup, Words
 from zlmreport_plugins.standards.iso230_2.editions import Edition
 from zlmreport_plugins.standards.iso230_2.meanings import MEANINGS
 from zlmreport_plugins.standards.iso230_2.names import NAMES
 
 _GROUPS = {
-    "A": Group.COMPOSITE,
-    "E": Group.SYSTEMATIC,
-    "M": Group.SYSTEMATIC,
-    "R": Group.RANDOM,
-    "B": Group.SYSTEMATIC,
+    "A": QuantityGroup.COMPOSITE,
+    "E": QuantityGroup.SYSTEMATIC,
+    "M": QuantityGroup.SYSTEMATIC,
+    "R": QuantityGroup.RANDOM,
+    "B": QuantityGroup.SYSTEMATIC,
 }
 _NOTATIONS = {
     "A_fwd": "A↑",

@@ -10,27 +10,30 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from zlmreport.evaluation import printed
-from zlmreport.evaluation.checks.positions import (
+from zlmreport.plugin import (
+    Axis,
+    AxisKind,
+    Basis,
+    Finding,
+    MeasurementSet,
+    Words,
+    both_directions,
     exceeds,
+    fewest_runs,
+    mean_interval,
     measured_length,
+    no_missing_readings,
+    number_of_runs,
+    position_in_words,
     positions_by_angle,
     positions_over_travel,
     positions_per_metre,
     positions_per_scale_element,
     principal_angles,
+    random_fractions,
+    runs_in_words,
+    spacing_against_periods,
 )
-from zlmreport.evaluation.checks.readings import (
-    both_directions,
-    fewest_runs,
-    no_missing_readings,
-    number_of_runs,
-)
-from zlmreport.evaluation.checks.spacing import mean_interval, random_fractions, spacing_against_periods
-from zlmreport.evaluation.requirements import Basis, Finding
-from zlmreport.language import Words
-from zlmreport.measurement.axis import Axis, AxisKind
-from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport_plugins.standards.iso230_2.editions import Edition
 
 _RUNS = 5
@@ -99,9 +102,9 @@ def _zone(axis: Axis, length: float, measured: float) -> Finding:
     requirement = Words(
         "On an axis above {limit}, a full test of a shorter zone only as agreed",
         "An einer Achse über {limit} eine vollständige Prüfung eines kürzeren Bereichs nur nach Vereinbarung",
-    ).given(limit=printed.position(axis, _LONG[axis.kind]))
+    ).given(limit=position_in_words(axis, _LONG[axis.kind]))
     found = Words("{measured} of {length}", "{measured} von {length}").given(
-        measured=printed.position(axis, measured), length=printed.position(axis, length)
+        measured=position_in_words(axis, measured), length=position_in_words(axis, length)
     )
     return Finding(requirement, found, met=None)
 
@@ -112,8 +115,8 @@ def _long_axis(basis: Basis, measurements: MeasurementSet) -> Iterator[Finding]:
     requirement = Words(
         "Above {limit} one run in each direction; s, R and A are not evaluated",
         "Über {limit} ein Durchlauf je Richtung; s, R und A werden nicht ausgewertet",
-    ).given(limit=printed.position(axis, _LONG[axis.kind]))
-    length = printed.position(axis, _axis_length(measurements))
+    ).given(limit=position_in_words(axis, _LONG[axis.kind]))
+    length = position_in_words(axis, _axis_length(measurements))
     if number == 1:
         found = Words(
             "1 run on {length}; s, R and A are not evaluated",
@@ -124,7 +127,7 @@ def _long_axis(basis: Basis, measurements: MeasurementSet) -> Iterator[Finding]:
         found = Words(
             "{runs} on {length}; the R and A that follow from them go beyond the standard",
             "{runs} auf {length}; die daraus folgenden R und A gehen über die Norm hinaus",
-        ).given(runs=printed.runs(number), length=length)
+        ).given(runs=runs_in_words(number), length=length)
         yield Finding(requirement, found, met=False, basis=basis)
     if axis.kind is AxisKind.LINEAR:
         yield mean_interval(measurements, _MEAN_INTERVAL_OF_LONG_AXIS, Basis.APPLIED)

@@ -4,13 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from zlmreport.evaluation.evaluation import Arithmetic, Evaluation
-from zlmreport.evaluation.requirements import Finding
-from zlmreport.evaluation.statistics import PositionStatistics
-from zlmreport.figures.figure import Figure
-from zlmreport.job.options import Options
-from zlmreport.language import Words
-from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.plugin import (
+    Arithmetic,
+    Evaluation,
+    Figure,
+    Finding,
+    MeasurementSet,
+    Options,
+    PositionStatistics,
+    Words,
+)
 from zlmreport_plugins.standards.iso230_2 import figures, formulas, notes, quantities, requirements
 from zlmreport_plugins.standards.iso230_2.editions import Edition
 

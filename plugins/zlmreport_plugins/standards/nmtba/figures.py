@@ -6,12 +6,26 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from zlmreport.evaluation import printed
-from zlmreport.evaluation.evaluation import Evaluation
-from zlmreport.figures import alternatives
-from zlmreport.figures.figure import Arrow, Band, Curve, Figure, Level, Panel, Role
-from zlmreport.figures.prescribed import MEANS, Diagram, panel, worst
-from zlmreport.language import Words
+from zlmreport.plugin import (
+    MEAN_ROLES,
+    Arrow,
+    Band,
+    Curve,
+    Diagram,
+    Evaluation,
+    Figure,
+    Level,
+    Panel,
+    Role,
+    Words,
+    alternative_text,
+    deviation_in_words,
+    diagram_panel,
+    graph_in_words,
+    marks_in_words,
+    range_in_words,
+    worst_position,
+)
 
 _MEAN = Words("Mean deviation", "Mittlere Abweichung")
 
@@ -34,21 +48,21 @@ class _Graphs:
 
     def means(self) -> Figure:
         """Return means and limits by position, with P_sj/2 where the spread is largest."""
-        shown = panel(
+        shown = diagram_panel(
             bands=[self._band()],
             readings=self.diagram.readings(),
             curves=[self._curve()],
-            arrows=[self.diagram.arrow("P_{sj}/2", worst(self.spread), self.mean, self.upper)],
+            arrows=[self.diagram.arrow("P_{sj}/2", worst_position(self.spread), self.mean, self.upper)],
         )
         title = Words(
             "Axis {axis}: mean deviations and position spread",
             "Achse {axis}: mittlere Abweichungen und Positionsstreubreite",
         )
-        return self._figure("means", title, shown, alternatives.marks(self.diagram.axis, shown.arrows))
+        return self._figure("means", title, shown, marks_in_words(self.diagram.axis, shown.arrows))
 
     def overall(self) -> Figure:
         """Return P and P_a at the places where they arise, and the offset O that centres the band."""
-        shown = panel(
+        shown = diagram_panel(
             bands=[self._band()],
             curves=[self._curve()],
             arrows=[self._offset_arrow()],
@@ -62,12 +76,12 @@ class _Graphs:
             "Axis {axis}: position uncertainty, position deviation and offset",
             "Achse {axis}: Positionsunsicherheit, Positionsabweichung und Nullpunktverschiebung",
         )
-        sentences = alternatives.marks(self.diagram.axis, shown.brackets), self._offset_sentence()
+        sentences = marks_in_words(self.diagram.axis, shown.brackets), self._offset_sentence()
         return self._figure("overall", title, shown, *sentences)
 
     def _curve(self) -> Curve | None:
         approaches = self.diagram.approaches
-        role = MEANS[approaches[0]] if len(approaches) == 1 else Role.MEAN_BIDIRECTIONAL
+        role = MEAN_ROLES[approaches[0]] if len(approaches) == 1 else Role.MEAN_BIDIRECTIONAL
         return self.diagram.curve("X̄_{j}", role, self.mean)
 
     def _band(self) -> Band | None:
@@ -94,15 +108,15 @@ class _Graphs:
             "The band's middle lies at {middle}, so that O = {offset}.",
             "Die Mitte des Bandes liegt bei {middle}, also ist O = {offset}.",
         ).given(
-            middle=printed.deviation(self.diagram.axis, -offset),
-            offset=printed.deviation(self.diagram.axis, offset),
+            middle=deviation_in_words(self.diagram.axis, -offset),
+            offset=deviation_in_words(self.diagram.axis, offset),
         )
 
     def _figure(self, key: str, title: Words, shown: Panel, *sentences: Words | None) -> Figure:
         axis = self.diagram.axis
-        alternative = alternatives.text(
-            alternatives.graph_of(self.evaluation),
-            alternatives.range_of(axis, _MEAN, self.mean),
+        alternative = alternative_text(
+            graph_in_words(self.evaluation),
+            range_in_words(axis, _MEAN, self.mean),
             *sentences,
         )
         return self.diagram.figure(key, title.given(axis=axis.name), alternative, (shown,))

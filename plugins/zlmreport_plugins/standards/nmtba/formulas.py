@@ -13,9 +13,15 @@ from __future__ import annotations
 
 import numpy as np
 
-from zlmreport.evaluation.ranges import average, largest, smallest, width
-from zlmreport.evaluation.statistics import PositionStatistics
-from zlmreport.quantities.arrays import BoolArray, FloatArray
+from zlmreport.plugin import (
+    BoolArray,
+    FloatArray,
+    PositionStatistics,
+    largest_over_positions,
+    mean_over_positions,
+    range_over_positions,
+    smallest_over_positions,
+)
 
 
 def mean_deviation(statistics: PositionStatistics) -> FloatArray:
@@ -62,17 +68,17 @@ def parameters(mean: FloatArray, spread: FloatArray) -> dict[str, FloatArray]:
     """
     upper, lower = mean + spread / 2, mean - spread / 2
     return {
-        "P": width(upper, lower),
-        "Pa": width(mean, mean),
-        "Ps_max": largest(spread),
-        "Ps_mean": average(spread),
+        "P": range_over_positions(upper, lower),
+        "Pa": range_over_positions(mean, mean),
+        "Ps_max": largest_over_positions(spread),
+        "Ps_mean": mean_over_positions(spread),
         "O": offset(upper, lower),
     }
 
 
 def offset(upper: FloatArray, lower: FloatArray) -> FloatArray:
     """O = −½·(max[X̄_j + P_sj/2] + min[X̄_j − P_sj/2]): what centres the band on zero. Shape (...)."""
-    return -(largest(upper) + smallest(lower)) / 2
+    return -(largest_over_positions(upper) + smallest_over_positions(lower)) / 2
 
 
 def _lacks_a_direction(statistics: PositionStatistics) -> BoolArray:

@@ -7,13 +7,18 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from zlmreport.evaluation import printed
-from zlmreport.evaluation.checks.positions import positions_over_travel
-from zlmreport.evaluation.checks.readings import both_directions, no_missing_readings, number_of_runs
-from zlmreport.evaluation.checks.spacing import spacing_against_periods
-from zlmreport.evaluation.requirements import Basis, Finding
-from zlmreport.language import Words
-from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.plugin import (
+    Basis,
+    Finding,
+    MeasurementSet,
+    Words,
+    both_directions,
+    no_missing_readings,
+    number_of_runs,
+    positions_in_words,
+    positions_over_travel,
+    spacing_against_periods,
+)
 
 _RUNS_FOR_A_SCATTER = 2
 _ONE_DIRECTION_ONLY = Words(
@@ -43,4 +48,4 @@ def _number_of_positions(measurements: MeasurementSet) -> Finding:
         "{positions}; keine Zahl bekannt, an der sie zu messen wären",
     )
     number = len(measurements.target_positions)
-    return Finding(requirement, found.given(positions=printed.positions(number)), met=None)
+    return Finding(requirement, found.given(positions=positions_in_words(number)), met=None)

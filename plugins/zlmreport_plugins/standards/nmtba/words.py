@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from zlmreport.evaluation.quantity import Group, PositionQuantity, Quantity
-from zlmreport.language import Words
+from zlmreport.plugin import PositionQuantity, Quantity, QuantityGroup, Words
 
 _MEAN = "X̄_{j}"
 _HALF_SPREAD = "½P_{sj}"
@@ -15,7 +14,7 @@ PARAMETERS: tuple[Quantity, ...] = (
         "P",
         "P",
         Words("Position uncertainty", "Positionsunsicherheit"),
-        Group.COMPOSITE,
+        QuantityGroup.COMPOSITE,
         f"max[{_MEAN} + {_HALF_SPREAD}] − min[{_MEAN} − {_HALF_SPREAD}]",
         Words(
             "The largest error, systematic and random together, that positioning is expected to bring into a "
@@ -28,7 +27,7 @@ PARAMETERS: tuple[Quantity, ...] = (
         "Pa",
         "P_{a}",
         Words("Position deviation", "Positionsabweichung"),
-        Group.SYSTEMATIC,
+        QuantityGroup.SYSTEMATIC,
         f"max[{_MEAN}] − min[{_MEAN}], {_MEAN} = 1/(2z) · ∑(x_{{ij}}↑ + x_{{ij}}↓)",
         Words(
             "The largest error of a dimension that remains on average over many like parts.",
@@ -39,7 +38,7 @@ PARAMETERS: tuple[Quantity, ...] = (
         "Ps_max",
         "P_{s max}",
         Words("Largest position spread", "Größte Positionsstreubreite"),
-        Group.RANDOM,
+        QuantityGroup.RANDOM,
         f"max[P_{{sj}}], {_SPREAD}",
         Words(
             "The scatter to expect of a feature's place among like parts, the effect of the direction of "
@@ -52,7 +51,7 @@ PARAMETERS: tuple[Quantity, ...] = (
         "Ps_mean",
         "P_{s mit}",
         Words("Mean position spread", "Mittlere Positionsstreubreite"),
-        Group.RANDOM,
+        QuantityGroup.RANDOM,
         "(1/n) · ∑ P_{sj}",
         Words(
             "The scatter to expect of a feature's place among like parts, the effect of the direction of "
@@ -65,7 +64,7 @@ PARAMETERS: tuple[Quantity, ...] = (
         "O",
         "O",
         Words("Offset", "Nullpunktverschiebung"),
-        Group.SYSTEMATIC,
+        QuantityGroup.SYSTEMATIC,
         f"−½(max[{_MEAN} + {_HALF_SPREAD}] + min[{_MEAN} − {_HALF_SPREAD}])",
         Words(
             "What to add to every deviation so that parts scatter evenly about the intended place: the band "

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from zlmreport.hookspecs import hookimpl
-from zlmreport.protocols import Standard
+from zlmreport.plugin.hookspecs import hookimpl
+from zlmreport.plugin.protocols import Standard
 from zlmreport_plugins.standards.step_gauge.standard import StepGaugeEvaluation
 
 

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from zlmreport.hookspecs import hookimpl
-from zlmreport.protocols import Standard
+from zlmreport.plugin import Standard, hookimpl
 from zlmreport_plugins.standards.vdi.guidelines import GUIDELINES
 from zlmreport_plugins.standards.vdi.standard import VdiGuideline
 

@@ -6,12 +6,26 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from zlmreport.evaluation.evaluation import Evaluation
-from zlmreport.figures import alternatives
-from zlmreport.figures.figure import Arrow, Band, Bracket, Curve, Figure, Panel, Role
-from zlmreport.figures.prescribed import MEANS, Diagram, panel, worst
-from zlmreport.language import Words
-from zlmreport.measurement.approach import Approach
+from zlmreport.plugin import (
+    MEAN_ROLES,
+    Approach,
+    Arrow,
+    Band,
+    Bracket,
+    Curve,
+    Diagram,
+    Evaluation,
+    Figure,
+    Panel,
+    Role,
+    Words,
+    alternative_text,
+    diagram_panel,
+    graph_in_words,
+    marks_in_words,
+    range_in_words,
+    worst_position,
+)
 from zlmreport_plugins.standards.vdi import formulas
 
 _MEAN = Words("Mean deviation", "Mittlere Abweichung")
@@ -47,7 +61,7 @@ class _Graphs:
                 "Axis {axis}: mean deviations and position spread",
                 "Achse {axis}: mittlere Abweichungen und Positionsstreubreite",
             )
-        shown = panel(
+        shown = diagram_panel(
             bands=[self._spread_band(), self._reversal_band()],
             readings=self.diagram.readings(),
             curves=self._curves(),
@@ -66,7 +80,7 @@ class _Graphs:
                 "Axis {axis}: position uncertainty and position deviation where they arise",
                 "Achse {axis}: Positionsunsicherheit und Positionsabweichung, wo sie entstehen",
             )
-        shown = panel(
+        shown = diagram_panel(
             bands=[self._spread_band()],
             curves=self._curves(),
             brackets=[
@@ -79,7 +93,7 @@ class _Graphs:
 
     def _curves(self) -> list[Curve | None]:
         by_direction = [
-            self.diagram.curve(f"x̄_{{j}}{each.arrow}", MEANS[each], self.statistics.mean[each.index])
+            self.diagram.curve(f"x̄_{{j}}{each.arrow}", MEAN_ROLES[each], self.statistics.mean[each.index])
             for each in Approach
         ]
         if not self.bidirectional:
@@ -97,18 +111,20 @@ class _Graphs:
     def _arrows(self) -> list[Arrow | None]:
         """Return U_j/2 upwards from the mean and P_sj/2 upwards from there, at the widest place."""
         if not self.bidirectional:
-            return [self.diagram.arrow("P_{sj}/2", worst(self.spread), self.mean, self.mean + self.half)]
-        at = worst(self.half)
+            return [
+                self.diagram.arrow("P_{sj}/2", worst_position(self.spread), self.mean, self.mean + self.half)
+            ]
+        at = worst_position(self.half)
         reversal_end = self.mean + self.reversal / 2
         return [
             self.diagram.arrow(
-                "U_{j}/2", worst(self.reversal) if at is None else at, self.mean, reversal_end
+                "U_{j}/2", worst_position(self.reversal) if at is None else at, self.mean, reversal_end
             ),
             self.diagram.arrow("P_{sj}/2", at, reversal_end, self.mean + self.half),
         ]
 
     def _largest_reversal(self) -> Bracket | None:
-        at = worst(self.reversal)
+        at = worst_position(self.reversal)
         if at is None:
             return None
         only_there = np.where(np.arange(self.reversal.size) == at, self.statistics.mean, np.nan)
@@ -116,9 +132,9 @@ class _Graphs:
 
     def _figure(self, key: str, title: Words, shown: Panel) -> Figure:
         axis = self.diagram.axis
-        alternative = alternatives.text(
-            alternatives.graph_of(self.evaluation),
-            alternatives.range_of(axis, _MEAN, self.mean),
-            alternatives.marks(axis, (*shown.arrows, *shown.brackets)),
+        alternative = alternative_text(
+            graph_in_words(self.evaluation),
+            range_in_words(axis, _MEAN, self.mean),
+            marks_in_words(axis, (*shown.arrows, *shown.brackets)),
         )
         return self.diagram.figure(key, title.given(axis=axis.name), alternative, (shown,))

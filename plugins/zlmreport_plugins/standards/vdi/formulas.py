@@ -15,9 +15,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from zlmreport.evaluation.ranges import average, largest, width
-from zlmreport.evaluation.statistics import PositionStatistics
-from zlmreport.quantities.arrays import FloatArray
+from zlmreport.plugin import (
+    FloatArray,
+    PositionStatistics,
+    largest_over_positions,
+    mean_over_positions,
+    range_over_positions,
+)
 
 
 def mean_deviation(statistics: PositionStatistics) -> FloatArray:
@@ -49,12 +53,12 @@ def parameters(statistics: PositionStatistics, k: int) -> dict[str, FloatArray]:
     reversal = reversal_span(statistics)
     half = half_width(reversal, spread, statistics)
     return {
-        "P": width(mean + half, mean - half),
-        "Pa": width(mean, mean),
-        "Ps_max": largest(spread),
-        "Ps_mean": average(spread),
-        "U_max": largest(reversal),
-        "U_mean": average(reversal),
+        "P": range_over_positions(mean + half, mean - half),
+        "Pa": range_over_positions(mean, mean),
+        "Ps_max": largest_over_positions(spread),
+        "Ps_mean": mean_over_positions(spread),
+        "U_max": largest_over_positions(reversal),
+        "U_mean": mean_over_positions(reversal),
     }
 
 

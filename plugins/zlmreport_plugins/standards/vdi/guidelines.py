@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from zlmreport.language import Words
+from zlmreport.plugin import Words
 from zlmreport_plugins.standards.vdi.meanings import OF_A_PART_MADE, OF_A_POINT_MEASURED
 
 
@@ -16,7 +16,7 @@ class Guideline:
     Attributes
     ----------
     identifier, designation, title
-        As in `zlmreport.protocols.Standard`.
+        As in `zlmreport.plugin.protocols.Standard`.
     factor
         k: P_sj = k·(s_j↑ + s_j↓).
     positions_per_metre

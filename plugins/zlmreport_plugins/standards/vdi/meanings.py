@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from zlmreport.language import Words
+from zlmreport.plugin import Words
 
 #: VDI/DGQ 3441, by symbol.
 OF_A_PART_MADE = {

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from zlmreport.language import Words
+from zlmreport.plugin import Words
 from zlmreport_plugins.standards.vdi.guidelines import Guideline
 
 _WIDTHS = Words(

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from zlmreport.evaluation.quantity import Group, PositionQuantity, Quantity
-from zlmreport.language import Words
+from zlmreport.plugin import PositionQuantity, Quantity, QuantityGroup, Words
 from zlmreport_plugins.standards.vdi.guidelines import Guideline
 
 _SPREAD = Words("Position spread", "Positionsstreubreite")
@@ -17,7 +16,7 @@ def parameters(guideline: Guideline) -> tuple[Quantity, ...]:
     spread = f"P_{{sj}} = {k}(s_{{j}}↑ + s_{{j}}↓)"
     reversal = "U_{j} = |x̄_{j}↑ − x̄_{j}↓|"
 
-    def quantity(symbol: str, notation: str, name: Words, group: Group, formula: str) -> Quantity:
+    def quantity(symbol: str, notation: str, name: Words, group: QuantityGroup, formula: str) -> Quantity:
         return Quantity(symbol, notation, name, group, formula, guideline.meanings[symbol])
 
     return (
@@ -25,42 +24,42 @@ def parameters(guideline: Guideline) -> tuple[Quantity, ...]:
             "P",
             "P",
             Words("Position uncertainty", "Positionsunsicherheit"),
-            Group.COMPOSITE,
+            QuantityGroup.COMPOSITE,
             f"max[{mean} + {band}] − min[{mean} − {band}]",
         ),
         quantity(
             "Pa",
             "P_{a}",
             Words("Position deviation", "Positionsabweichung"),
-            Group.SYSTEMATIC,
+            QuantityGroup.SYSTEMATIC,
             f"max[{mean}] − min[{mean}], {mean} = ½({mean}↑ + {mean}↓)",
         ),
         quantity(
             "Ps_max",
             "P_{s max}",
             Words("Largest position spread", "Größte Positionsstreubreite"),
-            Group.RANDOM,
+            QuantityGroup.RANDOM,
             f"max[P_{{sj}}], {spread}",
         ),
         quantity(
             "Ps_mean",
             "P_{s mit}",
             Words("Mean position spread", "Mittlere Positionsstreubreite"),
-            Group.RANDOM,
+            QuantityGroup.RANDOM,
             "(1/n) · ∑ P_{sj}",
         ),
         quantity(
             "U_max",
             "U_{max}",
             Words("Largest reversal span", "Größte Umkehrspanne"),
-            Group.SYSTEMATIC,
+            QuantityGroup.SYSTEMATIC,
             f"max[U_{{j}}], {reversal}",
         ),
         quantity(
             "U_mean",
             "U_{mit}",
             Words("Mean reversal span", "Mittlere Umkehrspanne"),
-            Group.SYSTEMATIC,
+            QuantityGroup.SYSTEMATIC,
             "(1/n) · ∑ U_{j}",
         ),
     )

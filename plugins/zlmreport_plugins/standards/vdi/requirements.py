@@ -4,17 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from zlmreport.evaluation.checks.positions import (
+from zlmreport.plugin import (
+    Basis,
+    Finding,
+    MeasurementSet,
+    Words,
+    both_directions,
+    no_missing_readings,
+    number_of_runs,
     positions_in_all,
     positions_over_travel,
     positions_per_metre,
     positions_per_scale_element,
+    spacing_against_periods,
 )
-from zlmreport.evaluation.checks.readings import both_directions, no_missing_readings, number_of_runs
-from zlmreport.evaluation.checks.spacing import spacing_against_periods
-from zlmreport.evaluation.requirements import Basis, Finding
-from zlmreport.language import Words
-from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport_plugins.standards.vdi.guidelines import Guideline
 
 _RUNS = 5

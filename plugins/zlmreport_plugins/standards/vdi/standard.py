@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from zlmreport.evaluation.evaluation import Arithmetic, Evaluation
-from zlmreport.evaluation.requirements import Finding
-from zlmreport.evaluation.statistics import PositionStatistics
-from zlmreport.figures.figure import Figure
-from zlmreport.job.options import Options
-from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.plugin import (
+    Arithmetic,
+    Evaluation,
+    Figure,
+    Finding,
+    MeasurementSet,
+    Options,
+    PositionStatistics,
+)
 from zlmreport_plugins.standards.vdi import figures, formulas, notes, quantities, requirements
 from zlmreport_plugins.standards.vdi.guidelines import Guideline
 

@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from typing import TYPE_CHECKING
 
 import pluggy
 
-from zlmreport.protocols import (
-    DataSource,
-    Effect,
-    Instrument,
-    PartProgram,
-    ProbingProgram,
-    Renderer,
-    Standard,
-)
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from zlmreport.model.effect import Effect
+    from zlmreport.plugin.protocols import (
+        DataSource,
+        Instrument,
+        PartProgram,
+        ProbingProgram,
+        Renderer,
+        Standard,
+    )
 
 PROJECT = "zlmreport"
 

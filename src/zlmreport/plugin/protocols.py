@@ -5,44 +5,30 @@ An `Effect` is declared in `zlmreport.model.effect`: it is all that the error mo
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from types import TracebackType
-from typing import Any, Protocol, Self, runtime_checkable
+from typing import TYPE_CHECKING, Any, Protocol, Self, runtime_checkable
 
-from zlmreport.certificate.attachments import Relationship
-from zlmreport.certificate.document import Certificate
-from zlmreport.emulation.emulator import Emulator, Scene
-from zlmreport.errors import Place
-from zlmreport.evaluation.evaluation import Arithmetic, Evaluation
-from zlmreport.evaluation.quantity import PositionQuantity, Quantity
-from zlmreport.evaluation.requirements import Finding
-from zlmreport.evaluation.statistics import PositionStatistics
-from zlmreport.figures.figure import Figure
-from zlmreport.foresight.motion import Motion
-from zlmreport.job.options import Options
-from zlmreport.language import Words
-from zlmreport.live.reading import LiveReading
-from zlmreport.measurement.axis import Axis
-from zlmreport.measurement.measurement_set import MeasurementSet
-from zlmreport.model.effect import Effect
-from zlmreport.step_gauge.path import ProbingPath
-from zlmreport.step_gauge.set_up import GaugeSetUp
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+    from types import TracebackType
 
-__all__ = [
-    "Connection",
-    "DataSource",
-    "Effect",
-    "Instrument",
-    "PartProgram",
-    "ProbingProgram",
-    "Renderer",
-    "SourceContext",
-    "Standard",
-    "carries_attachments",
-    "made",
-    "relationship_of",
-]
+    from zlmreport.certificate.attachments import Relationship
+    from zlmreport.certificate.document import Certificate
+    from zlmreport.emulation.emulator import Emulator, Scene
+    from zlmreport.errors import Place
+    from zlmreport.evaluation.evaluation import Arithmetic, Evaluation
+    from zlmreport.evaluation.quantity import PositionQuantity, Quantity
+    from zlmreport.evaluation.requirements import Finding
+    from zlmreport.evaluation.statistics import PositionStatistics
+    from zlmreport.figures.figure import Figure
+    from zlmreport.foresight.motion import Motion
+    from zlmreport.job.options import Options
+    from zlmreport.language import Words
+    from zlmreport.live.reading import LiveReading
+    from zlmreport.measurement.axis import Axis
+    from zlmreport.measurement.measurement_set import MeasurementSet
+    from zlmreport.step_gauge.path import ProbingPath
+    from zlmreport.step_gauge.set_up import GaugeSetUp
 
 
 @runtime_checkable

@@ -1,0 +1,602 @@
+"""The door: all that a plugin imports of zlmreport.
+
+A name is looked up when it is used, and loads its own module only: so the door costs next to nothing, and a
+plugin pays for what it needs. A name that says too little outside its module has a fuller one here.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from zlmreport.capture.events import DatumHolds, DatumMoved, ZeroLost
+    from zlmreport.capture.events import Ended as CaptureEnded
+    from zlmreport.capture.events import Recorded as ReadingRecorded
+    from zlmreport.capture.events import Resumed as CaptureResumed
+    from zlmreport.capture.header import Header as JournalHeader
+    from zlmreport.capture.history import Entry as JournalEntry
+    from zlmreport.capture.history import History as JournalHistory
+    from zlmreport.capture.history import read_history as read_journal
+    from zlmreport.capture.options import CaptureOptions
+    from zlmreport.certificate.attachments import Attachment, Relationship
+    from zlmreport.certificate.attachments import Source as CertificateSource
+    from zlmreport.certificate.conformity import STATEMENTS as CONFORMITY_STATEMENTS
+    from zlmreport.certificate.document import (
+        Align,
+        Block,
+        Cell,
+        Certificate,
+        Column,
+        Explained,
+        Facts,
+        Formulas,
+        Graph,
+        Letterhead,
+        Mark,
+        Notice,
+        PageWords,
+        Paragraph,
+        RowGroup,
+        Section,
+        Symbol,
+        Table,
+        Verdict,
+    )
+    from zlmreport.certificate.identity import lines as address_lines
+    from zlmreport.certificate.place import place_of_work
+    from zlmreport.certificate.statements import ONLY_THIS_ITEM
+    from zlmreport.correction.refractive_index import (
+        STANDARD_HUMIDITY,
+        STANDARD_PRESSURE,
+        index_change,
+        refractive_index,
+    )
+    from zlmreport.emulation.emulator import Emulator, Scene
+    from zlmreport.emulation.faults import Trouble
+    from zlmreport.errors import AccessError, InputError, Place, Problem, did_you_mean
+    from zlmreport.evaluation.checks.positions import (
+        exceeds,
+        measured_length,
+        positions_by_angle,
+        positions_in_all,
+        positions_over_travel,
+        positions_per_metre,
+        positions_per_scale_element,
+        principal_angles,
+    )
+    from zlmreport.evaluation.checks.readings import (
+        both_directions,
+        fewest_runs,
+        no_missing_readings,
+        number_of_runs,
+    )
+    from zlmreport.evaluation.checks.spacing import mean_interval, random_fractions, spacing_against_periods
+    from zlmreport.evaluation.conformity import Conformity, Decision
+    from zlmreport.evaluation.decision import decided, decision_rule
+    from zlmreport.evaluation.evaluate import evaluate
+    from zlmreport.evaluation.evaluation import Arithmetic, Evaluation
+    from zlmreport.evaluation.evaluation import Parameter as EvaluatedParameter
+    from zlmreport.evaluation.printed import deviation as deviation_in_words
+    from zlmreport.evaluation.printed import position as position_in_words
+    from zlmreport.evaluation.printed import positions as positions_in_words
+    from zlmreport.evaluation.printed import runs as runs_in_words
+    from zlmreport.evaluation.quantity import Group as QuantityGroup
+    from zlmreport.evaluation.quantity import PositionQuantity, Quantity
+    from zlmreport.evaluation.ranges import average as mean_over_positions
+    from zlmreport.evaluation.ranges import largest as largest_over_positions
+    from zlmreport.evaluation.ranges import smallest as smallest_over_positions
+    from zlmreport.evaluation.ranges import width as range_over_positions
+    from zlmreport.evaluation.requirements import Basis, Finding
+    from zlmreport.evaluation.statistics import PositionStatistics
+    from zlmreport.figures.alternatives import graph_of as graph_in_words
+    from zlmreport.figures.alternatives import marks as marks_in_words
+    from zlmreport.figures.alternatives import range_of as range_in_words
+    from zlmreport.figures.alternatives import text as alternative_text
+    from zlmreport.figures.canvas import Colour, Fill, Segment, Stroke
+    from zlmreport.figures.canvas import Face as FontFace
+    from zlmreport.figures.canvas import Run as TextRun
+    from zlmreport.figures.draw import draw as draw_with_matplotlib
+    from zlmreport.figures.draw import to_svg as figure_to_svg
+    from zlmreport.figures.figure import Arrow, Band, Bracket, Curve, Figure, Level, Panel, Role
+    from zlmreport.figures.metrics import advance as text_advance
+    from zlmreport.figures.metrics import has_letter, mark_offset
+    from zlmreport.figures.pen import draw as draw_figure
+    from zlmreport.figures.prescribed import DIRECTIONS as APPROACH_TITLES
+    from zlmreport.figures.prescribed import LIMITS as LIMIT_ROLES
+    from zlmreport.figures.prescribed import MEANS as MEAN_ROLES
+    from zlmreport.figures.prescribed import Diagram
+    from zlmreport.figures.prescribed import panel as diagram_panel
+    from zlmreport.figures.prescribed import worst as worst_position
+    from zlmreport.figures.sketch import figure_size
+    from zlmreport.figures.svg import hexadecimal as hexadecimal_colour
+    from zlmreport.foresight.motion import Motion
+    from zlmreport.foresight.program_text import ProgramOptions, axis_address, program_number
+    from zlmreport.foresight.program_text import heading as program_heading
+    from zlmreport.foresight.program_text import remark as reading_remark
+    from zlmreport.job.job import Job
+    from zlmreport.job.model import Customer, Laboratory
+    from zlmreport.job.options import JobPath, Options
+    from zlmreport.job.types import Finite
+    from zlmreport.language import Language, Words
+    from zlmreport.language import same as same_in_all_languages
+    from zlmreport.live.connection import LiveConnection
+    from zlmreport.live.lines import Lines as WholeLines
+    from zlmreport.live.options import PolledOptions, PortOptions
+    from zlmreport.live.patience import Patience
+    from zlmreport.live.polling import ask as ask_instrument
+    from zlmreport.live.polling import at_rate as readings_at_rate
+    from zlmreport.live.polling import unreadable as unreadable_reading
+    from zlmreport.live.port import Framing, Port
+    from zlmreport.live.reading import NO_CONDITIONS, NO_FAULT, Fault, LiveReading
+    from zlmreport.live.streaming import WrongDeviceError
+    from zlmreport.live.streaming import streamed as streamed_readings
+    from zlmreport.measurement.approach import Approach
+    from zlmreport.measurement.axis import Axis, AxisKind, position_units
+    from zlmreport.measurement.collect import Reading
+    from zlmreport.measurement.collect import collect as collect_readings
+    from zlmreport.measurement.collect import is_run as is_run_number
+    from zlmreport.measurement.collect import no_run as no_run_number
+    from zlmreport.measurement.conditions import CONDITION_NAMES, CONDITIONS, STATE_OF_AIR
+    from zlmreport.measurement.measurement_set import MeasurementSet
+    from zlmreport.measurement.numeral import parse_number
+    from zlmreport.measurement.provenance import Provenance, SourceFile
+    from zlmreport.measurement.text_file import TextFile, known_encoding, quoted, read_text
+    from zlmreport.model.design import Design
+    from zlmreport.model.effect import Confusion, Effect, Shape
+    from zlmreport.model.harmonic import harmonic_columns, harmonic_parameters
+    from zlmreport.model.needs import both_directions as needs_both_directions
+    from zlmreport.model.needs import linear_axis as needs_linear_axis
+    from zlmreport.model.needs import logged as needs_logged
+    from zlmreport.model.needs import passing_time as needs_passing_time
+    from zlmreport.model.needs import rotary_axis as needs_rotary_axis
+    from zlmreport.model.needs import runs as needs_runs
+    from zlmreport.model.needs import stated as needs_stated
+    from zlmreport.model.needs import targets as needs_targets
+    from zlmreport.model.needs import whole_period as needs_whole_period
+    from zlmreport.model.parameter import Dimension, Parameter
+    from zlmreport.model.report import report_error, report_model
+    from zlmreport.plugin.hookspecs import hookimpl
+    from zlmreport.plugin.protocols import (
+        Connection,
+        DataSource,
+        Instrument,
+        PartProgram,
+        ProbingProgram,
+        Renderer,
+        SourceContext,
+        Standard,
+    )
+    from zlmreport.quantities.arrays import BoolArray, FloatArray
+    from zlmreport.quantities.formatting import MINUS as MINUS_SIGN
+    from zlmreport.quantities.formatting import DecimalSign
+    from zlmreport.quantities.notation import spans as notation_spans
+    from zlmreport.quantities.temperature import REFERENCE_TEMPERATURE
+    from zlmreport.quantities.temperature import above_reference as above_reference_temperature
+    from zlmreport.quantities.units import (
+        CELSIUS,
+        HECTOPASCAL,
+        INCH,
+        LENGTH_UNITS,
+        MICROMETRE,
+        MILLIMETRE,
+        MILLIRADIAN,
+        PERCENT,
+        POSITION_UNITS,
+        SECOND,
+        TIME_UNITS,
+        Unit,
+        unit_named,
+    )
+    from zlmreport.quantities.units import Scale as ReadingScale
+    from zlmreport.typesetting.columns import decimal_padding
+    from zlmreport.typesetting.columns import lines as table_lines
+    from zlmreport.typesetting.columns import measures as column_measures
+    from zlmreport.typesetting.columns import size as table_size
+    from zlmreport.typesetting.columns import stands_apart as columns_stand_apart
+    from zlmreport.typesetting.columns import widths as column_widths
+    from zlmreport.typesetting.compose import GRAPH_ADDRESS, LOGO_ADDRESS
+    from zlmreport.typesetting.compose import Setting as HtmlSetting
+    from zlmreport.typesetting.compose import compose as compose_html
+    from zlmreport.typesetting.facts import GatheredBlock, gather_facts
+    from zlmreport.typesetting.facts import side_by_side as facts_side_by_side
+    from zlmreport.typesetting.linked import fingerprint as script_fingerprint
+    from zlmreport.typesetting.linked import script as linked_script
+    from zlmreport.typesetting.linked import style as linked_style
+    from zlmreport.typesetting.resources import FACES as FONT_FACES
+    from zlmreport.typesetting.resources import font as font_file
+    from zlmreport.typesetting.resources import font_faces as font_face_rules
+    from zlmreport.typesetting.resources import style_sheet
+    from zlmreport.uncertainty.budget import COVERAGE_PROBABILITY, Budget, NoBudget
+    from zlmreport.uncertainty.contribution import Acts, Contribution, Distribution
+    from zlmreport.uncertainty.expanded import with_uncertainty
+
+__all__ = [
+    "APPROACH_TITLES",
+    "CELSIUS",
+    "CONDITIONS",
+    "CONDITION_NAMES",
+    "CONFORMITY_STATEMENTS",
+    "COVERAGE_PROBABILITY",
+    "FONT_FACES",
+    "GRAPH_ADDRESS",
+    "HECTOPASCAL",
+    "INCH",
+    "LENGTH_UNITS",
+    "LIMIT_ROLES",
+    "LOGO_ADDRESS",
+    "MEAN_ROLES",
+    "MICROMETRE",
+    "MILLIMETRE",
+    "MILLIRADIAN",
+    "MINUS_SIGN",
+    "NO_CONDITIONS",
+    "NO_FAULT",
+    "ONLY_THIS_ITEM",
+    "PERCENT",
+    "POSITION_UNITS",
+    "REFERENCE_TEMPERATURE",
+    "SECOND",
+    "STANDARD_HUMIDITY",
+    "STANDARD_PRESSURE",
+    "STATE_OF_AIR",
+    "TIME_UNITS",
+    "AccessError",
+    "Acts",
+    "Align",
+    "Approach",
+    "Arithmetic",
+    "Arrow",
+    "Attachment",
+    "Axis",
+    "AxisKind",
+    "Band",
+    "Basis",
+    "Block",
+    "BoolArray",
+    "Bracket",
+    "Budget",
+    "CaptureEnded",
+    "CaptureOptions",
+    "CaptureResumed",
+    "Cell",
+    "Certificate",
+    "CertificateSource",
+    "Colour",
+    "Column",
+    "Conformity",
+    "Confusion",
+    "Connection",
+    "Contribution",
+    "Curve",
+    "Customer",
+    "DataSource",
+    "DatumHolds",
+    "DatumMoved",
+    "DecimalSign",
+    "Decision",
+    "Design",
+    "Diagram",
+    "Dimension",
+    "Distribution",
+    "Effect",
+    "Emulator",
+    "EvaluatedParameter",
+    "Evaluation",
+    "Explained",
+    "Facts",
+    "Fault",
+    "Figure",
+    "Fill",
+    "Finding",
+    "Finite",
+    "FloatArray",
+    "FontFace",
+    "Formulas",
+    "Framing",
+    "GatheredBlock",
+    "Graph",
+    "HtmlSetting",
+    "InputError",
+    "Instrument",
+    "Job",
+    "JobPath",
+    "JournalEntry",
+    "JournalHeader",
+    "JournalHistory",
+    "Laboratory",
+    "Language",
+    "Letterhead",
+    "Level",
+    "LiveConnection",
+    "LiveReading",
+    "Mark",
+    "MeasurementSet",
+    "Motion",
+    "NoBudget",
+    "Notice",
+    "Options",
+    "PageWords",
+    "Panel",
+    "Paragraph",
+    "Parameter",
+    "PartProgram",
+    "Patience",
+    "Place",
+    "PolledOptions",
+    "Port",
+    "PortOptions",
+    "PositionQuantity",
+    "PositionStatistics",
+    "ProbingProgram",
+    "Problem",
+    "ProgramOptions",
+    "Provenance",
+    "Quantity",
+    "QuantityGroup",
+    "Reading",
+    "ReadingRecorded",
+    "ReadingScale",
+    "Relationship",
+    "Renderer",
+    "Role",
+    "RowGroup",
+    "Scene",
+    "Section",
+    "Segment",
+    "Shape",
+    "SourceContext",
+    "SourceFile",
+    "Standard",
+    "Stroke",
+    "Symbol",
+    "Table",
+    "TextFile",
+    "TextRun",
+    "Trouble",
+    "Unit",
+    "Verdict",
+    "WholeLines",
+    "Words",
+    "WrongDeviceError",
+    "ZeroLost",
+    "above_reference_temperature",
+    "address_lines",
+    "alternative_text",
+    "ask_instrument",
+    "axis_address",
+    "both_directions",
+    "collect_readings",
+    "column_measures",
+    "column_widths",
+    "columns_stand_apart",
+    "compose_html",
+    "decided",
+    "decimal_padding",
+    "decision_rule",
+    "deviation_in_words",
+    "diagram_panel",
+    "did_you_mean",
+    "draw_figure",
+    "draw_with_matplotlib",
+    "evaluate",
+    "exceeds",
+    "facts_side_by_side",
+    "fewest_runs",
+    "figure_size",
+    "figure_to_svg",
+    "font_face_rules",
+    "font_file",
+    "gather_facts",
+    "graph_in_words",
+    "harmonic_columns",
+    "harmonic_parameters",
+    "has_letter",
+    "hexadecimal_colour",
+    "hookimpl",
+    "index_change",
+    "is_run_number",
+    "known_encoding",
+    "largest_over_positions",
+    "linked_script",
+    "linked_style",
+    "mark_offset",
+    "marks_in_words",
+    "mean_interval",
+    "mean_over_positions",
+    "measured_length",
+    "needs_both_directions",
+    "needs_linear_axis",
+    "needs_logged",
+    "needs_passing_time",
+    "needs_rotary_axis",
+    "needs_runs",
+    "needs_stated",
+    "needs_targets",
+    "needs_whole_period",
+    "no_missing_readings",
+    "no_run_number",
+    "notation_spans",
+    "number_of_runs",
+    "parse_number",
+    "place_of_work",
+    "position_in_words",
+    "position_units",
+    "positions_by_angle",
+    "positions_in_all",
+    "positions_in_words",
+    "positions_over_travel",
+    "positions_per_metre",
+    "positions_per_scale_element",
+    "principal_angles",
+    "program_heading",
+    "program_number",
+    "quoted",
+    "random_fractions",
+    "range_in_words",
+    "range_over_positions",
+    "read_journal",
+    "read_text",
+    "reading_remark",
+    "readings_at_rate",
+    "refractive_index",
+    "report_error",
+    "report_model",
+    "runs_in_words",
+    "same_in_all_languages",
+    "script_fingerprint",
+    "smallest_over_positions",
+    "spacing_against_periods",
+    "streamed_readings",
+    "style_sheet",
+    "table_lines",
+    "table_size",
+    "text_advance",
+    "unit_named",
+    "unreadable_reading",
+    "with_uncertainty",
+    "worst_position",
+]
+
+#: Where each name lives; ``new=old`` where it has another one there.
+_ROOMS = {
+    "zlmreport.capture.events": (
+        "CaptureEnded=Ended CaptureResumed=Resumed DatumHolds DatumMoved ReadingRecorded=Recorded ZeroLost"
+    ),
+    "zlmreport.capture.header": "JournalHeader=Header",
+    "zlmreport.capture.history": "JournalEntry=Entry JournalHistory=History read_journal=read_history",
+    "zlmreport.capture.options": "CaptureOptions",
+    "zlmreport.certificate.attachments": "Attachment CertificateSource=Source Relationship",
+    "zlmreport.certificate.conformity": "CONFORMITY_STATEMENTS=STATEMENTS",
+    "zlmreport.certificate.document": (
+        "Align Block Cell Certificate Column Explained Facts Formulas Graph Letterhead Mark Notice "
+        "PageWords Paragraph RowGroup Section Symbol Table Verdict"
+    ),
+    "zlmreport.certificate.identity": "address_lines=lines",
+    "zlmreport.certificate.place": "place_of_work",
+    "zlmreport.certificate.statements": "ONLY_THIS_ITEM",
+    "zlmreport.emulation.emulator": "Emulator Scene",
+    "zlmreport.emulation.faults": "Trouble",
+    "zlmreport.errors": "AccessError InputError Place Problem did_you_mean",
+    "zlmreport.evaluation.checks.positions": (
+        "exceeds measured_length positions_by_angle positions_in_all positions_over_travel "
+        "positions_per_metre positions_per_scale_element principal_angles"
+    ),
+    "zlmreport.evaluation.checks.readings": "both_directions fewest_runs no_missing_readings number_of_runs",
+    "zlmreport.evaluation.checks.spacing": "mean_interval random_fractions spacing_against_periods",
+    "zlmreport.evaluation.conformity": "Conformity Decision",
+    "zlmreport.evaluation.decision": "decided decision_rule",
+    "zlmreport.evaluation.evaluate": "evaluate",
+    "zlmreport.evaluation.evaluation": "Arithmetic EvaluatedParameter=Parameter Evaluation",
+    "zlmreport.evaluation.printed": (
+        "deviation_in_words=deviation position_in_words=position positions_in_words=positions "
+        "runs_in_words=runs"
+    ),
+    "zlmreport.evaluation.quantity": "PositionQuantity Quantity QuantityGroup=Group",
+    "zlmreport.evaluation.ranges": (
+        "largest_over_positions=largest mean_over_positions=average range_over_positions=width "
+        "smallest_over_positions=smallest"
+    ),
+    "zlmreport.evaluation.requirements": "Basis Finding",
+    "zlmreport.evaluation.statistics": "PositionStatistics",
+    "zlmreport.figures.alternatives": (
+        "alternative_text=text graph_in_words=graph_of marks_in_words=marks range_in_words=range_of"
+    ),
+    "zlmreport.figures.canvas": "Colour Fill FontFace=Face Segment Stroke TextRun=Run",
+    "zlmreport.figures.draw": "draw_with_matplotlib=draw figure_to_svg=to_svg",
+    "zlmreport.figures.figure": "Arrow Band Bracket Curve Figure Level Panel Role",
+    "zlmreport.figures.metrics": "has_letter mark_offset text_advance=advance",
+    "zlmreport.figures.pen": "draw_figure=draw",
+    "zlmreport.figures.prescribed": (
+        "APPROACH_TITLES=DIRECTIONS Diagram LIMIT_ROLES=LIMITS MEAN_ROLES=MEANS diagram_panel=panel "
+        "worst_position=worst"
+    ),
+    "zlmreport.figures.sketch": "figure_size",
+    "zlmreport.figures.svg": "hexadecimal_colour=hexadecimal",
+    "zlmreport.foresight.motion": "Motion",
+    "zlmreport.foresight.program_text": (
+        "ProgramOptions axis_address program_heading=heading program_number reading_remark=remark"
+    ),
+    "zlmreport.job.job": "Job",
+    "zlmreport.job.model": "Customer Laboratory",
+    "zlmreport.job.options": "JobPath Options",
+    "zlmreport.job.types": "Finite",
+    "zlmreport.language": "Language Words same_in_all_languages=same",
+    "zlmreport.live.connection": "LiveConnection",
+    "zlmreport.live.lines": "WholeLines=Lines",
+    "zlmreport.live.options": "PolledOptions PortOptions",
+    "zlmreport.live.patience": "Patience",
+    "zlmreport.live.polling": "ask_instrument=ask readings_at_rate=at_rate unreadable_reading=unreadable",
+    "zlmreport.live.port": "Framing Port",
+    "zlmreport.live.reading": "Fault LiveReading NO_CONDITIONS NO_FAULT",
+    "zlmreport.live.streaming": "WrongDeviceError streamed_readings=streamed",
+    "zlmreport.measurement.approach": "Approach",
+    "zlmreport.measurement.axis": "Axis AxisKind position_units",
+    "zlmreport.measurement.collect": (
+        "Reading collect_readings=collect is_run_number=is_run no_run_number=no_run"
+    ),
+    "zlmreport.measurement.conditions": "CONDITIONS CONDITION_NAMES STATE_OF_AIR",
+    "zlmreport.measurement.measurement_set": "MeasurementSet",
+    "zlmreport.measurement.numeral": "parse_number",
+    "zlmreport.measurement.provenance": "Provenance SourceFile",
+    "zlmreport.measurement.text_file": "TextFile known_encoding quoted read_text",
+    "zlmreport.model.design": "Design",
+    "zlmreport.model.effect": "Confusion Effect Shape",
+    "zlmreport.model.harmonic": "harmonic_columns harmonic_parameters",
+    "zlmreport.model.needs": (
+        "needs_both_directions=both_directions needs_linear_axis=linear_axis needs_logged=logged "
+        "needs_passing_time=passing_time needs_rotary_axis=rotary_axis needs_runs=runs "
+        "needs_stated=stated needs_targets=targets needs_whole_period=whole_period"
+    ),
+    "zlmreport.model.parameter": "Dimension Parameter",
+    "zlmreport.model.report": "report_error report_model",
+    "zlmreport.correction.refractive_index": (
+        "STANDARD_HUMIDITY STANDARD_PRESSURE index_change refractive_index"
+    ),
+    "zlmreport.quantities.temperature": "REFERENCE_TEMPERATURE above_reference_temperature=above_reference",
+    "zlmreport.plugin.hookspecs": "hookimpl",
+    "zlmreport.plugin.protocols": (
+        "Connection DataSource Instrument PartProgram ProbingProgram Renderer SourceContext Standard"
+    ),
+    "zlmreport.quantities.arrays": "BoolArray FloatArray",
+    "zlmreport.quantities.formatting": "DecimalSign MINUS_SIGN=MINUS",
+    "zlmreport.quantities.notation": "notation_spans=spans",
+    "zlmreport.quantities.units": (
+        "CELSIUS HECTOPASCAL INCH LENGTH_UNITS MICROMETRE MILLIMETRE MILLIRADIAN PERCENT POSITION_UNITS "
+        "ReadingScale=Scale SECOND TIME_UNITS Unit unit_named"
+    ),
+    "zlmreport.typesetting.columns": (
+        "column_measures=measures column_widths=widths columns_stand_apart=stands_apart decimal_padding "
+        "table_lines=lines table_size=size"
+    ),
+    "zlmreport.typesetting.compose": "GRAPH_ADDRESS HtmlSetting=Setting LOGO_ADDRESS compose_html=compose",
+    "zlmreport.typesetting.facts": "GatheredBlock facts_side_by_side=side_by_side gather_facts",
+    "zlmreport.typesetting.linked": "linked_script=script linked_style=style script_fingerprint=fingerprint",
+    "zlmreport.typesetting.resources": (
+        "FONT_FACES=FACES font_face_rules=font_faces font_file=font style_sheet"
+    ),
+    "zlmreport.uncertainty.budget": "Budget COVERAGE_PROBABILITY NoBudget",
+    "zlmreport.uncertainty.contribution": "Acts Contribution Distribution",
+    "zlmreport.uncertainty.expanded": "with_uncertainty",
+}
+_HOMES = {
+    offered: (room, own or offered)
+    for room, names in _ROOMS.items()
+    for offered, _, own in (name.partition("=") for name in names.split())
+}
+
+if not TYPE_CHECKING:  # a type checker knows the names from above, and reports one that is not among them
+
+    def __getattr__(name: str) -> object:
+        """Load what a name stands for."""
+        if name not in _HOMES:
+            message = f"module {__name__!r} has no attribute {name!r}"
+            raise AttributeError(message)
+        room, own = _HOMES[name]
+        value = globals()[name] = getattr(import_module(room), own)
+        return value
+
+
+def __dir__() -> list[str]:
+    """Return the names of the door."""
+    return sorted(__all__)
