@@ -16,7 +16,7 @@ from functools import partial
 import numpy as np
 
 from zlmreport.evaluation.evaluate import evaluate
-from zlmreport.job.options import Options
+from zlmreport.job.types import Options
 from zlmreport.language import same
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.plugin.protocols import Standard

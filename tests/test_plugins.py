@@ -17,7 +17,7 @@ from testing.exemplary import ExemplaryRenderer, ExemplarySource, ExemplaryStand
 from testing.exemplary_effect import ExemplaryEffect
 from testing.exemplary_program import ExemplaryProgram
 from zlmreport.errors import AccessError, InputError, Place
-from zlmreport.job.options import Options
+from zlmreport.job.types import Options
 from zlmreport.plugin.hookspecs import hookimpl
 from zlmreport.plugins import DISABLE, FILES, Kind, Plugin, Registry, collect, find_plugins
 
@@ -346,7 +346,7 @@ def test_file_may_use_options_of_its_own(file: Any) -> None:
     path = file(
         "from __future__ import annotations\n"
         "from pydantic import Field\n"
-        "from zlmreport.job.options import Options\n"
+        "from zlmreport.job.types import Options\n"
         "class Own(Options):\n"
         "    order: Order = Field(3, description='x')\n"
         "Order = int\n"

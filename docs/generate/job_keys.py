@@ -11,9 +11,9 @@ from markdown import code, table
 from pydantic import BaseModel
 
 from zlmreport.job.fields import field_at
-from zlmreport.job.fleet_keys import FleetKeys
-from zlmreport.job.model import JobKeys
-from zlmreport.job.options import Options
+from zlmreport.job.fleet import FleetKeys
+from zlmreport.job.keys import JobKeys
+from zlmreport.job.types import Options
 from zlmreport.language import Language
 from zlmreport.plugin.protocols import PartProgram, ProbingProgram
 from zlmreport.plugins import find_plugins

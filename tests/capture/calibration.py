@@ -16,8 +16,8 @@ from zlmreport.capture.history import History, read_history
 from zlmreport.cli import main
 from zlmreport.emulation.emulator import Scene
 from zlmreport.evaluation.evaluate import evaluate
-from zlmreport.job.options import Options
 from zlmreport.job.simulation import load_simulation
+from zlmreport.job.types import Options
 from zlmreport.planning.methods import Method
 from zlmreport.plugins import Registry, find_plugins
 from zlmreport.simulation.interpret import description_of

@@ -15,7 +15,7 @@ from zlmreport.certificate.rounding import written
 from zlmreport.certificate.scribe import Scribe
 from zlmreport.evaluation.decision import decided, decision_rule
 from zlmreport.evaluation.evaluation import Evaluation
-from zlmreport.job.model import DecisionRuleKeys
+from zlmreport.job.evaluation_keys import DecisionRuleKeys
 from zlmreport.language import Language
 
 

@@ -5,7 +5,7 @@ import pytest
 from certificate.documents import certificate, having, text_of
 from certificate.everything import EVERYTHING, write_tables
 from zlmreport.certificate.marks import Marks
-from zlmreport.job.supplied_keys import markable_keys
+from zlmreport.job.contradictions import markable_keys
 
 WORDS_ONLY = having("instrument.expanded_uncertainty", "see its certificate")
 DISCLAIMER = (

@@ -12,7 +12,7 @@ from zlmreport.certificate.scribe import Scribe
 from zlmreport.certificate.values import Values, coverage_factor
 from zlmreport.evaluation.evaluate import evaluate
 from zlmreport.evaluation.evaluation import Evaluation, Parameter
-from zlmreport.job.options import Options
+from zlmreport.job.types import Options
 from zlmreport.language import Language
 from zlmreport.quantities.units import MICROMETRE, MILLIMETRE
 from zlmreport.testing import simulated_test

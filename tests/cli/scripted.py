@@ -11,7 +11,7 @@ from pydantic import Field
 from capture.moves import Axis
 from zlmreport.emulation.emulator import Emulator, Scene
 from zlmreport.errors import AccessError, Place
-from zlmreport.job.options import Options
+from zlmreport.job.types import Options
 from zlmreport.language import same
 from zlmreport.live.reading import Fault, LiveReading
 from zlmreport.plugin.hookspecs import hookimpl

@@ -14,7 +14,7 @@ from zlmreport.evaluation.conformity import Conformity, Decision
 from zlmreport.evaluation.decision import decided, decision_rule
 from zlmreport.evaluation.evaluate import evaluate
 from zlmreport.evaluation.evaluation import Parameter
-from zlmreport.job.options import Options
+from zlmreport.job.types import Options
 from zlmreport.language import Language
 from zlmreport.testing import bidirectional_test, simulated_test
 

@@ -7,7 +7,7 @@ import pytest
 from plugins.standards.installed import STANDARDS
 from zlmreport.evaluation.evaluate import evaluate
 from zlmreport.evaluation.evaluation import Evaluation
-from zlmreport.job.options import Options
+from zlmreport.job.types import Options
 from zlmreport.language import Language
 from zlmreport.measurement.approach import Approach
 from zlmreport.testing import simulated_test

@@ -11,7 +11,7 @@ from zlmreport.evaluation.evaluate import evaluate
 from zlmreport.evaluation.evaluation import Evaluation
 from zlmreport.figures.figure import Role
 from zlmreport.figures.prescribed import Diagram
-from zlmreport.job.options import Options
+from zlmreport.job.types import Options
 from zlmreport.plugins import find_plugins
 from zlmreport.testing import bidirectional_test
 

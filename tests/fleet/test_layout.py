@@ -8,8 +8,8 @@ import pytest
 
 from job.jobs import REGISTRY, SOUND
 from zlmreport.fleet.layout import designation, folder_of
+from zlmreport.job.keys import JobKeys
 from zlmreport.job.loading import load
-from zlmreport.job.model import JobKeys
 
 
 def keys(folder: Path, machine: str, axis: str = "X") -> JobKeys:

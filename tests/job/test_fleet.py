@@ -8,7 +8,7 @@ import pytest
 
 from job.jobs import REGISTRY, SOUND
 from zlmreport.errors import AccessError, InputError
-from zlmreport.job.defaults import Defaults
+from zlmreport.job.extends import Defaults
 from zlmreport.job.fleet import FleetFile, job_files, load_fleet, number_of
 from zlmreport.job.loading import load
 from zlmreport.job.parse import parse

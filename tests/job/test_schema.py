@@ -13,9 +13,9 @@ from pydantic import BaseModel, Field, create_model
 from job.jobs import REGISTRY, SOUND, with_line, with_lines
 from offers import offering
 from testing.exemplary import ExemplarySource
-from zlmreport.job.model import JobKeys
-from zlmreport.job.options import Options
+from zlmreport.job.keys import JobKeys
 from zlmreport.job.schema import job_schema
+from zlmreport.job.types import Options
 from zlmreport.plugins import Plugin, collect
 
 

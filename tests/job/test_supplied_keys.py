@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from job.jobs import mistakes, with_lines
-from zlmreport.job.supplied_keys import markable_keys
+from zlmreport.job.contradictions import markable_keys
 
 
 @pytest.mark.parametrize(

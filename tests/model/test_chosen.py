@@ -8,7 +8,7 @@ import pytest
 
 from testing.exemplary_effect import ExemplaryEffect, ExemplaryOptions
 from zlmreport.errors import Place
-from zlmreport.job.effects import EffectChoice
+from zlmreport.job.choices import EffectChoice
 from zlmreport.measurement.axis import AxisKind
 from zlmreport.model.axis_model import Term, chosen_terms
 

@@ -7,7 +7,7 @@ from typing import Any
 
 import yaml
 
-from zlmreport.job.model import JobKeys
+from zlmreport.job.keys import JobKeys
 
 Path = tuple[str, ...]
 

@@ -8,7 +8,7 @@ import pytest
 from step_gauge.gauges import gauge, set_up
 from step_gauge.probing import FILE, RADIUS, deviations, probed, touched
 from zlmreport.evaluation.evaluate import evaluate
-from zlmreport.job.options import Options
+from zlmreport.job.types import Options
 from zlmreport.language import Language
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.measurement_set import MeasurementSet

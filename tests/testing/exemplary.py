@@ -19,7 +19,7 @@ from zlmreport.evaluation.ranges import largest, smallest
 from zlmreport.evaluation.requirements import Finding
 from zlmreport.evaluation.statistics import PositionStatistics
 from zlmreport.figures.figure import Band, Bracket, Curve, Figure, Panel, Role
-from zlmreport.job.options import JobPath, Options
+from zlmreport.job.types import JobPath, Options
 from zlmreport.language import Words, same
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.measurement.provenance import Provenance, SourceFile

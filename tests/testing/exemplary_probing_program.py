@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from zlmreport.job.options import Options
+from zlmreport.job.types import Options
 from zlmreport.language import Words
 from zlmreport.step_gauge.path import Probing, ProbingPath
 from zlmreport.step_gauge.program_text import coordinates, direction, plain

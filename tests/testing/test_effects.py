@@ -13,7 +13,7 @@ import pytest
 from pydantic import Field
 
 from testing.exemplary_effect import ExemplaryEffect, ExemplaryOptions
-from zlmreport.job.options import Options
+from zlmreport.job.types import Options
 from zlmreport.language import Words, same
 from zlmreport.model.design import Design
 from zlmreport.model.effect import Confusion

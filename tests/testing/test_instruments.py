@@ -13,7 +13,7 @@ from pydantic import Field
 from zlmreport.emulation.emulator import Emulator, Scene
 from zlmreport.emulation.faults import Trouble
 from zlmreport.errors import InputError, Place
-from zlmreport.job.options import Options
+from zlmreport.job.types import Options
 from zlmreport.language import Words
 from zlmreport.live.connection import LiveConnection
 from zlmreport.live.options import PortOptions

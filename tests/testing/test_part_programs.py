@@ -14,7 +14,7 @@ from pydantic import Field
 from testing.exemplary_program import ExemplaryProgram, run_steps
 from zlmreport.foresight.motion import Motion
 from zlmreport.foresight.program_text import ProgramOptions
-from zlmreport.job.options import Options
+from zlmreport.job.types import Options
 from zlmreport.language import Words
 from zlmreport.measurement.axis import AxisKind
 from zlmreport.testing import PART_PROGRAM_CHECKS, check_part_program, part_programs

@@ -11,7 +11,7 @@ from pydantic import Field
 
 from testing.exemplary_probing_program import ExemplaryProbing, read_words
 from zlmreport.errors import InputError, Place
-from zlmreport.job.options import Options
+from zlmreport.job.types import Options
 from zlmreport.language import Words
 from zlmreport.step_gauge.path import ProbingPath
 from zlmreport.testing import PROBING_PROGRAM_CHECKS, check_probing_program, probing_programs

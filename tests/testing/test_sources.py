@@ -13,7 +13,7 @@ from pydantic import Field
 
 from testing.exemplary import ExemplarySource, ExemplarySourceOptions
 from zlmreport.errors import InputError, Place
-from zlmreport.job.options import JobPath, Options
+from zlmreport.job.types import JobPath, Options
 from zlmreport.language import Words, same
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.measurement_set import MeasurementSet

@@ -17,7 +17,7 @@ from zlmreport.evaluation.quantity import PositionQuantity
 from zlmreport.evaluation.requirements import Finding
 from zlmreport.evaluation.statistics import PositionStatistics
 from zlmreport.figures.figure import Arrow, Figure, Level, Role
-from zlmreport.job.options import Options
+from zlmreport.job.types import Options
 from zlmreport.language import Words, same
 from zlmreport.testing import STANDARD_CHECKS, arithmetic, check_standard, graphs, standards
 

@@ -36,7 +36,7 @@ from zlmreport.evaluation.quantity import Group, PositionQuantity, Quantity
 from zlmreport.evaluation.requirements import Basis, Finding
 from zlmreport.evaluation.statistics import PositionStatistics
 from zlmreport.figures.figure import Arrow, Band, Bracket, Curve, Figure, Panel, Readings, Role
-from zlmreport.job.options import Options
+from zlmreport.job.types import Options
 from zlmreport.language import Language, Words
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.axis import Axis, AxisKind

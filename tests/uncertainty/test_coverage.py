@@ -11,7 +11,7 @@ import pytest
 
 from uncertainty.budgets import ISO, contribution, expanded
 from zlmreport.evaluation.evaluate import evaluate
-from zlmreport.job.options import Options
+from zlmreport.job.types import Options
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.testing import simulated_test
 from zlmreport.uncertainty.budget import Budget

@@ -9,7 +9,7 @@ import pytest
 
 from uncertainty.budgets import BY_CHANCE, ISO, MICROMETRE, budget, contribution, uncertainties
 from zlmreport.evaluation.evaluate import evaluate
-from zlmreport.job.options import Options
+from zlmreport.job.types import Options
 from zlmreport.testing import bidirectional_test
 from zlmreport.uncertainty.budget import Budget
 from zlmreport.uncertainty.contribution import Acts

@@ -14,7 +14,7 @@ import pytest
 from plugins.standards.installed import STANDARDS
 from uncertainty.budgets import BY_CHANCE, ISO, MICROMETRE, budget, contribution, expanded, uncertainties
 from zlmreport.evaluation.evaluate import evaluate
-from zlmreport.job.options import Options
+from zlmreport.job.types import Options
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.testing import bidirectional_test, simulated_test
 from zlmreport.testing.measurements import poor_tests

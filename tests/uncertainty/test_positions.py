@@ -8,7 +8,7 @@ import pytest
 from uncertainty.budgets import ISO, MICROMETRE, contribution
 from zlmreport.evaluation.evaluate import evaluate
 from zlmreport.evaluation.evaluation import Evaluation
-from zlmreport.job.options import Options
+from zlmreport.job.types import Options
 from zlmreport.measurement.approach import Approach
 from zlmreport.testing import bidirectional_test, simulated_test
 from zlmreport.uncertainty.budget import Budget

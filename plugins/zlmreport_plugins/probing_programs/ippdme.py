@@ -13,7 +13,7 @@ from pydantic import Field
 
 from zlmreport.errors import InputError
 from zlmreport.job.machine_keys import TOOL
-from zlmreport.job.options import Options
+from zlmreport.job.types import Options
 from zlmreport.language import Words
 from zlmreport.plugin.hookspecs import hookimpl
 from zlmreport.plugin.protocols import ProbingProgram

@@ -15,7 +15,7 @@ from typing import Any
 
 from pydantic import Field
 
-from zlmreport.job.options import Options
+from zlmreport.job.types import Options
 from zlmreport.language import Words
 from zlmreport.plugin.hookspecs import hookimpl
 from zlmreport.plugin.protocols import ProbingProgram

@@ -14,7 +14,7 @@ from zlmreport.capture.options import CaptureOptions
 from zlmreport.capture.settings import SHARE_OF_INTERVAL, SHARE_OF_OVERRUN, Settings
 from zlmreport.capture.visit_list import ListedVisit, start_of, visit_list
 from zlmreport.errors import AccessError, InputError, Place, Problem
-from zlmreport.job.instruments import InstrumentChoice
+from zlmreport.job.choices import InstrumentChoice
 from zlmreport.job.job import Job
 from zlmreport.measurement.axis import Axis
 from zlmreport.simulation.description import Plan

@@ -6,9 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from zlmreport.job.instruments import LiveInstrumentKeys
-from zlmreport.job.options import JobPath, Options
-from zlmreport.job.types import Finite, Positive
+from zlmreport.job.types import Finite, JobPath, LiveInstrumentKeys, Options, Positive
 
 
 class CaptureOptions(Options):

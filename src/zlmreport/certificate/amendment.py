@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from zlmreport.certificate.document import Notice
 from zlmreport.certificate.scribe import Scribe
-from zlmreport.job.model import CertificateKeys
+from zlmreport.job.document_keys import CertificateKeys
 from zlmreport.language import Words
 
 TITLES = {

@@ -24,7 +24,7 @@ from zlmreport.certificate.results import Evaluated
 from zlmreport.certificate.scribe import Scribe
 from zlmreport.figures.comparison import comparison_graph
 from zlmreport.figures.figure import Figure
-from zlmreport.job.model import AsFound
+from zlmreport.job.measurement_keys import AsFound
 from zlmreport.language import Words
 from zlmreport.measurement.measurement_set import MeasurementSet
 

@@ -28,8 +28,8 @@ from zlmreport.certificate.model_annex import Modelled
 from zlmreport.certificate.results import Evaluated
 from zlmreport.certificate.scribe import Scribe
 from zlmreport.figures.figure import Figure
+from zlmreport.job.document_keys import Laboratory
 from zlmreport.job.job import Job
-from zlmreport.job.model import Laboratory
 from zlmreport.language import Words
 from zlmreport.measurement.measurement_set import MeasurementSet
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from zlmreport.certificate.facts import Fact
 from zlmreport.certificate.scribe import Scribe
-from zlmreport.job.model import Environment, Measurement
+from zlmreport.job.measurement_keys import Environment, Measurement
 from zlmreport.language import Words
 from zlmreport.measurement.conditions import CONDITION_NAMES, CONDITIONS
 from zlmreport.measurement.measurement_set import MeasurementSet

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from zlmreport.certificate.place import place_of_work
 from zlmreport.errors import InputError, Problem
 from zlmreport.job.job import Job
-from zlmreport.job.model import JobKeys
+from zlmreport.job.keys import JobKeys
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,7 +11,8 @@ from zlmreport.certificate.document import Block, Facts, Paragraph, Section
 from zlmreport.certificate.facts import Fact, stated
 from zlmreport.certificate.scribe import Scribe
 from zlmreport.job.job import Job
-from zlmreport.job.model import Instrument, JobKeys
+from zlmreport.job.keys import JobKeys
+from zlmreport.job.measurement_keys import Instrument
 from zlmreport.language import Words
 from zlmreport.measurement.axis import AxisKind
 from zlmreport.measurement.measurement_set import MeasurementSet

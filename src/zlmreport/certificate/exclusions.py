@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from zlmreport.certificate.document import Notice
 from zlmreport.certificate.scribe import Scribe
-from zlmreport.job.model import JobKeys
+from zlmreport.job.keys import JobKeys
 from zlmreport.language import Words
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.measurement.provenance import Exclusion

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from zlmreport.job.model import JobKeys
+from zlmreport.job.keys import JobKeys
 
 #: Behind the name of what the customer supplied, and of what an external provider did.
 BY_CUSTOMER = "†"

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from zlmreport.certificate.document import Column, Notice, RowGroup, Section, Table
 from zlmreport.certificate.scribe import NOTHING, Scribe
 from zlmreport.job.document_keys import Person
-from zlmreport.job.model import JobKeys
+from zlmreport.job.keys import JobKeys
 from zlmreport.language import Words
 
 #: Above every opinion of a document.

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from zlmreport.job.document_keys import Location
-from zlmreport.job.model import JobKeys
+from zlmreport.job.keys import JobKeys
 from zlmreport.language import Words, same
 
 

@@ -8,7 +8,7 @@ from zlmreport.certificate import exclusions
 from zlmreport.certificate.document import Block, Notice, Paragraph
 from zlmreport.certificate.marks import BY_CUSTOMER, EXTERNAL
 from zlmreport.certificate.scribe import Scribe
-from zlmreport.job.model import JobKeys
+from zlmreport.job.keys import JobKeys
 from zlmreport.language import Words, same
 
 ONLY_THIS_ITEM = Words(

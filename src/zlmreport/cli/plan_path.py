@@ -14,7 +14,8 @@ from zlmreport.cli.summary import print_json
 from zlmreport.cli.terminal import Colour, shown_path
 from zlmreport.errors import InputError, Problem
 from zlmreport.files import Document, demand_free, write
-from zlmreport.job.job import Job, ProgramChoice
+from zlmreport.job.choices import ProgramChoice
+from zlmreport.job.job import Job
 from zlmreport.plugins import Registry
 from zlmreport.quantities.formatting import fixed_number, general_number
 from zlmreport.quantities.units import MILLIMETRE

@@ -8,8 +8,8 @@ from pathlib import Path
 from zlmreport.errors import InputError, Place, Problem
 from zlmreport.files import Document
 from zlmreport.foresight.motion import motion_of
-from zlmreport.job.job import Job, ProgramChoice
-from zlmreport.job.programs import Find, programs_by_name
+from zlmreport.job.choices import Find, ProgramChoice, programs_by_name
+from zlmreport.job.job import Job
 from zlmreport.plugins import Registry
 from zlmreport.simulation.description import Plan
 

@@ -8,8 +8,8 @@ from dataclasses import replace
 import numpy as np
 
 from zlmreport.errors import InputError, Problem
-from zlmreport.job.exclusion_keys import ExclusionKeys
 from zlmreport.job.job import Job
+from zlmreport.job.measurement_keys import ExclusionKeys
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.measurement_set import MeasurementSet

@@ -9,8 +9,8 @@ import numpy as np
 from zlmreport.correction.corrections import Air, Corrections, Expansion
 from zlmreport.correction.refractive_index import STANDARD_HUMIDITY, STANDARD_PRESSURE, refractive_index
 from zlmreport.errors import InputError, Problem
-from zlmreport.job.correction_keys import AirKeys, DeadPathKeys, MaterialKeys
 from zlmreport.job.job import Job
+from zlmreport.job.measurement_keys import AirKeys, DeadPathKeys, MaterialKeys
 from zlmreport.measurement.axis import AxisKind
 from zlmreport.measurement.conditions import CONDITIONS, STATE_OF_AIR
 from zlmreport.measurement.measurement_set import MeasurementSet

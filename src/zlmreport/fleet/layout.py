@@ -5,7 +5,8 @@ from __future__ import annotations
 import re
 from pathlib import PurePosixPath
 
-from zlmreport.job.model import JobKeys, Machine
+from zlmreport.job.keys import JobKeys
+from zlmreport.job.measurement_keys import Machine
 
 #: What is not in a folder's name, so that it reads alike on every system and in every shell.
 _NOT_IN_NAMES = re.compile(r"[^\w.-]+")
@@ -25,7 +26,7 @@ def folder_of(keys: JobKeys, layout: str) -> PurePosixPath:
     keys
         What the job says.
     layout
-        Names of folders with placeholders, as `zlmreport.job.fleet_keys` has them.
+        Names of folders with placeholders, as `zlmreport.job.fleet` has them.
     """
     machine = keys.machine
     values = {

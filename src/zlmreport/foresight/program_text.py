@@ -9,7 +9,7 @@ from pydantic import Field
 
 from zlmreport.errors import InputError
 from zlmreport.foresight.motion import Motion, Reading
-from zlmreport.job.options import Options
+from zlmreport.job.types import Options
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.axis import AxisKind
 

@@ -6,11 +6,17 @@ import datetime as dt
 from collections.abc import Iterator
 from typing import TypeAlias
 
-from zlmreport.errors import Problem
-from zlmreport.job import plan_keys, step_gauge_keys, uncertainty_keys
-from zlmreport.job.model import JobKeys, Measurement
-from zlmreport.job.supplied_keys import supplied_problems
-from zlmreport.job.tree import Keys, Step, place_of
+from pydantic import BaseModel
+
+from zlmreport.errors import Problem, did_you_mean
+from zlmreport.job import step_gauge_keys
+from zlmreport.job.evaluation_keys import uncertainty_contradictions
+from zlmreport.job.fields import keys_in, model_at
+from zlmreport.job.keys import JobKeys
+from zlmreport.job.measurement_keys import Measurement
+from zlmreport.job.plan_keys import plan_contradictions
+from zlmreport.job.text import quoted
+from zlmreport.job.tree import Items, Keys, Node, Step, place_of
 from zlmreport.measurement.axis import AxisKind
 
 #: The path of the key that would have to change, and a sentence.
@@ -43,13 +49,13 @@ def _contradictions(keys: JobKeys) -> Iterator[Contradiction]:
     travel = keys.axis.travel
     if travel and travel[0] >= travel[1]:
         yield ("axis", "travel"), "the first position of the travel must be less than the last"
-    for key, message in plan_keys.contradictions(keys.plan.targets):
+    for key, message in plan_contradictions(keys.plan.targets):
         yield ("plan", "targets", key), message
     if keys.step_gauge and keys.axis.kind is AxisKind.ROTARY:
         yield ("step_gauge",), "a step gauge has lengths, and the axis is rotary (axis.kind); take one out"
     for key, message in step_gauge_keys.contradictions(keys.step_gauge) if keys.step_gauge else ():
         yield ("step_gauge", key), message
-    for steps, message in uncertainty_keys.contradictions(keys.uncertainty, keys.axis.kind):
+    for steps, message in uncertainty_contradictions(keys.uncertainty, keys.axis.kind):
         yield ("uncertainty", *steps), message
     per_metre = keys.instrument and keys.instrument.expanded_uncertainty_per_metre
     if per_metre and keys.axis.kind is AxisKind.ROTARY:
@@ -119,3 +125,75 @@ def _opinions(keys: JobKeys) -> Iterator[Contradiction]:
                     "certificate.authorised_by"
                 ),
             )
+
+
+#: The parts of a job in which others may supply a value; the laboratory answers for the rest itself.
+_PARTS = frozenset(
+    {
+        "customer",
+        "machine",
+        "axis",
+        "location",
+        "dates",
+        "sampling",
+        "measurement",
+        "as_found",
+        "instrument",
+        "environment",
+        "corrections",
+        "uncertainty",
+        "evaluate",
+    }
+)
+
+
+def markable_keys() -> tuple[str, ...]:
+    """Return the dotted names of all keys whose values may come from others; lists have no index in them."""
+    return tuple(key for key in _names(JobKeys, "") if key.partition(".")[0] in _PARTS)
+
+
+def supplied_problems(keys: JobKeys, tree: Keys) -> Iterator[Problem]:
+    """Yield every key that is said to be somebody else's and is unknown, or not stated by the job."""
+    known = markable_keys()
+    for key, path in _named(keys):
+        where = ".".join(step for step in path if isinstance(step, str))
+        place = place_of(tree, path)
+        if key not in known:
+            near = did_you_mean(key, _neighbours(key, known))
+            yield Problem(place, f"{where}: {quoted(key)} is no key whose value others can supply; {near}")
+        elif not _is_stated(tree, key.split(".")):
+            yield Problem(place, f"{where}: this job does not state {key}; state it, or do not list it")
+
+
+def _named(keys: JobKeys) -> Iterator[tuple[str, tuple[Step, ...]]]:
+    """Yield the keys that a job names as others', each with the path at which it does."""
+    for index, key in enumerate(keys.provided_by_customer):
+        yield key, ("provided_by_customer", index)
+    for number, external in enumerate(keys.external):
+        for index, key in enumerate(external.keys):
+            yield key, ("external", number, "keys", index)
+
+
+def _names(model: type[BaseModel], within: str) -> Iterator[str]:
+    for name in keys_in(model):
+        yield f"{within}{name}"
+        part = model_at(model, (name,)) or model_at(model, (name, 0))
+        if part:
+            yield from _names(part, f"{within}{name}.")
+
+
+def _neighbours(key: str, known: tuple[str, ...]) -> list[str]:
+    """Return the keys among which a misspelt one belongs: those of its group, if there is such a group."""
+    group = key.rpartition(".")[0]
+    return [each for each in known if each.rpartition(".")[0] == group] or list(known)
+
+
+def _is_stated(node: Node, steps: list[str]) -> bool:
+    """Whether a key stands in the job; a key of a list's items, if any of them has it."""
+    if not steps:
+        return True
+    if isinstance(node, Items):
+        return any(_is_stated(item, steps) for item in node.items)
+    if isinstance(node, Keys) and steps[0] in node.entries:
+        return _is_stated(node.entries[steps[0]].value, steps[1:])
+    return False

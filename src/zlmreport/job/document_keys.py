@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Annotated, Literal
 
-from pydantic import Field, model_validator
+from pydantic import AfterValidator, Field, model_validator
 
-from zlmreport.job.part import JobPart
-from zlmreport.job.types import Date, Lines, Text
+from zlmreport.job.types import Date, JobPart, JobPath, Lines, Text, file_stem
+from zlmreport.language import Language
 
 
 class Person(JobPart):
@@ -112,4 +112,81 @@ class Agreement(JobPart):
     )
     reference: Text | None = Field(
         None, description="Where it was agreed.", examples=["Order 4711 of 2026-10-02"]
+    )
+
+
+#: Unique identification of a document, that also names its files.
+Number = Annotated[
+    Text, AfterValidator(file_stem), Field(json_schema_extra={"pattern": r"^[A-Za-z0-9][A-Za-z0-9._-]*$"})
+]
+
+
+class CertificateKeys(JobPart):
+    """The document."""
+
+    number: Number = Field(
+        description="Unique identification of the document; also the stem of the output files.",
+        examples=["CAL-2026-0117"],
+    )
+    kind: Literal["certificate", "report"] = Field(
+        "certificate",
+        description="A calibration certificate after ISO/IEC 17025:2017 clause 7.8, or a measuring report.",
+    )
+    title: Text | None = Field(None, description="Title on the cover, instead of the usual one.")
+    issued: Date | None = Field(None, description="Date of issue.", examples=["2026-11-20"])
+    language: Language = Field(Language.ENGLISH, description="Language of the document.")
+    authorised_by: Person | None = Field(None, description="Who authorises the document.")
+    amends: Amends | None = Field(
+        None,
+        description="The earlier document that this one amends or replaces.",
+        examples=[{"number": "CAL-2026-0117", "reason": "The serial number of the machine was wrong."}],
+    )
+    paper: Literal["A4", "Letter"] = Field("A4", description="Paper size.")
+    readings_on_graphs: bool = Field(
+        default=True, description="Whether the graphs show all single readings behind the means."
+    )
+
+
+class Laboratory(JobPart):
+    """Who issues the document."""
+
+    name: Text = Field(description="Name of the laboratory.", examples=["Calibration Laboratory North"])
+    address: Lines | None = Field(
+        None,
+        description="Postal address; commas or line breaks part its lines.",
+        examples=["Gaugeway 1, 12345 Sampletown"],
+    )
+    country: Annotated[str, Field(pattern=r"^[A-Z]{2}$")] | None = Field(
+        None,
+        description="Country by its two letters (ISO 3166-1), for the digital calibration certificate.",
+        examples=["DE"],
+    )
+    accreditation: Text | None = Field(None, description="Accreditation body and number.")
+    logo: JobPath | None = Field(
+        None, description="PNG or JPEG file beside the file that names it.", examples=["logo.png"]
+    )
+
+
+class Customer(JobPart):
+    """For whom the work was done."""
+
+    name: Text = Field(description="Name of the customer.", examples=["Precision Parts Ltd"])
+    address: Lines | None = Field(
+        None,
+        description="Postal address; commas or line breaks part its lines.",
+        examples=["Millway 2, 12345 Sampletown"],
+    )
+
+
+class Output(JobPart):
+    """What is written, and where."""
+
+    directory: JobPath | None = Field(
+        None, description="Folder of the output files; the job's own folder without it.", examples=["out"]
+    )
+    formats: list[Text] = Field(
+        default_factory=lambda: ["pdf", "json"],
+        min_length=1,
+        description="Identifiers of installed renderers.",
+        examples=[["pdf", "json"]],
     )

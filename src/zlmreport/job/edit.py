@@ -15,10 +15,11 @@ from typing import Any
 
 from zlmreport.errors import InputError, Place, Problem
 from zlmreport.files import rewrite, unreadable
-from zlmreport.job.effects import EffectChoice, effect_choices
+from zlmreport.job.choices import EffectChoice, effect_choices
 from zlmreport.job.extents import Written
 from zlmreport.job.installed import Installed
 from zlmreport.job.job import Job
+from zlmreport.job.keys import JobKeys
 from zlmreport.job.list_edits import (
     ListKey,
     UneditableError,
@@ -30,7 +31,6 @@ from zlmreport.job.list_edits import (
     without_item,
 )
 from zlmreport.job.loading import load
-from zlmreport.job.model import JobKeys
 from zlmreport.job.parse import parse
 from zlmreport.job.text import decoded
 from zlmreport.job.tree import Items, Node, Scalar, walk

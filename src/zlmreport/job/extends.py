@@ -1,19 +1,112 @@
-"""A job file together with the files that it extends."""
+"""A job file together with the files that it extends, and the defaults that it builds on unnamed."""
 
 from __future__ import annotations
 
+import json
 import os
-from collections.abc import Mapping
+import re
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from zlmreport.errors import AccessError, InputError, Place, Problem
-from zlmreport.job.defaults import Defaults
 from zlmreport.job.parse import parse
 from zlmreport.job.references import path_named
 from zlmreport.job.text import LARGEST
-from zlmreport.job.tree import Items, Keys, Scalar, keys_of, merged
+from zlmreport.job.tree import Items, Keys, Node, Scalar, keys_of, merged
 from zlmreport.measurement.provenance import SourceFile
+
+JOB = "zlmreport/job/1"
+SIMULATION = "zlmreport/simulation/1"
+FLEET = "zlmreport/fleet/1"
+STEP_GAUGE = "zlmreport/step-gauge/1"
+
+#: What a file is, and which command takes it.
+_KINDS = {
+    JOB: ("a job", "zlmreport JOB.yaml"),
+    FLEET: ("a fleet of jobs", "zlmreport fleet FLEET.yaml"),
+    SIMULATION: ("the description of a simulated test", "zlmreport simulate"),
+    STEP_GAUGE: ("the calibration of a step gauge", "step_gauge.calibration of a job"),
+}
+
+
+def refuse_other_format(tree: Keys, expected: str) -> None:
+    """Refuse a file of another kind by one message, instead of by one for each of its keys.
+
+    Raises
+    ------
+    InputError
+        If its schema is that of another command.
+    """
+    entry = tree.entries.get("schema")
+    named = entry.value if entry else None
+    if isinstance(named, Scalar) and named.text != expected and named.text in _KINDS:
+        kind, command = _KINDS[named.text]
+        wanted, _ = _KINDS[expected]
+        raise InputError.at(
+            named.place, f"this file is {kind} ({named.text}), and {wanted} is expected; {command} takes it"
+        )
+
+
+_PLAIN_KEY = re.compile(r"[A-Za-z_][A-Za-z0-9_-]*")
+
+
+@dataclass(frozen=True, slots=True)
+class Defaults:
+    """Default keys of jobs.
+
+    Attributes
+    ----------
+    keys
+        With their places in the file that states them.
+    path
+        That file: relative paths among the keys are relative to its folder.
+    """
+
+    keys: Keys
+    path: Path
+
+    def as_files(self, job: Path) -> tuple[SourceFile, SourceFile]:
+        """Return two files that nobody wrote: a job that extends a job file and the defaults, and these."""
+        folder = os.path.relpath(self.path.parent.absolute(), job.parent.absolute())
+        shared = Path(folder) / f"{self.path.stem}.defaults.yaml"
+        whole = job.with_name(f"{self.path.stem}.{job.name}")
+        extended = json.dumps([shared.as_posix(), job.name], ensure_ascii=False)
+        return (
+            SourceFile.of(whole, f"extends: {extended}\n".encode()),
+            SourceFile.of(job.parent / shared, self.as_yaml().encode()),
+        )
+
+    def as_yaml(self) -> str:
+        """Return the keys as a file of their own."""
+        return "".join(f"{line}\n" for line in _lines(self.keys, ""))
+
+
+def _lines(node: Keys | Items, indent: str) -> Iterator[str]:
+    """Yield a group or a list, a value a line."""
+    if isinstance(node, Items):
+        labelled: list[tuple[str, Node]] = [("-", item) for item in node.items]
+    else:
+        labelled = [(f"{_key(entry.key)}:", entry.value) for entry in node.entries.values()]
+    for label, value in labelled:
+        if isinstance(value, Scalar):
+            yield f"{indent}{label} {_scalar(value)}".rstrip()
+        elif list(_lines(value, "")):
+            yield f"{indent}{label}"
+            yield from _lines(value, f"{indent}  ")
+        else:
+            yield f"{indent}{label} {'[]' if isinstance(value, Items) else '{}'}"
+
+
+def _key(key: str) -> str:
+    return key if _PLAIN_KEY.fullmatch(key) else json.dumps(key, ensure_ascii=False)
+
+
+def _scalar(value: Scalar) -> str:
+    """Write a value as it was written: whether it stands in quotes tells a number from a text."""
+    is_plain = value.plain and "\n" not in value.text
+    return value.text if is_plain else json.dumps(value.text, ensure_ascii=False)
+
 
 #: Files that extend one another in a row.
 LONGEST_CHAIN = 16

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import Any, Protocol
 
 from zlmreport.errors import Place
-from zlmreport.job.options import Options
+from zlmreport.job.types import Options
 
 
 class LimitedQuantity(Protocol):

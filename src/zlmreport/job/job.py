@@ -7,11 +7,10 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from zlmreport.errors import Place
-from zlmreport.job.effects import EffectChoice
-from zlmreport.job.instruments import InstrumentChoice
-from zlmreport.job.model import JobKeys
-from zlmreport.job.options import Options
+from zlmreport.job.choices import EffectChoice, InstrumentChoice, ProgramChoice
+from zlmreport.job.keys import JobKeys
 from zlmreport.job.tree import Keys, Step, keys_of, place_of
+from zlmreport.job.types import Options
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.provenance import SourceFile
 
@@ -46,15 +45,6 @@ class SourceChoice:
     options: Options
     place: Place
     instrument: InstrumentChoice | None = None
-
-
-@dataclass(frozen=True, slots=True)
-class ProgramChoice:
-    """A program for a machine that the job names, its own keys validated, and where the job names it."""
-
-    identifier: str
-    options: Options
-    place: Place
 
 
 @dataclass(frozen=True, slots=True)

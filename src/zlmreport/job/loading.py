@@ -1,27 +1,26 @@
-"""From a job file to a checked job."""
+"""From a job file to a checked job, with its axis and tolerances in SI."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
 
 from zlmreport.errors import InputError, Place, Problem, did_you_mean
+from zlmreport.job.choices import effect_choices, instrument_choice, program_choices
 from zlmreport.job.contradictions import contradictions
-from zlmreport.job.defaults import Defaults
-from zlmreport.job.effects import effect_choices
-from zlmreport.job.extends import compose
-from zlmreport.job.formats import JOB, refuse_other_format
+from zlmreport.job.extends import JOB, Defaults, compose, refuse_other_format
 from zlmreport.job.installed import Installed, InstalledStandard
-from zlmreport.job.instruments import instrument_choice
-from zlmreport.job.interpret import axis_in_si, tolerances_in_si
 from zlmreport.job.job import Job, SourceChoice, StandardChoice
-from zlmreport.job.model import JobKeys
-from zlmreport.job.programs import program_choices
+from zlmreport.job.keys import JobKeys
+from zlmreport.job.measurement_keys import AxisKeys
 from zlmreport.job.step_gauge_file import with_gauge_as_instrument
 from zlmreport.job.text import quoted
 from zlmreport.job.tree import Entry, Items, Keys, Node, Scalar, keys_of, place_of, walk
 from zlmreport.job.validate import validate
+from zlmreport.measurement.axis import Axis, position_units
+from zlmreport.measurement.position_table import TableColumn, read_position_table
+from zlmreport.quantities.units import ANGLE_UNITS, MICRORADIAN, MILLIMETRE
 
 _SOURCE = ("measurement", "source")
 _SOURCE_AS_FOUND = ("as_found", "measurement", "source")
@@ -227,3 +226,42 @@ def _at(tree: Node, path: tuple[str, ...]) -> Node | None:
     """Return the value at a path, if there is one."""
     found = list(walk(tree, path))
     return found[-1][2] if len(found) == len(path) else None
+
+
+def axis_in_si(keys: AxisKeys) -> Axis:
+    """Return the axis with its lengths in metres, or its angles in radians, and with its tables.
+
+    Raises
+    ------
+    AccessError
+        If the file of a table cannot be read.
+    InputError
+        If it is not such a table.
+    """
+    bare = Axis(keys.name, keys.kind)
+    to_si = bare.position_unit.to_si
+    position = TableColumn("position", bare.position_unit, position_units(keys.kind))
+    deviation = TableColumn("deviation", bare.deviation_unit, position_units(keys.kind))
+    angle = TableColumn("angle", MICRORADIAN, ANGLE_UNITS)
+    return Axis(
+        name=keys.name,
+        kind=keys.kind,
+        travel=(to_si(keys.travel[0]), to_si(keys.travel[1])) if keys.travel else None,
+        screw_pitch=to_si(keys.screw_pitch) if keys.screw_pitch else None,
+        signal_period=to_si(keys.signal_period) if keys.signal_period else None,
+        scale_element=to_si(keys.scale_element) if keys.scale_element else None,
+        compensation_table=(
+            read_position_table(keys.compensation_table, position, deviation)
+            if keys.compensation_table
+            else None
+        ),
+        angular_errors=(
+            read_position_table(keys.angular_errors, position, angle) if keys.angular_errors else None
+        ),
+        abbe_offset=None if keys.abbe_offset is None else MILLIMETRE.to_si(keys.abbe_offset),
+    )
+
+
+def tolerances_in_si(tolerances: Mapping[str, float], axis: Axis) -> dict[str, float]:
+    """Return tolerances, given in µm or ″, in metres or radians."""
+    return {symbol: axis.deviation_unit.to_si(limit) for symbol, limit in tolerances.items()}

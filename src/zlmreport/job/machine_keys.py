@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from pydantic import Field
 
-from zlmreport.job.part import JobPart
-from zlmreport.job.types import Positive, Text
+from zlmreport.job.types import JobPart, Positive, Text
 
 #: The TCP port of I++ DME.
 STANDARD_PORT = 1294

@@ -7,8 +7,7 @@ from typing import Any
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
-from zlmreport.job.part import JobPart
-from zlmreport.job.types import Finite, NotNegative, Positive, Text
+from zlmreport.job.types import Finite, JobPart, NotNegative, Positive, Text
 
 
 class PlannedTargetKeys(JobPart):
@@ -86,7 +85,7 @@ class PlanKeys(JobPart):
     )
 
 
-def contradictions(targets: PlannedTargetKeys) -> Iterator[tuple[str, str]]:
+def plan_contradictions(targets: PlannedTargetKeys) -> Iterator[tuple[str, str]]:
     """Yield what no single key of the targets shows to be wrong: the key, and a sentence."""
     if targets.positions is None:
         return

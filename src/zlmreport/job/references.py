@@ -8,6 +8,9 @@ from collections.abc import Iterator, Mapping
 from contextvars import ContextVar
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Self
+
+from zlmreport.errors import Place
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,3 +84,16 @@ def enclosed(enclosure: Enclosure) -> Iterator[None]:
         yield
     finally:
         _ENCLOSURE.reset(token)
+
+
+class LocatedText(str):
+    """A string from a job file, with its place, so that a path can be read beside the file that names it."""
+
+    __slots__ = ("place",)
+    place: Place
+
+    def __new__(cls, text: str, place: Place) -> Self:
+        """Return the text with its place."""
+        located = super().__new__(cls, text)
+        located.place = place
+        return located

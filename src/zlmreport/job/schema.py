@@ -8,6 +8,7 @@ from typing import Any, TypeAlias
 from pydantic import BaseModel
 from pydantic.errors import PydanticInvalidForJsonSchema
 
+from zlmreport.job.evaluation_keys import DecisionRuleKeys, StandardKeys
 from zlmreport.job.installed import (
     Installed,
     InstalledEffect,
@@ -16,10 +17,11 @@ from zlmreport.job.installed import (
     InstalledSource,
     InstalledStandard,
 )
-from zlmreport.job.instruments import LiveInstrumentKeys
-from zlmreport.job.model import DecisionRuleKeys, JobKeys, SourceKeys, StandardKeys
+from zlmreport.job.keys import JobKeys
+from zlmreport.job.measurement_keys import SourceKeys
 from zlmreport.job.plan_keys import ProgramKeys
 from zlmreport.job.step_gauge_keys import ProbingProgramKeys
+from zlmreport.job.types import LiveInstrumentKeys
 
 Schema: TypeAlias = dict[str, Any]
 

@@ -1,22 +1,136 @@
-"""From a simulation file to what it describes, checked."""
+"""A simulation file: its keys, in the units of a job, and what it describes, checked."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Annotated, Any, Literal
+
+from pydantic import AfterValidator, Field
 
 from zlmreport.errors import InputError, Place, Problem
-from zlmreport.job.effects import EffectChoice, effect_choices
-from zlmreport.job.extends import compose
-from zlmreport.job.formats import SIMULATION, refuse_other_format
+from zlmreport.job.choices import EffectChoice, effect_choices
+from zlmreport.job.document_keys import Number
+from zlmreport.job.evaluation_keys import Model
+from zlmreport.job.extends import SIMULATION, compose, refuse_other_format
 from zlmreport.job.installed import Installed
-from zlmreport.job.interpret import axis_in_si
-from zlmreport.job.simulation_keys import SimulationKeys
+from zlmreport.job.loading import axis_in_si
+from zlmreport.job.measurement_keys import AxisKeys
+from zlmreport.job.text import quoted
 from zlmreport.job.tree import Keys, Node, key_place, place_of
+from zlmreport.job.types import Finite, JobPart, NotNegative, Positive, Text
 from zlmreport.job.validate import validate
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.provenance import SourceFile
+
+Share = Annotated[float, Field(ge=0, lt=1)]
+
+
+def _file_name(text: str) -> str:
+    if "/" in text or "\\" in text or text in {".", ".."}:
+        raise ValueError(f"{quoted(text)} is no file's name; the folder comes with --output")
+    return text
+
+
+FileName = Annotated[Text, AfterValidator(_file_name)]
+
+
+class TargetKeys(JobPart):
+    """The target positions: a number of them at random fractions of a period, or a list."""
+
+    count: int | None = Field(
+        None, ge=2, le=2000, description="Number of targets over the travel.", examples=[21]
+    )
+    fractions_of: NotNegative | None = Field(
+        None,
+        description="Period of whose random fractions the targets lie, mm or degrees; 0 for even targets. "
+        "Without it axis.screw_pitch, or else even targets.",
+    )
+    positions: list[Finite] | None = Field(
+        None, min_length=1, max_length=2000, description="Instead: all targets, rising, mm or degrees."
+    )
+
+
+class CourseKeys(JobPart):
+    """A condition during the test."""
+
+    start: Finite = Field(description="At the first reading.", examples=[20.4])
+    end: Finite | None = Field(
+        None, description="At the last reading; with a time constant, what it tends to. Without it: start."
+    )
+    time_constant: Positive | None = Field(None, description="Of the way from start to end, s.")
+    swing: NotNegative = Field(0.0, description="Amplitude of a sine that is added.")
+    swing_period: Positive = Field(900.0, description="Its period, s.")
+    sensor_noise: NotNegative = Field(0.0, description="Standard deviation of what is logged.")
+    resolution: NotNegative = Field(0.0, description="Of what is logged.")
+    logged: bool = Field(default=True, description="Whether it is logged; it acts in any case.")
+
+
+class NoiseKeys(JobPart):
+    """Everything random about the readings: standard deviations, micrometres (arc seconds)."""
+
+    reading: NotNegative = Field(0.0, description="Of a single reading.", examples=[0.5])
+    unequal: Share = Field(0.0, description="Share of itself by which it differs from target to target.")
+    position: NotNegative = Field(0.0, description="Fixed in position.")
+    position_and_direction: NotNegative = Field(
+        0.0, description="Fixed in position, of opposite sign in the two directions."
+    )
+    run: NotNegative = Field(0.0, description="Of a whole run.")
+    drift: NotNegative = Field(0.0, description="Slow random drift.")
+    drift_time: Positive = Field(600.0, description="Time over which the drift forgets itself, s.")
+    outlier_share: Share = Field(0.0, description="Probability that a reading is an outlier.")
+    outlier_size: NotNegative = Field(0.0, description="How far an outlier is off.")
+    missing_share: Share = Field(0.0, description="Probability that a reading is missing.")
+    resolution: NotNegative = Field(0.0, description="Of the instrument.")
+
+
+class SimulationOutput(JobPart):
+    """The files."""
+
+    readings: FileName | None = Field(
+        None, description="The table of readings; without it the simulation file's own name with .csv."
+    )
+    job: FileName = Field("job.yaml", description="A job that evaluates the readings.")
+    number: Number = Field("SIMULATION-1", description="Number of that job's report.")
+
+
+class SimulationKeys(JobPart):
+    """A simulation file: an axis, a test of it, and what is to be found."""
+
+    schema_: Literal["zlmreport/simulation/1"] = Field(
+        alias="schema", description="Version of this format.", examples=["zlmreport/simulation/1"]
+    )
+    extends: list[Text] | Text | None = Field(
+        None, description="Files whose keys this one builds on; paths are relative to this file."
+    )
+    seed: int = Field(
+        ge=0, description="Of everything random: the same file gives the same test.", examples=[1]
+    )
+    axis: AxisKeys = Field(description="The axis.", examples=[{"name": "X", "travel": [0, 1000]}])
+    targets: TargetKeys = Field(description="The target positions.", examples=[{"count": 21}])
+    method: Literal["linear", "unidirectional", "pendulum", "quasi-pilgrim"] = Field(
+        "linear", description="Positioning method."
+    )
+    runs: int = Field(5, ge=1, le=1000, description="Readings of each target in each direction.")
+    overrun: Positive = Field(5.0, description="How far beyond a target the axis turns round, mm or degrees.")
+    feed: Positive = Field(2000.0, description="Feed, mm/min or degrees/min.")
+    dwell: NotNegative = Field(5.0, description="Time at rest before each reading, s.")
+    effects: list[str | dict[str, dict[str, Any] | None]] = Field(
+        default_factory=list,
+        description="Effects with the values of their parameters, in users' units.",
+        examples=[[{"backlash": {"lost_motion": 4}}]],
+    )
+    noise: NoiseKeys = Field(default_factory=NoiseKeys, description="Everything random about the readings.")
+    conditions: dict[str, CourseKeys] = Field(
+        default_factory=dict,
+        description="By the names of measurement files: axis_temperature, air_pressure …",
+        examples=[{"axis_temperature": {"start": 20.4}}],
+    )
+    time_logged: bool = Field(default=True, description="Whether the readings carry times.")
+    model: Model | None = Field(None, description="The error model that the written job begins with.")
+    output: SimulationOutput = Field(default_factory=SimulationOutput, description="The files.")
+
 
 #: In both directions together; a file of readings may have some more lines.
 MOST_READINGS = 200_000

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from zlmreport.errors import InputError, Place, Problem
-from zlmreport.job.extends import compose
-from zlmreport.job.formats import STEP_GAUGE, refuse_other_format
-from zlmreport.job.model import Instrument, JobKeys
+from zlmreport.job.extends import STEP_GAUGE, compose, refuse_other_format
+from zlmreport.job.keys import JobKeys
+from zlmreport.job.measurement_keys import Instrument
 from zlmreport.job.step_gauge_file_keys import StepGaugeFileKeys
 from zlmreport.job.tree import Keys, place_of
 from zlmreport.job.validate import validate

@@ -6,8 +6,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from zlmreport.job.part import JobPart
-from zlmreport.job.types import Date, Finite, NotNegative, Positive, Text
+from zlmreport.job.types import Date, Finite, JobPart, NotNegative, Positive, Text
 
 
 class FaceKeys(JobPart):

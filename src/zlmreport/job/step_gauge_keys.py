@@ -11,10 +11,8 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from zlmreport.job.options import JobPath
-from zlmreport.job.part import JobPart
 from zlmreport.job.plan_keys import ProgramKeys
-from zlmreport.job.types import Finite, NotNegative, Positive, Text
+from zlmreport.job.types import Finite, JobPart, JobPath, NotNegative, Positive, Text
 
 #: Number of a block, from 1 at the beginning of the gauge.
 Block = Annotated[int, Field(ge=1, le=10_000)]

@@ -8,10 +8,12 @@ from __future__ import annotations
 
 import datetime as dt
 import re
+from pathlib import Path
 from typing import Annotated, Any
 
-from pydantic import AfterValidator, BeforeValidator, Field, StringConstraints
+from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, StringConstraints
 
+from zlmreport.job.references import LocatedText, path_named
 from zlmreport.job.text import quoted
 
 _LONGEST_LINE = 500
@@ -102,3 +104,41 @@ Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
 NotNegative = Annotated[float, Field(ge=0, allow_inf_nan=False)]
 Finite = Annotated[float, Field(allow_inf_nan=False)]
 Date = Annotated[dt.date, BeforeValidator(_date)]
+
+
+class JobPart(BaseModel):
+    """A part of a job: frozen, and closed to keys that it does not know."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+class Options(BaseModel):
+    """The base of every plugin's own job keys.
+
+    A plugin subclasses it and declares one field a key, with a type, a default if it has one, and a
+    `description`. Unknown keys are refused, and every mistake is reported with the line and column in
+    the job file; ``zlmreport schema`` shows the keys to editors.
+    """
+
+    model_config = ConfigDict(extra="forbid", frozen=True, arbitrary_types_allowed=True)
+
+
+def _beside_the_naming_file(value: Any) -> Any:
+    """Resolve a relative path against the folder of the file that names it."""
+    if not value:
+        raise ValueError("the name of a file is expected")
+    if isinstance(value, LocatedText):
+        return path_named(str(value), Path(value.place.file))
+    return value
+
+
+#: A path in a job file: relative to the file that names it, which may be one that the job extends.
+JobPath = Annotated[Path, BeforeValidator(_beside_the_naming_file)]
+
+
+class LiveInstrumentKeys(BaseModel):
+    """A live instrument; its own keys follow `plugin`. A data source that has one declares a key of it."""
+
+    model_config = ConfigDict(extra="allow", frozen=True)
+
+    plugin: Text = Field(description="Identifier of an installed live instrument.", examples=["umd1"])

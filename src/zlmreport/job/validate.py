@@ -9,9 +9,8 @@ from typing import Any, TypeVar
 from pydantic import BaseModel, ValidationError
 
 from zlmreport.errors import Problem
-from zlmreport.job.located import LocatedText
-from zlmreport.job.mistakes import GROUP_EXPECTED, MISSING, TEXT_EXPECTED, Mistake, mistakes_in
-from zlmreport.job.sentences import problem
+from zlmreport.job.references import LocatedText
+from zlmreport.job.sentences import GROUP_EXPECTED, MISSING, TEXT_EXPECTED, Mistake, mistakes_in, problem
 from zlmreport.job.tree import Items, Keys, Node, Scalar, Step
 
 Model = TypeVar("Model", bound=BaseModel)

@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import BeforeValidator, Field
 
-from zlmreport.job.options import Options
+from zlmreport.job.types import Options
 
 
 def _port_is_named(value: object) -> object:

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from zlmreport.errors import did_you_mean
-from zlmreport.job.effects import EffectChoice
+from zlmreport.job.choices import EffectChoice
 from zlmreport.language import Language
 from zlmreport.measurement.axis import AxisKind
 from zlmreport.model.design import Design

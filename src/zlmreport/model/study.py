@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from zlmreport.errors import InputError, Place, Problem
+from zlmreport.job.choices import EffectChoice
 from zlmreport.job.edit import NamedEffect, named_effect
-from zlmreport.job.effects import EffectChoice
 from zlmreport.job.installed import Installed
 from zlmreport.job.job import Job
 from zlmreport.language import Language, Words

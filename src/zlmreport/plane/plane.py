@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from zlmreport.errors import InputError, Problem
 from zlmreport.job.job import Job
-from zlmreport.job.model import LineOfPlane
+from zlmreport.job.measurement_keys import LineOfPlane
 from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.model.axis_model import ModelError

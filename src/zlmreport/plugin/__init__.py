@@ -114,10 +114,9 @@ if TYPE_CHECKING:
     from zlmreport.foresight.program_text import ProgramOptions, axis_address, program_number
     from zlmreport.foresight.program_text import heading as program_heading
     from zlmreport.foresight.program_text import remark as reading_remark
+    from zlmreport.job.document_keys import Customer, Laboratory
     from zlmreport.job.job import Job
-    from zlmreport.job.model import Customer, Laboratory
-    from zlmreport.job.options import JobPath, Options
-    from zlmreport.job.types import Finite
+    from zlmreport.job.types import Finite, JobPath, Options
     from zlmreport.language import Language, Words
     from zlmreport.language import same as same_in_all_languages
     from zlmreport.live.connection import LiveConnection
@@ -518,9 +517,8 @@ _ROOMS = {
         "ProgramOptions axis_address program_heading=heading program_number reading_remark=remark"
     ),
     "zlmreport.job.job": "Job",
-    "zlmreport.job.model": "Customer Laboratory",
-    "zlmreport.job.options": "JobPath Options",
-    "zlmreport.job.types": "Finite",
+    "zlmreport.job.document_keys": "Customer Laboratory",
+    "zlmreport.job.types": "Finite JobPath Options",
     "zlmreport.language": "Language Words same_in_all_languages=same",
     "zlmreport.live.connection": "LiveConnection",
     "zlmreport.live.lines": "WholeLines=Lines",

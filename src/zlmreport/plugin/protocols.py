@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from zlmreport.evaluation.statistics import PositionStatistics
     from zlmreport.figures.figure import Figure
     from zlmreport.foresight.motion import Motion
-    from zlmreport.job.options import Options
+    from zlmreport.job.types import Options
     from zlmreport.language import Words
     from zlmreport.live.reading import LiveReading
     from zlmreport.measurement.axis import Axis

@@ -10,7 +10,7 @@ from typing import Any
 
 from zlmreport.errors import Place, Problem, did_you_mean
 from zlmreport.job.fields import keys_in
-from zlmreport.job.options import Options
+from zlmreport.job.types import Options
 from zlmreport.language import Words
 from zlmreport.model.effect import Effect
 from zlmreport.plugin import hookspecs

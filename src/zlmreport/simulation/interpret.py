@@ -7,8 +7,7 @@ from collections.abc import Callable, Iterator
 import numpy as np
 
 from zlmreport.errors import InputError, Problem
-from zlmreport.job.simulation import SimulationFile
-from zlmreport.job.simulation_keys import CourseKeys, NoiseKeys
+from zlmreport.job.simulation import CourseKeys, NoiseKeys, SimulationFile
 from zlmreport.language import Language
 from zlmreport.measurement.conditions import CONDITIONS
 from zlmreport.model.axis_model import Term, chosen_terms

@@ -9,7 +9,7 @@ import numpy as np
 
 from zlmreport.evaluation.evaluation import Arithmetic
 from zlmreport.evaluation.statistics import PositionStatistics, position_statistics
-from zlmreport.job.options import Options
+from zlmreport.job.types import Options
 from zlmreport.measurement.approach import Approach
 from zlmreport.plugin.protocols import Standard
 from zlmreport.quantities.arrays import FloatArray

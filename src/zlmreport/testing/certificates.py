@@ -35,22 +35,12 @@ from zlmreport.evaluation.quantity import Group, PositionQuantity, Quantity
 from zlmreport.evaluation.requirements import Finding
 from zlmreport.evaluation.statistics import position_statistics
 from zlmreport.figures.figure import Arrow, Band, Bracket, Curve, Figure, Level, Panel, Readings, Role
-from zlmreport.job.document_keys import Person
+from zlmreport.job.document_keys import CertificateKeys, Customer, Laboratory, Person
+from zlmreport.job.evaluation_keys import StandardKeys
 from zlmreport.job.job import Job, SourceChoice
-from zlmreport.job.model import (
-    AxisKeys,
-    CertificateKeys,
-    Customer,
-    Environment,
-    Instrument,
-    JobKeys,
-    Laboratory,
-    Machine,
-    Measurement,
-    SourceKeys,
-    StandardKeys,
-)
-from zlmreport.job.options import Options
+from zlmreport.job.keys import JobKeys
+from zlmreport.job.measurement_keys import AxisKeys, Environment, Instrument, Machine, Measurement, SourceKeys
+from zlmreport.job.types import Options
 from zlmreport.language import Language, Words, same
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.testing.measurements import simulated_test

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from zlmreport.job.options import Options
+from zlmreport.job.types import Options
 from zlmreport.language import Language, Words
 
 _IDENTIFIER = re.compile(r"[a-z0-9]+([-.:][a-z0-9]+)*")
@@ -65,7 +65,7 @@ def expect_options(options: object, owner: str) -> None:
     """Expect a subclass of `Options` whose keys are all described."""
     expect(
         isinstance(options, type) and issubclass(options, Options),
-        f"{owner}: options must be a subclass of zlmreport.job.options.Options, not {options!r}",
+        f"{owner}: options must be a subclass of zlmreport.job.types.Options, not {options!r}",
     )
     for key, field in options.model_fields.items():  # type: ignore[attr-defined]  # said above
         expect(field.description, f"{owner}: job key '{key}' needs a description (Field(description=…))")

@@ -10,7 +10,7 @@ import numpy as np
 from zlmreport.evaluation.evaluate import evaluate
 from zlmreport.evaluation.evaluation import Evaluation
 from zlmreport.figures.figure import Arrow, Band, Bracket, Curve, Figure, Panel, Readings
-from zlmreport.job.options import Options
+from zlmreport.job.types import Options
 from zlmreport.language import Language
 from zlmreport.plugin.protocols import Standard
 from zlmreport.quantities.arrays import FloatArray

@@ -8,7 +8,7 @@ from typing import Any
 
 from zlmreport.evaluation.quantity import Group, PositionQuantity, Quantity
 from zlmreport.evaluation.requirements import Basis, Finding
-from zlmreport.job.options import Options
+from zlmreport.job.types import Options
 from zlmreport.plugin.protocols import Standard
 from zlmreport.quantities.notation import plain
 from zlmreport.testing.arithmetic import ARITHMETIC_CHECKS

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from zlmreport.errors import InputError
+from zlmreport.job.evaluation_keys import ContributionKeys
 from zlmreport.job.job import Job
-from zlmreport.job.model import Instrument
-from zlmreport.job.uncertainty_keys import ContributionKeys
+from zlmreport.job.measurement_keys import Instrument
 from zlmreport.language import Words, same
 from zlmreport.measurement.axis import AxisKind
 from zlmreport.measurement.measurement_set import MeasurementSet

@@ -11,7 +11,7 @@ from threading import RLock
 
 from zlmreport import pipeline
 from zlmreport.certificate.results import Evaluated
-from zlmreport.job.effects import EffectChoice
+from zlmreport.job.choices import EffectChoice
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
 from zlmreport.measurement.measurement_set import MeasurementSet

@@ -16,10 +16,9 @@ from pydantic import BaseModel, ConfigDict, StringConstraints, ValidationError
 
 from zlmreport.errors import InputError, Place, Problem
 from zlmreport.job.edit import Edit, edit_effects
-from zlmreport.job.edit_effect import ParameterChoice, edit_parameter
-from zlmreport.job.edit_excluded import exclude, include
-from zlmreport.job.exclusion_keys import ExclusionKeys
+from zlmreport.job.edit_items import ParameterChoice, edit_parameter, exclude, include
 from zlmreport.job.loading import load
+from zlmreport.job.measurement_keys import ExclusionKeys
 from zlmreport.language import Words
 from zlmreport.model.study import Fitted, addition, refuse_useless
 from zlmreport.web.bench import Bench, Loaded

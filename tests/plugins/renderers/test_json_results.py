@@ -19,7 +19,7 @@ from uncertainty.budgets import contribution
 from zlmreport.certificate.attachments import Role, Source
 from zlmreport.certificate.document import Certificate
 from zlmreport.evaluation.decision import decided, decision_rule
-from zlmreport.job.options import Options
+from zlmreport.job.types import Options
 from zlmreport.language import Language, Words
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.axis import AxisKind

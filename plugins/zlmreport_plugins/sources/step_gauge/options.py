@@ -7,8 +7,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from zlmreport.job.machine_keys import MachineKeys
-from zlmreport.job.options import JobPath, Options
-from zlmreport.job.types import Finite
+from zlmreport.job.types import Finite, JobPath, Options
 
 FaceNumber = Annotated[int, Field(ge=1)]
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from zlmreport.errors import InputError
-from zlmreport.job.options import Options
+from zlmreport.job.types import Options
 from zlmreport.language import Words
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.measurement.text_file import TextFile, read_text

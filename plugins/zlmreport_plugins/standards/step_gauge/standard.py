@@ -9,7 +9,7 @@ from zlmreport.evaluation.evaluation import Arithmetic, Evaluation
 from zlmreport.evaluation.requirements import Basis, Finding
 from zlmreport.evaluation.statistics import PositionStatistics
 from zlmreport.figures.figure import Figure
-from zlmreport.job.options import Options
+from zlmreport.job.types import Options
 from zlmreport.language import Words
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport_plugins.standards.step_gauge import figures, formulas, words

@@ -1,4 +1,4 @@
-"""Giving a parameter of an effect a value in a job, and leaving it to the readings again."""
+"""Editing what a job lists: an effect's parameter is given or left free, a reading is set aside or back."""
 
 from __future__ import annotations
 
@@ -7,10 +7,12 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from types import MappingProxyType
 
-from zlmreport.errors import InputError
+from zlmreport.errors import InputError, Place
 from zlmreport.job.edit import EFFECTS, Edit, ListChange, edit_list, listed_items, meaning
 from zlmreport.job.installed import Installed
 from zlmreport.job.job import Job
+from zlmreport.job.list_edits import ListKey
+from zlmreport.job.measurement_keys import ExclusionKeys
 from zlmreport.job.tree import Entry, Items, Keys, Node, Scalar, keys_of
 
 
@@ -55,7 +57,7 @@ def edit_parameter(path: Path, job: Job, registry: Installed, wanted: ParameterC
     values = {name: each for name, each in choice.values.items() if name != parameter}
     if value is not None:
         values[parameter] = value
-    changed = {index: _node(listed_items(job, EFFECTS)[index], effect, parameter, value)}
+    changed = {index: _effect_node(listed_items(job, EFFECTS)[index], effect, parameter, value)}
 
     def is_meant(after: Job) -> bool:
         effects = [*job.effects]
@@ -65,7 +67,7 @@ def edit_parameter(path: Path, job: Job, registry: Installed, wanted: ParameterC
     return edit_list(path, job, registry, ListChange(EFFECTS, changed=changed), is_meant)
 
 
-def _node(item: Node, effect: str, parameter: str, value: float | None) -> Node:
+def _effect_node(item: Node, effect: str, parameter: str, value: float | None) -> Node:
     """Return an effect as it is written, with another value of a parameter, or without one."""
     place = item.place
     entries: dict[str, Entry] = {}
@@ -86,3 +88,47 @@ def _keys(node: Node) -> Mapping[str, Entry]:
 def _number(value: float) -> str:
     """Write a value as people would: ``4.2``, and ``10`` for 10.0."""
     return f"{value:.10g}"
+
+
+#: The list of readings that a job sets aside.
+EXCLUDED = ListKey("measurement", "excluded")
+
+
+def exclude(path: Path, job: Job, registry: Installed, exclusion: ExclusionKeys) -> Edit:
+    """Return the change of a job that sets a reading aside.
+
+    Raises
+    ------
+    InputError
+        If the file has changed since it was loaded, or is written in a way in which nothing can be changed
+        without changing more.
+    AccessError
+        If the file cannot be read.
+    """
+    wanted = [*job.keys.measurement.excluded, exclusion]
+    change = ListChange(EXCLUDED, added=[_exclusion_node(exclusion)])
+    return edit_list(path, job, registry, change, lambda after: after.keys.measurement.excluded == wanted)
+
+
+def include(path: Path, job: Job, registry: Installed, index: int) -> Edit:
+    """Return the change of a job that brings a reading back: the one that the list names at an index.
+
+    Raises
+    ------
+    InputError, AccessError
+        As for `exclude`.
+    """
+    wanted = [each for number, each in enumerate(job.keys.measurement.excluded) if number != index]
+    change = ListChange(EXCLUDED, removed=[index])
+    return edit_list(path, job, registry, change, lambda after: after.keys.measurement.excluded == wanted)
+
+
+def _exclusion_node(exclusion: ExclusionKeys) -> Node:
+    place = Place("")
+    values = {
+        "target": Scalar(place, f"{exclusion.target:.10g}"),
+        "direction": Scalar(place, exclusion.direction, plain=False),
+        "run": Scalar(place, str(exclusion.run)),
+        "reason": Scalar(place, exclusion.reason, plain=False),
+    }
+    return keys_of(place, tuple(Entry(key, place, value) for key, value in values.items()))

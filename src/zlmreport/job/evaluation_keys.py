@@ -1,14 +1,18 @@
-"""The keys of the uncertainty budget: what the measuring set-up may add to the readings."""
+"""The keys of a job file on what is made of the readings: standards, decisions, uncertainty, error model."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Literal, TypeAlias
+from typing import Any, Literal, TypeAlias
 
-from pydantic import Field
+from pydantic import BaseModel, ConfigDict, Field, model_validator
 
-from zlmreport.job.part import JobPart
-from zlmreport.job.types import NotNegative, Text
+from zlmreport.job.types import (
+    JobPart,
+    NotNegative,
+    Positive,
+    Text,
+)
 from zlmreport.measurement.axis import AxisKind
 
 #: `zlmreport.uncertainty.contribution.Acts`, by its values.
@@ -120,7 +124,9 @@ _OF_LINEAR_AXES = (
 _SIZES = ("expanded_uncertainty", "standard_uncertainty", "range")
 
 
-def contradictions(keys: UncertaintyKeys, kind: AxisKind) -> Iterator[tuple[tuple[str | int, ...], str]]:
+def uncertainty_contradictions(
+    keys: UncertaintyKeys, kind: AxisKind
+) -> Iterator[tuple[tuple[str | int, ...], str]]:
     """Yield what no single key shows to be wrong: the path of a key, and a sentence."""
     if kind is AxisKind.ROTARY:
         for name in _OF_LINEAR_AXES:
@@ -136,3 +142,51 @@ def contradictions(keys: UncertaintyKeys, kind: AxisKind) -> Iterator[tuple[tupl
                 ("contributions", index, "distribution"),
                 "a normal distribution has no range; state standard_uncertainty or expanded_uncertainty",
             )
+
+
+class StandardKeys(BaseModel):
+    """A standard to evaluate by; the plugin's own keys may follow."""
+
+    model_config = ConfigDict(extra="allow", frozen=True)
+
+    standard: Text = Field(description="Identifier of an installed standard, edition included.")
+    tolerances: dict[str, Positive] = Field(
+        default_factory=dict,
+        description="Limits by the symbols of the results file, micrometres (arc seconds).",
+        examples=[{"A": 20}],
+    )
+
+    @model_validator(mode="before")
+    @classmethod
+    def _bare_identifier(cls, value: Any) -> Any:
+        """Take a bare identifier for the standard without further keys."""
+        return {"standard": value} if isinstance(value, str | int | float) else value
+
+
+class DecisionRuleKeys(JobPart):
+    """How a value is held against its limit."""
+
+    rule: Literal["simple", "guard-band", "iso14253-1", "non-binary"] = Field(
+        "simple", description="The rule.", examples=["guard-band"]
+    )
+    guard_band_factor: Positive = Field(
+        1.0,
+        description="Of guard-band: width of the guard band over the expanded uncertainty U.",
+        examples=[0.5],
+    )
+
+    @model_validator(mode="before")
+    @classmethod
+    def _bare_rule(cls, value: Any) -> Any:
+        """Take a bare identifier for the rule without further keys."""
+        return {"rule": value} if isinstance(value, str | int | float) else value
+
+
+class Model(JobPart):
+    """The error model of the axis."""
+
+    effects: list[str | dict[str, dict[str, Any] | None]] = Field(
+        default_factory=list,
+        description="Effects in the model; a mapping fixes parameters.",
+        examples=[["offset", "scale-error", "backlash"]],
+    )

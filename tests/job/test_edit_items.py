@@ -8,10 +8,9 @@ from pathlib import Path
 import pytest
 
 from zlmreport.errors import InputError
-from zlmreport.job.edit_effect import ParameterChoice, edit_parameter
-from zlmreport.job.edit_excluded import exclude, include
-from zlmreport.job.exclusion_keys import ExclusionKeys
+from zlmreport.job.edit_items import ParameterChoice, edit_parameter, exclude, include
 from zlmreport.job.loading import load
+from zlmreport.job.measurement_keys import ExclusionKeys
 from zlmreport.plugins import Registry, find_plugins
 
 HEAD = """\

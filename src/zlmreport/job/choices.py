@@ -1,0 +1,271 @@
+"""The plugins that a file names: live instruments, effects and programs, each with its own keys."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any, TypeAlias
+
+from pydantic import Field, create_model
+
+from zlmreport.errors import InputError, Place, Problem
+from zlmreport.job.fields import keys_in, model_in
+from zlmreport.job.installed import Installed, InstalledEffect, InstalledProgram
+from zlmreport.job.sentences import shown
+from zlmreport.job.tree import Entry, Items, Keys, Node, Scalar, keys_of
+from zlmreport.job.types import Finite, LiveInstrumentKeys, Options
+from zlmreport.job.validate import validate
+
+
+@dataclass(frozen=True, slots=True)
+class InstrumentChoice:
+    """A live instrument that the job names, its own keys validated, and where the job names it."""
+
+    identifier: str
+    options: Options
+    place: Place
+
+
+def instrument_choice(
+    source: type[Options], keys: Keys, registry: Installed, problems: list[Problem], *, within: str
+) -> InstrumentChoice | None:
+    """Return the live instrument that the keys of a data source name; None if they name none.
+
+    Parameters
+    ----------
+    source
+        The keys that the data source knows.
+    keys
+        What the job says.
+    registry
+        The installed plugins.
+    problems
+        Where mistakes are added.
+    within
+        The dotted path of the data source, for messages.
+    """
+    key = next(
+        (key for key, field in keys_in(source).items() if model_in(field.annotation) is LiveInstrumentKeys),
+        "",
+    )
+    entry = keys.entries.get(key)
+    if entry is None or not isinstance(entry.value, Keys):
+        return None
+    named = entry.value.entries.get("plugin")
+    if named is None or not isinstance(named.value, Scalar) or named.value.is_nothing:
+        return None
+    place = named.value.place
+    try:
+        instrument = registry.instrument(named.value.text, place)
+    except InputError as error:
+        problems.extend(error.problems)
+        return None
+    own = replace(entry.value.without("plugin"), place=place)
+    options = validate(instrument.options, own, problems, within=f"{within}.{key}", also_known=["plugin"])
+    return InstrumentChoice(instrument.identifier, options, place) if options else None
+
+
+_SHAPE = "an effect is its name, or {name: {parameter: value}} for one whose parameters are given"
+
+
+@dataclass(frozen=True, slots=True)
+class EffectChoice:
+    """An effect that a file names.
+
+    Attributes
+    ----------
+    identifier
+        Of an installed effect.
+    settings
+        Its own keys, validated by its options class.
+    values
+        Parameters that are given, by name, in the users' units: of a model they are fixed.
+    place
+        Where the file names the effect.
+    """
+
+    identifier: str
+    settings: Options
+    values: Mapping[str, float]
+    place: Place
+
+
+def effect_choices(
+    listed: Node | None, registry: Installed, problems: list[Problem], *, within: str
+) -> tuple[EffectChoice, ...]:
+    """Return the effects of a list.
+
+    Parameters
+    ----------
+    listed
+        The list; anything else has been refused before, and gives none.
+    registry
+        The installed plugins.
+    problems
+        Where mistakes are added.
+    within
+        The dotted path of the list, for messages.
+    """
+    items = listed.items if isinstance(listed, Items) else ()
+    return tuple(_effects(items, registry, problems, within))
+
+
+def _effects(
+    items: Sequence[Node], registry: Installed, problems: list[Problem], within: str
+) -> Iterator[EffectChoice]:
+    for item in items:
+        named = _named_effect(item)
+        if named is None:
+            problems.append(Problem(item.place, f"{within}: {shown(item)} is no effect; {_SHAPE}"))
+            continue
+        identifier, keys = named
+        try:
+            effect: InstalledEffect = registry.effect(identifier, item.place)
+        except InputError as error:
+            problems.extend(error.problems)
+            continue
+        choice = _effect(effect, replace(keys, place=item.place), problems, f"{within}.{identifier}")
+        if choice:
+            yield choice
+
+
+def _named_effect(item: Node) -> tuple[str, Keys] | None:
+    """Return an effect's name and its keys."""
+    if isinstance(item, Scalar) and not item.is_nothing:
+        return item.text, keys_of(item.place)
+    if isinstance(item, Keys) and len(item.entries) == 1:
+        (entry,) = item.entries.values()
+        if isinstance(entry.value, Keys):
+            return entry.key, entry.value
+        if isinstance(entry.value, Scalar) and entry.value.is_nothing:
+            return entry.key, keys_of(entry.place)
+    return None
+
+
+def _effect(effect: InstalledEffect, keys: Keys, problems: list[Problem], within: str) -> EffectChoice | None:
+    own = keys_in(effect.options)
+    given = keys.without(*(key for key in keys.entries if key not in own))
+    settings = validate(effect.options, given, problems, within=within)
+    if settings is None:
+        return None
+    form = effect.with_settings(settings)
+    model = _model_of_parameters([each.name for each in (*form.linear, *form.searched)])
+    values = validate(model, keys.without(*own), problems, within=within, also_known=own)
+    if values is None:
+        return None
+    stated = values.model_dump(exclude_none=True)
+    return EffectChoice(effect.identifier, settings, stated, keys.place)
+
+
+def _model_of_parameters(names: Sequence[str]) -> type[Options]:
+    """Return the model of a group of keys that may give each parameter a value."""
+    fields: dict[str, Any] = {
+        name: (Finite | None, Field(None, description="The value of the parameter.")) for name in names
+    }
+    return create_model("Parameters", __base__=Options, **fields)
+
+
+@dataclass(frozen=True, slots=True)
+class ProgramChoice:
+    """A program for a machine that the job names, its own keys validated, and where the job names it."""
+
+    identifier: str
+    options: Options
+    place: Place
+
+
+#: Returns the writer of an identifier that is named at a place; raises `InputError` if there is none.
+Find: TypeAlias = Callable[[str, Place | None], InstalledProgram]
+
+
+def program_choices(
+    listed: Node | None, find: Find, problems: list[Problem], *, within: str
+) -> tuple[ProgramChoice, ...]:
+    """Return the programs of a list.
+
+    Parameters
+    ----------
+    listed
+        The list; anything else has been refused before, and gives none.
+    find
+        Finds the installed writers of their kind.
+    problems
+        Where mistakes are added: two that would write the same file among them.
+    within
+        The dotted path of the list, for messages.
+    """
+    items = listed.items if isinstance(listed, Items) else ()
+    choices = tuple(_programs(items, find, problems, within))
+    problems.extend(_clashes(choices, find))
+    return choices
+
+
+def _programs(
+    items: Sequence[Node], find: Find, problems: list[Problem], within: str
+) -> Iterator[ProgramChoice]:
+    for item in items:
+        keys = item if isinstance(item, Keys) else keys_of(item.place, (Entry("program", item.place, item),))
+        named = keys.entries.get("program")
+        if named is None or not isinstance(named.value, Scalar) or named.value.is_nothing:
+            continue
+        place = named.value.place
+        try:
+            program = find(named.value.text, place)
+        except InputError as error:
+            problems.extend(error.problems)
+            continue
+        own = replace(keys.without("program"), place=place)
+        options = validate(program.options, own, problems, within=within, also_known=["program"])
+        if options:
+            yield ProgramChoice(program.identifier, options, place)
+
+
+def _clashes(choices: Sequence[ProgramChoice], find: Find) -> Iterator[Problem]:
+    """Yield programs whose file would be that of one before them."""
+    by_suffix: dict[str, str] = {}
+    for choice in choices:
+        suffix = find(choice.identifier, None).suffix
+        other = by_suffix.get(suffix)
+        if other is not None:
+            clash = (
+                f"{other} is listed twice"
+                if other == choice.identifier
+                else f"{other} and {choice.identifier} both write {suffix} files"
+            )
+            yield Problem(choice.place, f"{clash}; remove one of them")
+        by_suffix[suffix] = choice.identifier
+
+
+def programs_by_name(
+    names: Sequence[str], named_at: Place, stated: Sequence[ProgramChoice], find: Find
+) -> tuple[ProgramChoice, ...]:
+    """Return programs that somebody names instead of those of a job, with the keys that it states.
+
+    Parameters
+    ----------
+    names
+        Identifiers of installed writers.
+    named_at
+        Where they are named.
+    stated
+        Those of the job.
+    find
+        Finds the installed writers of their kind.
+
+    Raises
+    ------
+    InputError
+        For each that no plugin provides, and each that would write the same file as one before it.
+    """
+    problems: list[Problem] = []
+    of_job = {choice.identifier: choice for choice in stated}
+    items = [Scalar(named_at, name) for name in names]
+    choices = [
+        of_job[item.text] if item.text in of_job else next(_programs([item], find, problems, ""), None)
+        for item in items
+    ]
+    found = tuple(choice for choice in choices if choice)
+    problems.extend(_clashes([replace(choice, place=named_at) for choice in found], find))
+    if problems:
+        raise InputError(problems)
+    return found

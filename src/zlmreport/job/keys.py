@@ -1,0 +1,142 @@
+"""The keys of a job file, with what they mean; `zlmreport schema` publishes this page.
+
+Units are those of the contract with users (mm, °, µm, ″, °C, hPa); `zlmreport.job.loading` turns them
+into the SI values of the core.
+"""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from pydantic import Field
+
+from zlmreport.job.document_keys import (
+    Agreement,
+    CertificateKeys,
+    Customer,
+    Dates,
+    External,
+    Laboratory,
+    Location,
+    NextDue,
+    OpinionKeys,
+    Output,
+)
+from zlmreport.job.evaluation_keys import DecisionRuleKeys, Model, StandardKeys, UncertaintyKeys
+from zlmreport.job.measurement_keys import (
+    AsFound,
+    AxisKeys,
+    CorrectionKeys,
+    Environment,
+    Instrument,
+    Machine,
+    Measurement,
+)
+from zlmreport.job.plan_keys import PlanKeys
+from zlmreport.job.step_gauge_keys import StepGaugeKeys
+from zlmreport.job.types import JobPart, Lines, Text
+
+
+class JobKeys(JobPart):
+    """A job file: from the measurements of one axis to a certificate."""
+
+    schema_: Literal["zlmreport/job/1"] = Field(
+        alias="schema", description="Version of this format.", examples=["zlmreport/job/1"]
+    )
+    extends: list[Text] | Text | None = Field(
+        None,
+        description="Files whose keys this one builds on; paths are relative to this file.",
+        examples=["../laboratory.yaml"],
+    )
+    certificate: CertificateKeys = Field(
+        description="The document.", examples=[{"number": "CAL-2026-0117", "issued": "2026-11-20"}]
+    )
+    laboratory: Laboratory | None = Field(None, description="Who issues the document.")
+    customer: Customer | None = Field(None, description="For whom the work was done.")
+    machine: Machine = Field(default_factory=Machine, description="The machine under test.")
+    axis: AxisKeys = Field(description="The axis under test.", examples=[{"name": "X", "kind": "linear"}])
+    location: Location | Lines | None = Field(
+        None,
+        description="Where the work was done, in words or as a kind of place. Without it machine.location, "
+        "or else the customer's address.",
+        examples=["Hall 3, Millway 2, 12345 Sampletown"],
+    )
+    dates: Dates = Field(
+        default_factory=Dates,
+        description="Dates beside those of the measurement and the document.",
+        examples=[{"received": "2026-11-16"}],
+    )
+    procedure: Lines | None = Field(
+        None, description="The laboratory's own procedure, its issue included.", examples=["QP 17, issue 4"]
+    )
+    sampling: Lines | None = Field(
+        None,
+        description="Sampling plan and method, if what was measured is a sample.",
+        examples=["One axis of three, drawn by lot; QP 18, issue 2"],
+    )
+    measurement: Measurement = Field(
+        description="How the readings were taken.",
+        examples=[{"source": {"plugin": "laser-csv", "file": "x-axis.csv"}}],
+    )
+    as_found: AsFound | None = Field(
+        None, description="The axis before it was adjusted or repaired, compared with measurement."
+    )
+    instrument: Instrument | None = Field(None, description="The measuring instrument.")
+    environment: Environment | None = Field(None, description="Conditions during the measurement.")
+    step_gauge: StepGaugeKeys | None = Field(
+        None,
+        description="A calibrated step gauge instead of a laser: the gauge, where it lies, how it is probed.",
+        examples=[{"calibration": "gauge.yaml", "initial_points": "initial-points.csv", "tip_radius": 2}],
+    )
+    corrections: CorrectionKeys | None = Field(
+        None,
+        description="What the readings are corrected for; without it they are taken as they are.",
+        examples=[{"air": {"assumed": "standard air"}, "material": {"expansion_coefficient": 11.5}}],
+    )
+    evaluate: list[StandardKeys] = Field(
+        min_length=1,
+        description="Standards to evaluate by; a bare identifier stands for {standard: …}.",
+        examples=[["iso230-2:2014"]],
+    )
+    decision_rule: DecisionRuleKeys = Field(
+        default_factory=DecisionRuleKeys,
+        description="How a value is held against its limit; a bare name stands for {rule: …}.",
+        examples=["guard-band"],
+    )
+    provided_by_customer: list[Text] = Field(
+        default_factory=list,
+        description="Keys of this job whose values the customer supplied: marked wherever they are printed.",
+        examples=[["environment.expansion_coefficient"]],
+    )
+    external: list[External] = Field(
+        default_factory=list,
+        description="Results that external providers supplied.",
+        examples=[[{"results": "Temperatures of the machine's scale", "provider": "Thermometry Ltd"}]],
+    )
+    opinions: list[OpinionKeys] = Field(
+        default_factory=list,
+        description="Opinions and interpretations, in a section of their own.",
+        examples=[[{"statement": "Play in the nut.", "basis": "The reversal value is alike everywhere."}]],
+    )
+    next_due: NextDue | None = Field(
+        None,
+        description="When the next calibration is due; only if agreed with the customer.",
+        examples=[{"date": "2027-11-18", "agreed": True}],
+    )
+    agreement: Agreement = Field(
+        default_factory=Agreement,
+        description="What was agreed with the customer about the document.",
+        examples=[{"simplified": True, "reference": "Order 4711"}],
+    )
+    uncertainty: UncertaintyKeys = Field(
+        default_factory=UncertaintyKeys,
+        description="The uncertainty of the measuring set-up, beside that of the instrument.",
+        examples=[{"misalignment": 0.5, "environmental_variation": 0.6}],
+    )
+    model: Model | None = Field(None, description="The error model of the axis.")
+    plan: PlanKeys = Field(
+        default_factory=PlanKeys,
+        description="The test before it is done, for `zlmreport plan`.",
+        examples=[{"targets": {"count": 21}, "repeatability": 0.5}],
+    )
+    output: Output = Field(default_factory=Output, description="What is written, and where.")

@@ -1,0 +1,244 @@
+"""The keys of a job file on the machine, its axis, and how the readings were taken and are corrected."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
+
+from zlmreport.job.types import Date, Finite, InWords, JobPart, JobPath, Lines, Positive, Text
+from zlmreport.measurement.axis import AxisKind
+
+
+class AirKeys(JobPart):
+    """The refractive index of the air, which the instrument did not know."""
+
+    assumed: Literal["vacuum", "standard air"] | Positive = Field(
+        description="What the instrument took the index to be: that of vacuum, of air at 20 °C, 1013.25 hPa "
+        "and 50 %, or the number that it was set to.",
+        examples=["standard air", 1.00027],
+    )
+    wavelength: Positive = Field(
+        632.991, description="Of the laser in vacuum, nm; that of a helium-neon laser.", examples=[632.991]
+    )
+
+
+class DeadPathKeys(JobPart):
+    """The path in air that the instrument does not count: before the datum."""
+
+    length: Positive = Field(
+        description="From the interferometer to the reflector at the datum, mm.", examples=[150]
+    )
+    measured_path: Literal["grows", "shrinks"] = Field(
+        "grows", description="What the path between them does while the position rises."
+    )
+
+
+class MaterialKeys(JobPart):
+    """The expansion of the material, back to 20 °C."""
+
+    expansion_coefficient: Positive | None = Field(
+        None,
+        description="Micrometres/(m K); without it environment.expansion_coefficient.",
+        examples=[11.5],
+    )
+    temperature: Literal["material_temperature", "axis_temperature"] = Field(
+        "material_temperature", description="The logged or stated temperature that the material has."
+    )
+
+
+class CorrectionKeys(JobPart):
+    """What the readings are corrected for; without these keys they are taken as they are."""
+
+    air: AirKeys | None = Field(
+        None, description="The refractive index of the air along the measured length."
+    )
+    dead_path: DeadPathKeys | None = Field(
+        None, description="Changes of the air along the dead path; only beside air."
+    )
+    material: MaterialKeys | None = Field(None, description="Thermal expansion of the material.")
+    datum: Finite | None = Field(
+        None,
+        description="Position at which the instrument was set to zero, mm. Without it as the readings tell, "
+        "or else the first target position.",
+        examples=[0],
+    )
+
+
+_SPELLINGS = {"up": "+", "↑": "+", "1": "+", "down": "-", "↓": "-", "-1": "-", "−": "-"}
+
+
+def _sign(value: Any) -> Any:
+    return _SPELLINGS.get(str(value).strip().lower(), value)
+
+
+class ExclusionKeys(JobPart):
+    """A reading that is set aside, as if it had not been taken; the document names it with the reason."""
+
+    target: Finite = Field(description="Its target position, mm or degrees.", examples=[213.4])
+    direction: Annotated[Literal["+", "-"], BeforeValidator(_sign)] = Field(
+        description="Direction of approach: + or -, in quotes.", examples=["+"]
+    )
+    run: int = Field(ge=1, description="Number of its run, from 1.", examples=[3])
+    reason: Text = Field(
+        description="Why, as the document states it.", examples=["Air hose touched the reflector."]
+    )
+
+
+class Machine(JobPart):
+    """The machine under test."""
+
+    manufacturer: Text | None = Field(None, description="Who built it.")
+    model: Text | None = Field(None, description="Type designation.")
+    serial: Text | None = Field(None, description="Serial number or other identification.")
+    kind: Literal["machine tool", "coordinate measuring machine"] = Field(
+        "machine tool", description="What the results mean is said for a part made, or measured, on it."
+    )
+    location: Text | None = Field(None, description="Where it stands.")
+    condition: Text | None = Field(None, description="Condition in which it was found.")
+
+
+class AxisKeys(JobPart):
+    """The axis under test."""
+
+    name: Text = Field(description="As on the machine.", examples=["X"])
+    kind: AxisKind = Field(AxisKind.LINEAR, description="linear (mm) or rotary (degrees).")
+    travel: tuple[Finite, Finite] | None = Field(
+        None, description="First and last position of the travel, mm or degrees.", examples=[[0, 1000]]
+    )
+    screw_pitch: Positive | None = Field(
+        None, description="Pitch of the screw or gear, mm or degrees.", examples=[10]
+    )
+    signal_period: Positive | None = Field(
+        None, description="Period of the scale's signal, mm or degrees.", examples=[0.02]
+    )
+    scale_element: Positive | None = Field(
+        None, description="Length of one element of a scale made of several, mm or degrees."
+    )
+    compensation_table: JobPath | None = Field(
+        None,
+        description="CSV file of the control's compensation table: columns position and deviation "
+        "(actual - target), mm and micrometres (degrees and arc seconds).",
+        examples=["x-compensation.csv"],
+    )
+    angular_errors: JobPath | None = Field(
+        None,
+        description="CSV file of the axis's pitch or yaw: columns position and angle, mm and microradians.",
+        examples=["x-pitch.csv"],
+    )
+    abbe_offset: Finite | None = Field(
+        None, description="Distance of the measuring line from the scale, mm.", examples=[200]
+    )
+
+
+class SourceKeys(BaseModel):
+    """Where the readings come from; the plugin's own keys follow `plugin`."""
+
+    model_config = ConfigDict(extra="allow", frozen=True)
+
+    plugin: Text = Field(description="Identifier of an installed data source.", examples=["laser-csv"])
+
+
+class LineOfPlane(JobPart):
+    """Where the measuring line lies in a plane of two axes."""
+
+    axis: Text = Field(description="Name of the second axis.", examples=["Y"])
+    at: Finite = Field(description="Its position while the line was measured, mm.", examples=[200])
+
+
+class Measurement(JobPart):
+    """How the readings were taken."""
+
+    source: SourceKeys = Field(
+        description="Where the readings come from.", examples=[{"plugin": "laser-csv", "file": "x-axis.csv"}]
+    )
+    date: Date | None = Field(
+        None, description="Date of the measurement, or of its first day.", examples=["2026-11-18"]
+    )
+    end: Date | None = Field(
+        None, description="Its last day, if it took more than one.", examples=["2026-11-19"]
+    )
+    method: Literal["linear", "unidirectional", "pendulum", "quasi-pilgrim"] | None = Field(
+        None, description="Positioning method."
+    )
+    feed: Positive | None = Field(None, description="Feed, mm/min or degrees/min.", examples=[2000])
+    dwell: Positive | None = Field(None, description="Time at rest at each target, s.", examples=[5])
+    warm_up: Lines | None = Field(None, description="Warm-up before the test, in words.")
+    compensation: Lines | None = Field(None, description="State of the machine's compensation, in words.")
+    line: Lines | None = Field(None, description="Place of the measuring line, positions of other axes.")
+    plane: LineOfPlane | None = Field(
+        None, description="The measuring line as one of several over a plane, for `zlmreport surface`."
+    )
+    deviations_from_method: Lines | None = Field(
+        None,
+        description="Additions to, deviations and exclusions from the method.",
+        examples=["Three runs instead of five, for want of time."],
+    )
+    excluded: list[ExclusionKeys] = Field(
+        default_factory=list,
+        description="Readings that are set aside, each with its reason.",
+        examples=[
+            [{"target": 213.4, "direction": "+", "run": 3, "reason": "Air hose touched the reflector."}]
+        ],
+    )
+    operator: Text | None = Field(None, description="Who measured.")
+    remarks: Lines | None = Field(None, description="Anything else that a reader should know.")
+
+
+class Instrument(JobPart):
+    """The measuring instrument: the link to the national standard."""
+
+    name: Text = Field(description="Type designation.", examples=["Laser interferometer LM 10"])
+    manufacturer: Text | None = Field(None, description="Who built it.")
+    serial: Text | None = Field(None, description="Serial number.")
+    certificate: Text | None = Field(None, description="Its calibration certificate.")
+    calibrated: Date | None = Field(None, description="Date of that calibration.", examples=["2026-03-01"])
+    expanded_uncertainty: Positive | InWords | None = Field(
+        None,
+        description="Its expanded uncertainty (k = 2), micrometres (arc seconds), or in words.",
+        examples=[0.3],
+    )
+    expanded_uncertainty_per_metre: Positive | None = Field(
+        None,
+        description="What the expanded uncertainty gains with each metre of measured length, micrometres/m.",
+        examples=[0.5],
+    )
+    expansion_coefficient: Finite | None = Field(
+        None, description="Of a device whose own expansion counts, micrometres/(m K).", examples=[8.0]
+    )
+
+
+class Environment(JobPart):
+    """Conditions during the measurement that the readings do not carry themselves."""
+
+    air_temperature: Finite | InWords | None = Field(None, description="°C", examples=[20.1])
+    material_temperature: Finite | InWords | None = Field(None, description="°C", examples=[20.3])
+    axis_temperature: Finite | InWords | None = Field(
+        None, description="Of the machine's scale, °C", examples=[20.4]
+    )
+    air_pressure: Positive | InWords | None = Field(None, description="hPa", examples=[1013])
+    relative_humidity: Finite | InWords | None = Field(None, description="%", examples=[45])
+    expansion_coefficient: Finite | InWords | None = Field(
+        None, description="Used for correction, µm/(m·K)", examples=[11.5]
+    )
+    remarks: Lines | None = Field(None, description="Anything else: oil shower, sunlight, vibration.")
+
+
+class AsFound(JobPart):
+    """The axis before it was adjusted or repaired; `measurement` is then the axis as left."""
+
+    measurement: Measurement = Field(
+        description="How the readings before were taken; what is not said here was as in measurement.",
+        examples=[{"date": "2026-11-17", "source": {"plugin": "laser-csv", "file": "x-as-found.csv"}}],
+    )
+    work: Literal["adjustment", "repair"] = Field(
+        "adjustment", description="What was done between the two measurements."
+    )
+    adjustment: Lines | None = Field(
+        None,
+        description="What was adjusted or repaired, in words.",
+        examples=["Backlash compensation of the control set from 0 to 4 µm."],
+    )
+    environment: Environment | None = Field(
+        None, description="Conditions during the measurement before; without it those of environment."
+    )
