@@ -20,8 +20,7 @@ from zlmreport.certificate.forecast import forecasts
 from zlmreport.certificate.model_annex import Modelled
 from zlmreport.certificate.results import Evaluated
 from zlmreport.correction.corrections import corrected
-from zlmreport.correction.exclusions import without_excluded
-from zlmreport.correction.of_job import corrections_of
+from zlmreport.correction.of_job import corrections_of, without_excluded
 from zlmreport.evaluation.decision import decided, decision_rule
 from zlmreport.evaluation.evaluate import evaluate
 from zlmreport.files import Document

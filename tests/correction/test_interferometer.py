@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from zlmreport.correction.interferometer import dead_path_error, displacement_in_air
+from zlmreport.correction.corrections import dead_path_error, displacement_in_air
 
 WAVELENGTH = 632.991e-9
 #: Displacements, m, and the index of the air at each.

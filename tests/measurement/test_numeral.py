@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from zlmreport.measurement.numeral import parse_number
+from zlmreport.measurement.text_file import parse_number
 from zlmreport.quantities.formatting import DecimalSign
 
 COMMA = DecimalSign.COMMA

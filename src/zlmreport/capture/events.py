@@ -29,7 +29,7 @@ class Mean:
     duration
         From the first to the last, s.
     conditions
-        Beside the last, SI, under the names of `zlmreport.measurement.conditions`.
+        Beside the last, SI, under the names of `zlmreport.measurement.measurement_set`.
     """
 
     value: float

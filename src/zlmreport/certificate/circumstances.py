@@ -11,8 +11,7 @@ from zlmreport.certificate.facts import Fact
 from zlmreport.certificate.scribe import Scribe
 from zlmreport.job.measurement_keys import Environment, Measurement
 from zlmreport.language import Words
-from zlmreport.measurement.conditions import CONDITION_NAMES, CONDITIONS
-from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.measurement.measurement_set import CONDITION_NAMES, CONDITIONS, MeasurementSet
 from zlmreport.quantities.arrays import FloatArray
 
 _METHODS = {

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from zlmreport.language import Language
-from zlmreport.measurement.conditions import CONDITION_NAMES
+from zlmreport.measurement.measurement_set import CONDITION_NAMES
 from zlmreport.model import wording
 from zlmreport.model.diagnosis import Diagnosis
 from zlmreport.model.residuals import Failure, ResidualTest

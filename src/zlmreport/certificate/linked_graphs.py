@@ -11,7 +11,7 @@ from zlmreport.figures.model_diagram import SPREAD, ModelDiagram
 from zlmreport.figures.model_estimate import estimate
 from zlmreport.figures.model_residuals import over_position
 from zlmreport.language import Language, Words, same
-from zlmreport.measurement.conditions import CONDITION_NAMES, CONDITIONS
+from zlmreport.measurement.measurement_set import CONDITION_NAMES, CONDITIONS
 from zlmreport.model.outliers import outliers
 from zlmreport.model.study import Fitted, Study, corrected
 from zlmreport.quantities.arrays import FloatArray

@@ -39,9 +39,9 @@ class Scene:
     troubles
         What goes wrong, and when. Whether the line is unplugged or garbled is no matter of the instrument.
     conditions
-        Returns the conditions at a time in s from the start, SI, by the names of
-        `zlmreport.measurement.conditions`: what the instrument's own sensors measure, and the air that its
-        beam passes. What is not among them is as in `STANDARD_CONDITIONS`.
+        Returns the conditions at a time in s from the start, SI, by the names in `CONDITION_NAMES`: what the
+        instrument's own sensors measure, and the air that its beam passes. What is not among them is as in
+        `STANDARD_CONDITIONS`.
     """
 
     axis: EmulatedAxis = field(default_factory=MovingAxis)

@@ -9,7 +9,7 @@ from zlmreport.figures.figure import Figure, Panel, Role
 from zlmreport.figures.model_diagram import MODEL, RESIDUAL_TITLE, ModelDiagram
 from zlmreport.figures.prescribed import MEANS, POSITION_TITLE
 from zlmreport.language import Words, same
-from zlmreport.measurement.conditions import CONDITION_NAMES, CONDITIONS
+from zlmreport.measurement.measurement_set import CONDITION_NAMES, CONDITIONS
 from zlmreport.quantities.arrays import FloatArray, IntArray
 
 #: Groups of readings that follow one another, through whose means a curve leads.

@@ -53,7 +53,7 @@ class LiveReading:
         What is wrong, in a sentence for the operator; empty if nothing is.
     conditions
         The latest values of the instrument's own sensors, SI (K, Pa, 1), under the names of
-        `zlmreport.measurement.conditions`. It is the same object until one changes.
+        `zlmreport.measurement.measurement_set`. It is the same object until one changes.
     """
 
     value: float

@@ -9,8 +9,7 @@ import numpy as np
 
 from zlmreport.errors import Place, Problem
 from zlmreport.measurement.approach import Approach
-from zlmreport.measurement.conditions import CONDITIONS
-from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.measurement.measurement_set import CONDITIONS, MeasurementSet
 from zlmreport.quantities.arrays import BoolArray, IntArray
 
 Check: TypeAlias = Callable[[MeasurementSet, Sequence[Place]], Iterator[Problem]]

@@ -11,8 +11,7 @@ import numpy as np
 
 from zlmreport.errors import InputError, Place, Problem
 from zlmreport.measurement.axis import PositionTable
-from zlmreport.measurement.numeral import parse_number
-from zlmreport.measurement.text_file import TextFile, quoted, read_text
+from zlmreport.measurement.text_file import TextFile, parse_number, quoted, read_text
 from zlmreport.quantities.formatting import DecimalSign
 from zlmreport.quantities.units import Unit, unit_named
 

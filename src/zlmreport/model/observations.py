@@ -10,8 +10,7 @@ import numpy as np
 
 from zlmreport.language import Words, same
 from zlmreport.measurement.axis import AxisKind
-from zlmreport.measurement.conditions import CONDITIONS
-from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.measurement.measurement_set import CONDITIONS, MeasurementSet
 from zlmreport.model.axis_model import ModelError
 from zlmreport.model.design import Design
 from zlmreport.quantities.arrays import FloatArray, IntArray, read_only_floats, read_only_integers

@@ -136,11 +136,14 @@ if TYPE_CHECKING:
     from zlmreport.measurement.collect import collect as collect_readings
     from zlmreport.measurement.collect import is_run as is_run_number
     from zlmreport.measurement.collect import no_run as no_run_number
-    from zlmreport.measurement.conditions import CONDITION_NAMES, CONDITIONS, STATE_OF_AIR
-    from zlmreport.measurement.measurement_set import MeasurementSet
-    from zlmreport.measurement.numeral import parse_number
+    from zlmreport.measurement.measurement_set import (
+        CONDITION_NAMES,
+        CONDITIONS,
+        STATE_OF_AIR,
+        MeasurementSet,
+    )
     from zlmreport.measurement.provenance import Provenance, SourceFile
-    from zlmreport.measurement.text_file import TextFile, known_encoding, quoted, read_text
+    from zlmreport.measurement.text_file import TextFile, known_encoding, parse_number, quoted, read_text
     from zlmreport.model.design import Design
     from zlmreport.model.effect import Confusion, Effect, Shape
     from zlmreport.model.harmonic import harmonic_columns, harmonic_parameters
@@ -474,6 +477,9 @@ _ROOMS = {
     "zlmreport.certificate.identity": "address_lines=lines",
     "zlmreport.certificate.place": "place_of_work",
     "zlmreport.certificate.statements": "ONLY_THIS_ITEM",
+    "zlmreport.correction.refractive_index": (
+        "STANDARD_HUMIDITY STANDARD_PRESSURE index_change refractive_index"
+    ),
     "zlmreport.emulation.emulator": "Emulator Scene",
     "zlmreport.emulation.faults": "Trouble",
     "zlmreport.errors": "AccessError InputError Place Problem did_you_mean",
@@ -516,8 +522,8 @@ _ROOMS = {
     "zlmreport.foresight.program_text": (
         "ProgramOptions axis_address program_heading=heading program_number reading_remark=remark"
     ),
-    "zlmreport.job.job": "Job",
     "zlmreport.job.document_keys": "Customer Laboratory",
+    "zlmreport.job.job": "Job",
     "zlmreport.job.types": "Finite JobPath Options",
     "zlmreport.language": "Language Words same_in_all_languages=same",
     "zlmreport.live.connection": "LiveConnection",
@@ -533,25 +539,19 @@ _ROOMS = {
     "zlmreport.measurement.collect": (
         "Reading collect_readings=collect is_run_number=is_run no_run_number=no_run"
     ),
-    "zlmreport.measurement.conditions": "CONDITIONS CONDITION_NAMES STATE_OF_AIR",
-    "zlmreport.measurement.measurement_set": "MeasurementSet",
-    "zlmreport.measurement.numeral": "parse_number",
+    "zlmreport.measurement.measurement_set": "CONDITIONS CONDITION_NAMES MeasurementSet STATE_OF_AIR",
     "zlmreport.measurement.provenance": "Provenance SourceFile",
-    "zlmreport.measurement.text_file": "TextFile known_encoding quoted read_text",
+    "zlmreport.measurement.text_file": "TextFile known_encoding parse_number quoted read_text",
     "zlmreport.model.design": "Design",
     "zlmreport.model.effect": "Confusion Effect Shape",
     "zlmreport.model.harmonic": "harmonic_columns harmonic_parameters",
     "zlmreport.model.needs": (
         "needs_both_directions=both_directions needs_linear_axis=linear_axis needs_logged=logged "
-        "needs_passing_time=passing_time needs_rotary_axis=rotary_axis needs_runs=runs "
-        "needs_stated=stated needs_targets=targets needs_whole_period=whole_period"
+        "needs_passing_time=passing_time needs_rotary_axis=rotary_axis needs_runs=runs needs_stated=stated "
+        "needs_targets=targets needs_whole_period=whole_period"
     ),
     "zlmreport.model.parameter": "Dimension Parameter",
     "zlmreport.model.report": "report_error report_model",
-    "zlmreport.correction.refractive_index": (
-        "STANDARD_HUMIDITY STANDARD_PRESSURE index_change refractive_index"
-    ),
-    "zlmreport.quantities.temperature": "REFERENCE_TEMPERATURE above_reference_temperature=above_reference",
     "zlmreport.plugin.hookspecs": "hookimpl",
     "zlmreport.plugin.protocols": (
         "Connection DataSource Instrument PartProgram ProbingProgram Renderer SourceContext Standard"
@@ -559,6 +559,7 @@ _ROOMS = {
     "zlmreport.quantities.arrays": "BoolArray FloatArray",
     "zlmreport.quantities.formatting": "DecimalSign MINUS_SIGN=MINUS",
     "zlmreport.quantities.notation": "notation_spans=spans",
+    "zlmreport.quantities.temperature": "REFERENCE_TEMPERATURE above_reference_temperature=above_reference",
     "zlmreport.quantities.units": (
         "CELSIUS HECTOPASCAL INCH LENGTH_UNITS MICROMETRE MILLIMETRE MILLIRADIAN PERCENT POSITION_UNITS "
         "ReadingScale=Scale SECOND TIME_UNITS Unit unit_named"

@@ -9,7 +9,7 @@ import numpy as np
 from zlmreport.errors import InputError, Problem
 from zlmreport.job.simulation import CourseKeys, NoiseKeys, SimulationFile
 from zlmreport.language import Language
-from zlmreport.measurement.conditions import CONDITIONS
+from zlmreport.measurement.measurement_set import CONDITIONS
 from zlmreport.model.axis_model import Term, chosen_terms
 from zlmreport.model.effect import Effect
 from zlmreport.model.parameter import unit_of

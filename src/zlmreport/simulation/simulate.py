@@ -8,8 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from zlmreport.language import Words
-from zlmreport.measurement.conditions import CONDITIONS
-from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.measurement.measurement_set import CONDITIONS, MeasurementSet
 from zlmreport.measurement.provenance import Provenance
 from zlmreport.model.design import Design
 from zlmreport.model.effect import Effect

@@ -13,8 +13,7 @@ import numpy as np
 
 from zlmreport.job.simulation import SimulationFile
 from zlmreport.measurement.approach import Approach
-from zlmreport.measurement.conditions import CONDITIONS
-from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.measurement.measurement_set import CONDITIONS, MeasurementSet
 from zlmreport.quantities.arrays import FloatArray
 from zlmreport.simulation.description import Plan
 

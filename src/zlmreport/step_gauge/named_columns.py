@@ -7,9 +7,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from zlmreport.errors import InputError, Place, Problem, did_you_mean
-from zlmreport.measurement.numeral import parse_number
 from zlmreport.measurement.provenance import SourceFile
-from zlmreport.measurement.text_file import TextFile, quoted, read_text
+from zlmreport.measurement.text_file import TextFile, parse_number, quoted, read_text
 
 _DELIMITERS = ("\t", ";", ",")
 

@@ -10,8 +10,7 @@ from zlmreport.correction.of_job import air_conditions
 from zlmreport.correction.refractive_index import refractive_index
 from zlmreport.job.job import Job
 from zlmreport.language import Words
-from zlmreport.measurement.conditions import CONDITION_NAMES, CONDITIONS, STATE_OF_AIR
-from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.measurement.measurement_set import CONDITION_NAMES, CONDITIONS, STATE_OF_AIR, MeasurementSet
 from zlmreport.uncertainty import wording
 from zlmreport.uncertainty.contribution import Acts, Contribution, Distribution
 from zlmreport.uncertainty.terms import from_range

@@ -24,8 +24,7 @@ from zlmreport.plugin import (
     read_text,
     unit_named,
 )
-from zlmreport_plugins.sources.ecmc.entries import UNIT, Entry, Key, entries
-from zlmreport_plugins.sources.ecmc.log import Log
+from zlmreport_plugins.sources.ecmc.log import UNIT, Entry, Key, Log, entries
 
 _USUAL_UNIT = "mm"
 

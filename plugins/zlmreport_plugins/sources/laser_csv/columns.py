@@ -22,8 +22,7 @@ from zlmreport.plugin import (
     quoted,
     unit_named,
 )
-from zlmreport_plugins.sources.laser_csv.names import COLUMN_NAMES, folded, names_direction
-from zlmreport_plugins.sources.laser_csv.options import LaserCsvOptions
+from zlmreport_plugins.sources.laser_csv.options import COLUMN_NAMES, LaserCsvOptions, folded, names_direction
 from zlmreport_plugins.sources.laser_csv.table import Row, Table
 
 _BRACKETED = re.compile(r"(.*?)\s*[(\[]\s*([^()\[\]]+?)\s*[)\]]")

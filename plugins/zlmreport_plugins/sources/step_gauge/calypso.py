@@ -9,8 +9,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from zlmreport.errors import InputError, Problem
-from zlmreport.measurement.numeral import parse_number
-from zlmreport.measurement.text_file import TextFile, read_text
+from zlmreport.measurement.text_file import TextFile, parse_number, read_text
 from zlmreport.quantities.units import LENGTH_UNITS, unit_named
 from zlmreport.step_gauge.probed import ProbedPoint, face_of
 from zlmreport_plugins.sources.step_gauge.points import Points

@@ -6,8 +6,7 @@ import re
 from pathlib import Path
 
 from zlmreport.errors import InputError, Problem
-from zlmreport.measurement.numeral import parse_number
-from zlmreport.measurement.text_file import TextFile, quoted, read_text
+from zlmreport.measurement.text_file import TextFile, parse_number, quoted, read_text
 from zlmreport.quantities.units import MILLIMETRE
 from zlmreport_plugins.sources.step_gauge.points import Unnumbered
 
