@@ -30,8 +30,9 @@ from zlmreport.emulation.faults import Troubles
 from zlmreport.emulation.serve import serve
 from zlmreport.live.streaming import Decoder
 from zlmreport.measurement.axis import Axis, AxisKind
+from zlmreport.planning.plan import Plan
 from zlmreport.plugins import find_plugins
-from zlmreport.simulation.description import Description, Plan
+from zlmreport.simulation.description import Description
 from zlmreport.simulation.machine import emulated_machine
 from zlmreport_plugins.instruments.text_readout.decoder import TextDecoder
 from zlmreport_plugins.instruments.text_readout.options import TextReadoutOptions

@@ -19,6 +19,7 @@ from hidden_effects import kernel_search
 from hidden_effects.cases import Case
 from hidden_effects.library import Term, library
 from hidden_effects.prediction import seen_again
+from hidden_effects.sizes import base_columns, beyond
 from hidden_effects.sparse import sparse
 from hidden_effects.stepwise import stepwise
 from hidden_effects.trial import Trial
@@ -26,7 +27,6 @@ from zlmreport.model.design import Design
 from zlmreport.model.observations import Observations
 from zlmreport.planning.methods import Method
 from zlmreport.quantities.arrays import FloatArray
-from zlmreport.simulation.visibility import base_columns, beyond
 
 #: Share of the visible hidden deviation that the leading term, sine and cosine together, must describe.
 _ROUGHLY = 0.6

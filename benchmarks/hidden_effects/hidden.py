@@ -7,12 +7,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from hidden_effects.sizes import beyond
 from zlmreport.model.axis_model import Term
 from zlmreport.model.design import Design
 from zlmreport.model.effect import Effect
 from zlmreport.model.parameter import Dimension
 from zlmreport.quantities.arrays import FloatArray
-from zlmreport.simulation.visibility import beyond
 
 #: A deviation of which a smaller share is left is imitated entirely.
 _INVISIBLE = 1e-6

@@ -10,7 +10,9 @@ from typing import TypeAlias
 import numpy as np
 
 from hidden_effects.cases import Case, Kind, Scatter
+from hidden_effects.drawn_axes import drawn_linear_test, drawn_rotary_test
 from hidden_effects.hidden import Imitation, drawn_effect, imitations, scale_to
+from hidden_effects.sizes import base_columns
 from hidden_effects.strangers import STRANGERS, Stranger
 from hidden_effects.weather import wandering
 from zlmreport.measurement.axis import AxisKind
@@ -22,9 +24,7 @@ from zlmreport.planning.methods import Method
 from zlmreport.planning.targets import target_positions
 from zlmreport.quantities.arrays import FloatArray, read_only_floats
 from zlmreport.simulation.description import Description, Noise
-from zlmreport.simulation.drawing import drawn_linear_test, drawn_rotary_test
 from zlmreport.simulation.simulate import design_of, deviation_by, observed
-from zlmreport.simulation.visibility import base_columns
 from zlmreport_plugins.effects import zlmreport_effects
 
 #: σ, the repeatability of a single reading, µm or ″.

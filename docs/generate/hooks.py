@@ -9,8 +9,8 @@ from collections.abc import Callable, Iterator
 from markdown import code, table
 
 from zlmreport.emulation.emulator import Emulator
-from zlmreport.foresight.motion import Motion, ProgramStop, Reading
 from zlmreport.live.reading import LiveReading
+from zlmreport.planning.programs import Motion, ProgramStop, Reading
 from zlmreport.plugin import hookspecs
 from zlmreport.plugin.protocols import Connection, SourceContext
 from zlmreport.plugins import Kind

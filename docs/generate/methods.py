@@ -10,11 +10,11 @@ from markdown import code, table
 
 from zlmreport import pipeline
 from zlmreport.evaluation.evaluate import evaluate
-from zlmreport.foresight.foresee import Foresight, foresee
 from zlmreport.job.loading import load
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.planning.methods import Method
+from zlmreport.planning.planned_test import PlannedTest, planned_test
 from zlmreport.plugins import find_plugins
 from zlmreport.quantities.arrays import read_only_floats
 from zlmreport.quantities.formatting import fixed_number
@@ -55,12 +55,12 @@ def sight_text() -> str:
 
 
 def _drift_row(method: Method) -> list[str]:
-    foresight = _foreseen(method)
-    values = _parameters_of_drift(foresight)
+    planned = _foreseen(method)
+    values = _parameters_of_drift(planned)
     return [
         method.value,
-        fixed_number(foresight.travelled, 1),
-        fixed_number(foresight.duration / 60, 0),
+        fixed_number(planned.travelled, 1),
+        fixed_number(planned.duration / 60, 0),
         *(_micrometres(values.get(symbol, values.get(f"{symbol}_fwd"))) for symbol in _PARAMETERS),
     ]
 
@@ -69,11 +69,11 @@ def _micrometres(value: float | None) -> str:
     return _NOT_DEFINED if value is None else fixed_number(value * 1e6, 1)
 
 
-def _parameters_of_drift(foresight: Foresight) -> dict[str, float]:
-    design = foresight.design
+def _parameters_of_drift(planned: PlannedTest) -> dict[str, float]:
+    design = planned.design
     drifting = MeasurementSet(
         axis=design.axis,
-        target_positions=foresight.proposal.plan.targets,
+        target_positions=planned.proposal.plan.targets,
         target=design.target,
         approach=np.array([int(Approach(round(sign))) for sign in design.direction]),
         run=design.run,
@@ -85,14 +85,14 @@ def _parameters_of_drift(foresight: Foresight) -> dict[str, float]:
 
 
 def _share(method: Method, effect: str) -> str:
-    for prospect in _foreseen(method).prospects:
-        if prospect.effect.identifier == effect and prospect.visibility.reason is None:
-            return f"{fixed_number(100 * prospect.visibility.share, 0)} %"
+    for seen in _foreseen(method).seen_effects:
+        if seen.effect.identifier == effect and seen.visibility.reason is None:
+            return f"{fixed_number(100 * seen.visibility.share, 0)} %"
     return _NOT_DEFINED
 
 
 @cache
-def _foreseen(method: Method) -> Foresight:
+def _foreseen(method: Method) -> PlannedTest:
     registry = find_plugins()
     job = load(Path("job.yaml"), registry, content=_JOB.format(method=method.value).encode())
-    return foresee(job, pipeline.standards(job, registry), registry.effects)
+    return planned_test(job, pipeline.standards(job, registry), registry.effects)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import sys
 from collections import Counter
 from itertools import zip_longest
 from pathlib import Path
@@ -11,13 +10,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-sys.path.insert(0, str(Path(__file__).parents[2] / "benchmarks"))
-
 from hidden_effects import records
 from hidden_effects.cases import Case, Kind, Scatter, cases, effects
 from hidden_effects.generic import is_tried_on
 from hidden_effects.prediction import errors
 from hidden_effects.run import run
+from hidden_effects.sizes import base_columns, beyond
 from hidden_effects.sparse import sparse
 from hidden_effects.stepwise import stepwise
 from hidden_effects.tables import report
@@ -28,7 +26,6 @@ from hidden_effects.trial import EFFECTS, drawn_trial
 from zlmreport.model.diagnosis import diagnose
 from zlmreport.model.observations import observations_of
 from zlmreport.planning.methods import Method
-from zlmreport.simulation.visibility import base_columns, beyond
 
 
 def case(  # noqa: PLR0913 - a case has so many parts

@@ -20,7 +20,7 @@ from zlmreport.job.simulation import load_simulation
 from zlmreport.job.types import Options
 from zlmreport.planning.methods import Method
 from zlmreport.plugins import Registry, find_plugins
-from zlmreport.simulation.interpret import description_of
+from zlmreport.simulation.files import description_of
 from zlmreport.simulation.machine import EmulatedMachine, emulated_machine
 
 #: How long the machine rests before its program, s: µMD0 takes four of them to say what it

@@ -22,7 +22,7 @@ from zlmreport.emulation.faults import Troubles
 from zlmreport.emulation.serve import serve
 from zlmreport.job.simulation import load_simulation
 from zlmreport.plugins import find_plugins
-from zlmreport.simulation.interpret import description_of
+from zlmreport.simulation.files import description_of
 
 #: The share of kills before a capture follows the axis, and how long it takes until then, s.
 _KILLED_EARLY, _BEGINNING = 0.25, 1.0

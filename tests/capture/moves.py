@@ -15,7 +15,7 @@ from zlmreport.capture.settings import Settings
 from zlmreport.capture.visit_list import ListedVisit, visit_list
 from zlmreport.live.reading import LiveReading
 from zlmreport.planning.methods import Method
-from zlmreport.simulation.description import Plan
+from zlmreport.planning.plan import Plan
 
 MM, UM = 1e-3, 1e-6
 #: At 100 mm/s the axis cannot run 5 mm over a target and come back within 0.1 s.

@@ -15,7 +15,7 @@ from zlmreport.capture.session import captured
 from zlmreport.capture.visit_list import visit_list
 from zlmreport.live.reading import LiveReading
 from zlmreport.measurement.axis import AxisKind
-from zlmreport.simulation.description import Plan
+from zlmreport.planning.plan import Plan
 
 #: Of the clock of `moves.Axis`, when a capture begins.
 BEGIN = 100.0

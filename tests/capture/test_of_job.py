@@ -12,10 +12,10 @@ from zlmreport.capture.history import read_history
 from zlmreport.capture.journal import Journal
 from zlmreport.capture.of_job import Assignment, assignment_of, demand_same_test, header_of, instrument_of
 from zlmreport.errors import AccessError, InputError, Place
-from zlmreport.foresight.proposal import propose
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
 from zlmreport.job.schema import job_schema
+from zlmreport.planning.plan import propose
 from zlmreport.plugins import find_plugins
 
 REGISTRY = find_plugins()

@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 
-from foresight.planned import REGISTRY, WHOLE_PITCHES, job_text
+from planning.planned import REGISTRY, WHOLE_PITCHES, job_text
 from plugins.part_programs.controls import linuxcnc
 from zlmreport.cli import main
 

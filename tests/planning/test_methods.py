@@ -9,8 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from zlmreport.measurement.approach import Approach
-from zlmreport.planning.methods import Method, Stop, path
-from zlmreport.planning.visits import visits
+from zlmreport.planning.methods import Method, Stop, path, visits
 
 TARGETS = (10.0, 20.0, 40.0)
 OVERRUN = 5.0

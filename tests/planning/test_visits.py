@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from zlmreport.measurement.axis import Axis
-from zlmreport.planning.methods import Method, path
-from zlmreport.planning.visits import planned_design, times, visits
+from zlmreport.planning.methods import Method, path, planned_design, times, visits
 
 TARGETS = np.array([0.1, 0.3])
 LISTED = visits(path(Method.LINEAR, TARGETS.tolist(), 1, 0.05))

@@ -10,7 +10,8 @@ import numpy as np
 from zlmreport.measurement.axis import Axis
 from zlmreport.model.axis_model import Term
 from zlmreport.planning.methods import Method
-from zlmreport.simulation.description import Description, Plan
+from zlmreport.planning.plan import Plan
+from zlmreport.simulation.description import Description
 from zlmreport_plugins.effects import zlmreport_effects
 
 EFFECTS = {effect.identifier: effect for effect in zlmreport_effects()}

@@ -8,7 +8,7 @@ from zlmreport.errors import ZlmreportError
 from zlmreport.job.simulation import SimulationFile, load_simulation
 from zlmreport.plugins import Plugin, collect
 from zlmreport.simulation.description import Description
-from zlmreport.simulation.interpret import description_of
+from zlmreport.simulation.files import description_of
 from zlmreport_plugins import effects
 from zlmreport_plugins.sources import laser_csv
 

@@ -8,8 +8,7 @@ import numpy as np
 import pytest
 
 from simulation.describing import described, hidden
-from zlmreport.planning.methods import Method, path
-from zlmreport.planning.visits import visits
+from zlmreport.planning.methods import Method, path, visits
 from zlmreport.simulation.description import Course, Description, Noise
 from zlmreport.simulation.machine import EmulatedMachine, StartedMachine, emulated_machine
 from zlmreport.simulation.simulate import simulate

@@ -11,8 +11,8 @@ from simulation.files import REGISTRY, SOUND, described, loaded, with_line
 from zlmreport.errors import Place
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.plugin.protocols import SourceContext
+from zlmreport.simulation.files import job_text, readings_table
 from zlmreport.simulation.simulate import simulate
-from zlmreport.simulation.writing import job_text, readings_table
 
 GAPS = with_line(11, "noise: {reading: 0.5, missing_share: 0.1}")
 

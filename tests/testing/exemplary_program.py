@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from zlmreport.foresight.motion import Motion
-from zlmreport.foresight.program_text import ProgramOptions, heading
 from zlmreport.language import Words
+from zlmreport.planning.programs import Motion, ProgramOptions, heading
 
 
 class ExemplaryProgram:

@@ -12,11 +12,10 @@ import pytest
 from pydantic import Field
 
 from testing.exemplary_program import ExemplaryProgram, run_steps
-from zlmreport.foresight.motion import Motion
-from zlmreport.foresight.program_text import ProgramOptions
 from zlmreport.job.types import Options
 from zlmreport.language import Words
 from zlmreport.measurement.axis import AxisKind
+from zlmreport.planning.programs import Motion, ProgramOptions
 from zlmreport.testing import PART_PROGRAM_CHECKS, check_part_program, part_programs
 
 COUNTER = itertools.count()

@@ -17,7 +17,7 @@ from zlmreport.errors import AccessError, InputError, Place, Problem
 from zlmreport.job.choices import InstrumentChoice
 from zlmreport.job.job import Job
 from zlmreport.measurement.axis import Axis
-from zlmreport.simulation.description import Plan
+from zlmreport.planning.plan import Plan
 
 _SOURCE = "measurement.source"
 #: What an operator may make of the feed, by the override of the control.

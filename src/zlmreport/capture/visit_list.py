@@ -5,9 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from zlmreport.measurement.approach import Approach
-from zlmreport.planning.methods import Method, path
-from zlmreport.planning.visits import visits
-from zlmreport.simulation.description import Plan
+from zlmreport.planning.methods import Method, path, visits
+from zlmreport.planning.plan import Plan
 
 #: Methods that go over the whole axis in each run: there a run with a datum of its own adds scatter only.
 _RUN_BY_RUN = frozenset({Method.LINEAR, Method.UNIDIRECTIONAL})

@@ -13,10 +13,9 @@ from zlmreport.certificate.scribe import Scribe
 from zlmreport.cli.capture_display import LiveDisplay, is_watched
 from zlmreport.cli.capture_sitting import capture
 from zlmreport.cli.terminal import Colour, requirements, shown_path
-from zlmreport.foresight.numbers import as_measured
-from zlmreport.foresight.proposal import propose
 from zlmreport.job.job import Job
 from zlmreport.language import Language
+from zlmreport.planning.plan import as_measured, propose
 from zlmreport.plugins import Registry
 
 

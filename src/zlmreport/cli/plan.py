@@ -14,8 +14,8 @@ from zlmreport.cli.plan_programs import chosen_programs, program_files
 from zlmreport.cli.summary import print_json
 from zlmreport.cli.terminal import shown_path
 from zlmreport.files import Document, demand_free, write
-from zlmreport.foresight.foresee import foresee
 from zlmreport.job.loading import load
+from zlmreport.planning.planned_test import planned_test
 from zlmreport.plugins import find_plugins
 
 
@@ -28,20 +28,20 @@ def run(options: Namespace) -> int:
     programs = chosen_programs(
         options.program, options.output, job.programs, registry.part_program, "linuxcnc,fanuc"
     )
-    foresight = foresee(job, pipeline.standards(job, registry), registry.effects)
+    planned = planned_test(job, pipeline.standards(job, registry), registry.effects)
     documents: tuple[Document, ...] = ()
     if options.output:
-        plan = foresight.proposal.plan
+        plan = planned.proposal.plan
         documents = (
-            *plan_files(options.output, job, foresight),
+            *plan_files(options.output, job, planned),
             *program_files(options.output, job, plan, programs, registry),
         )
     demand_free(document.path for document in documents)
     written = write(documents)
     if options.json:
-        print_json(plan_values(job, foresight, written))
+        print_json(plan_values(job, planned, written))
         return 0
-    print(*plan_lines(job, foresight), sep="\n")
+    print(*plan_lines(job, planned), sep="\n")
     print()
     if programs and not options.output:
         names = ", ".join(each.identifier for each in programs)

@@ -9,20 +9,19 @@ from typing import Any
 
 from zlmreport.cli.model_lines import said
 from zlmreport.cli.plan_files import SIGNS
-from zlmreport.foresight.foresee import Foresight
-from zlmreport.foresight.outlook import Prospect
-from zlmreport.foresight.remedies import Remedy
-from zlmreport.foresight.targets import in_users_unit
 from zlmreport.job.job import Job
 from zlmreport.measurement.axis import Axis
 from zlmreport.model.parameter import unit_of
+from zlmreport.planning.planned_test import PlannedTest
+from zlmreport.planning.targets import in_users_unit
+from zlmreport.planning.visibility import Remedy, SeenEffect
 
 SCHEMA = "zlmreport/plan/1"
 
 
-def plan_values(job: Job, foresight: Foresight, written: Sequence[Path]) -> dict[str, Any]:
+def plan_values(job: Job, planned: PlannedTest, written: Sequence[Path]) -> dict[str, Any]:
     """Return a plan as plain values for JSON."""
-    axis, proposal = job.axis, foresight.proposal
+    axis, proposal = job.axis, planned.proposal
     plan, position = proposal.plan, axis.position_unit
     targets = in_users_unit(axis, plan.targets)
     return {
@@ -41,10 +40,10 @@ def plan_values(job: Job, foresight: Foresight, written: Sequence[Path]) -> dict
             "repeatability": axis.deviation_unit.from_si(proposal.expected.sigma),
             "temperature_change": proposal.expected.temperature_change,
         },
-        "travelled": position.from_si(foresight.travelled),
-        "duration": foresight.duration,
+        "travelled": position.from_si(planned.travelled),
+        "duration": planned.duration,
         "targets": targets,
-        "two_phases_of": [said(period) for period in foresight.half_seen],
+        "two_phases_of": [said(period) for period in planned.half_seen],
         "visits": [
             {
                 "target": targets[visit.target],
@@ -52,14 +51,14 @@ def plan_values(job: Job, foresight: Foresight, written: Sequence[Path]) -> dict
                 "run": visit.run,
                 "time": time,
             }
-            for visit, time in zip(foresight.visits, foresight.design.time.tolist(), strict=True)
+            for visit, time in zip(planned.visits, planned.design.time.tolist(), strict=True)
         ],
-        "model": list(foresight.model.identifiers),
+        "model": list(planned.model.identifiers),
         "visibility": [
-            _prospect(each, foresight.remedies.get(each.effect.identifier), axis)
-            for each in foresight.prospects
+            _seen_effect(each, planned.remedies.get(each.effect.identifier), axis)
+            for each in planned.seen_effects
         ],
-        "log": [{"column": column, "effects": names} for column, names in foresight.logs.items()],
+        "log": [{"column": column, "effects": names} for column, names in planned.logs.items()],
         "requirements": [
             {
                 "standard": designation,
@@ -67,15 +66,15 @@ def plan_values(job: Job, foresight: Foresight, written: Sequence[Path]) -> dict
                 "found": said(finding.found),
                 "met": finding.met,
             }
-            for designation, findings in foresight.findings.items()
+            for designation, findings in planned.findings.items()
             for finding in findings
         ],
         "files": [str(path) for path in written],
     }
 
 
-def _prospect(prospect: Prospect, remedy: Remedy | None, axis: Axis) -> dict[str, Any]:
-    seen = prospect.visibility
+def _seen_effect(found: SeenEffect, remedy: Remedy | None, axis: Axis) -> dict[str, Any]:
+    seen = found.visibility
     smallest = None
     if seen.smallest is not None and math.isfinite(seen.smallest[1]):
         parameter, value = seen.smallest
@@ -83,13 +82,13 @@ def _prospect(prospect: Prospect, remedy: Remedy | None, axis: Axis) -> dict[str
         smallest = {"name": parameter.name, "value": value * unit.per_si, "unit": unit.ascii}
     return {
         "effect": seen.effect,
-        "sight": prospect.sight.value,
+        "sight": found.sight.value,
         "share": seen.share,
         "smallest_rms": axis.deviation_unit.from_si(seen.smallest_rms)
         if math.isfinite(seen.smallest_rms)
         else None,
         "smallest": smallest,
-        "log": list(prospect.logs),
+        "log": list(found.logs),
         "reason": None if seen.reason is None else said(seen.reason),
         "remedy": None
         if remedy is None

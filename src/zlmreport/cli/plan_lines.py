@@ -7,11 +7,6 @@ from collections.abc import Iterator, Sequence
 from zlmreport.cli.model_lines import said, width, wrapped
 from zlmreport.cli.terminal import Colour, table
 from zlmreport.evaluation import printed
-from zlmreport.foresight.conditions import ASSUMPTION
-from zlmreport.foresight.foresee import Foresight
-from zlmreport.foresight.outlook import Prospect, Sight
-from zlmreport.foresight.remedies import Remedy
-from zlmreport.foresight.targets import in_users_unit
 from zlmreport.job.job import Job
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.axis import Axis
@@ -19,8 +14,11 @@ from zlmreport.model import wording
 from zlmreport.model.design import Design
 from zlmreport.model.effect import Shape
 from zlmreport.model.parameter import unit_of
-from zlmreport.planning.methods import Method
-from zlmreport.planning.visits import Visit
+from zlmreport.planning.methods import Method, Visit
+from zlmreport.planning.plan import ASSUMPTION
+from zlmreport.planning.planned_test import PlannedTest
+from zlmreport.planning.targets import in_users_unit
+from zlmreport.planning.visibility import Remedy, SeenEffect, Sight
 from zlmreport.quantities.formatting import fixed_number, general_number
 
 _MINUTE = 60.0
@@ -34,21 +32,21 @@ _SEQUENCES = {
 _ARROWS = {Approach.POSITIVE: "↑", Approach.NEGATIVE: "↓"}
 
 
-def plan_lines(job: Job, foresight: Foresight) -> Iterator[str]:
+def plan_lines(job: Job, planned: PlannedTest) -> Iterator[str]:
     """Yield the lines on a plan."""
-    plan = foresight.proposal.plan
-    count = f"{len(plan.targets)} targets, {len(foresight.visits)} readings"
+    plan = planned.proposal.plan
+    count = f"{len(plan.targets)} targets, {len(planned.visits)} readings"
     yield f"{Colour.BOLD.of(job.keys.certificate.number)}  axis {job.axis.name}: {count}"
-    yield from ("", *_targets(job, foresight))
-    yield from ("", *_sequence(job, foresight))
-    yield from ("", *_requirements(foresight))
-    yield from ("", *_seen(job, foresight))
-    yield from _hidden(job, foresight)
-    yield from _logs(foresight)
+    yield from ("", *_targets(job, planned))
+    yield from ("", *_sequence(job, planned))
+    yield from ("", *_requirements(planned))
+    yield from ("", *_seen(job, planned))
+    yield from _hidden(job, planned)
+    yield from _logs(planned)
 
 
-def _targets(job: Job, foresight: Foresight) -> Iterator[str]:
-    proposal = foresight.proposal
+def _targets(job: Job, planned: PlannedTest) -> Iterator[str]:
+    proposal = planned.proposal
     how = f"random fractions, seed {proposal.seed}" if proposal.has_fractions else "no random fractions"
     yield f"{Colour.BOLD.of('targets')}  {job.axis.position_unit.symbol}, {how}"
     targets = in_users_unit(job.axis, proposal.plan.targets)
@@ -60,7 +58,7 @@ def _targets(job: Job, foresight: Foresight) -> Iterator[str]:
     starts = range(0, len(filled), columns)
     rows = [[text for cell in filled[start : start + columns] for text in cell] for start in starts]
     yield from table(rows, right=range(2 * columns), indent="  ")
-    for period in foresight.half_seen:
+    for period in planned.half_seen:
         text = (
             f"all targets lie at two phases of {said(period)}: of what repeats with it, a part stays "
             "hidden that no share below counts; choose targets with a random fraction"
@@ -68,32 +66,32 @@ def _targets(job: Job, foresight: Foresight) -> Iterator[str]:
         yield from wrapped(f"{Colour.YELLOW.of('check')}: {text}")
 
 
-def _sequence(job: Job, foresight: Foresight) -> Iterator[str]:
-    proposal, unit = foresight.proposal, job.axis.position_unit.symbol
+def _sequence(job: Job, planned: PlannedTest) -> Iterator[str]:
+    proposal, unit = planned.proposal, job.axis.position_unit.symbol
     plan = proposal.plan
     times = "once" if plan.runs == 1 else f"{plan.runs} times"
-    yield f"{Colour.BOLD.of('visits')}  {plan.method.value} method{_assumed('measurement.method', foresight)}"
+    yield f"{Colour.BOLD.of('visits')}  {plan.method.value} method{_assumed('measurement.method', planned)}"
     yield from wrapped(_SEQUENCES[plan.method].format(runs=times))
-    stretches = list(_stretches(foresight.visits))
+    stretches = list(_stretches(planned.visits))
     shown = "  ".join(stretches[:_MOST_STRETCHES])
     yield from wrapped(f"{shown}  …" if len(stretches) > _MOST_STRETCHES else shown)
     overrun = said(printed.position(job.axis, plan.overrun))
     feed = general_number(job.axis.position_unit.from_si(plan.feed) * _MINUTE)
     motion = (
-        f"the axis turns round {overrun} beyond; {feed} {unit}/min{_assumed('measurement.feed', foresight)}"
+        f"the axis turns round {overrun} beyond; {feed} {unit}/min{_assumed('measurement.feed', planned)}"
     )
     yield from wrapped(
-        f"{motion}, {general_number(plan.dwell)} s at rest{_assumed('measurement.dwell', foresight)}"
+        f"{motion}, {general_number(plan.dwell)} s at rest{_assumed('measurement.dwell', planned)}"
     )
-    way = said(printed.position(job.axis, round(foresight.travelled, 3)))
-    yield from wrapped(f"{way} of travel, about {max(1, round(foresight.duration / _MINUTE))} min")
-    yield from _beyond_the_travel(job.axis, foresight)
+    way = said(printed.position(job.axis, round(planned.travelled, 3)))
+    yield from wrapped(f"{way} of travel, about {max(1, round(planned.duration / _MINUTE))} min")
+    yield from _beyond_the_travel(job.axis, planned)
 
 
-def _beyond_the_travel(axis: Axis, foresight: Foresight) -> Iterator[str]:
-    if axis.travel is None or foresight.beyond_travel is None:
+def _beyond_the_travel(axis: Axis, planned: PlannedTest) -> Iterator[str]:
+    if axis.travel is None or planned.beyond_travel is None:
         return
-    ends = [said(printed.position(axis, end)) for end in (*foresight.beyond_travel, *axis.travel)]
+    ends = [said(printed.position(axis, end)) for end in (*planned.beyond_travel, *axis.travel)]
     text = "it turns round at {} and {}; the travel is {} to {}".format(*ends)
     yield from wrapped(f"{Colour.YELLOW.of('check')}: {text}")
 
@@ -116,9 +114,9 @@ def _goes_on(one: Visit, other: Visit) -> bool:
     return one.run == other.run and one.approach is other.approach and step == int(one.approach)
 
 
-def _requirements(foresight: Foresight) -> Iterator[str]:
+def _requirements(planned: PlannedTest) -> Iterator[str]:
     yield Colour.BOLD.of("what the standards ask")
-    for designation, findings in foresight.findings.items():
+    for designation, findings in planned.findings.items():
         unmet = [finding for finding in findings if finding.met is False]
         if not unmet:
             yield f"  {Colour.GREEN.of('met')}  {designation}"
@@ -127,35 +125,35 @@ def _requirements(foresight: Foresight) -> Iterator[str]:
             yield from wrapped(f"{Colour.RED.of('not met')}  {text}")
 
 
-def _seen(job: Job, foresight: Foresight) -> Iterator[str]:
-    model = " + ".join(foresight.model.identifiers) or "nothing"
-    yield f"{Colour.BOLD.of('what this plan can see')} beside {model}{_assumed('model.effects', foresight)}"
+def _seen(job: Job, planned: PlannedTest) -> Iterator[str]:
+    model = " + ".join(planned.model.identifiers) or "nothing"
+    yield f"{Colour.BOLD.of('what this plan can see')} beside {model}{_assumed('model.effects', planned)}"
     rows = [("", "visible", "found half of the time from", "")]
-    for each in foresight.prospects:
+    for each in planned.seen_effects:
         if each.sight is Sight.VISIBLE:
             logs = "needs a log" if each.logs else ""
             rows.append(
                 (each.effect.identifier, _percent(each.visibility.share), _smallest(each, job.axis), logs)
             )
     yield from table(rows, right=(1,), indent="  ")
-    expected = foresight.proposal.expected
+    expected = planned.proposal.expected
     scatter = said(wording.deviation(job.axis, expected.sigma))
     rise = said(ASSUMPTION.given(rise=expected.temperature_change))
     yield from wrapped(
         f"if single readings scatter by {scatter} (standard deviation"
-        f"{', assumed' if 'plan.repeatability' in foresight.proposal.assumed else ''}), and {rise}"
+        f"{', assumed' if 'plan.repeatability' in planned.proposal.assumed else ''}), and {rise}"
     )
 
 
-def _hidden(job: Job, foresight: Foresight) -> Iterator[str]:
+def _hidden(job: Job, planned: PlannedTest) -> Iterator[str]:
     """Yield what the plan hides, by what to do about it, and what cannot be tried, by what it needs."""
     blurred: dict[str, list[tuple[str, str]]] = {}
     untestable: dict[str, list[str]] = {}
-    for each in foresight.prospects:
+    for each in planned.seen_effects:
         if each.sight is Sight.NOT_TESTABLE:
-            untestable.setdefault(_untestable(each, foresight.design), []).append(each.effect.identifier)
+            untestable.setdefault(_untestable(each, planned.design), []).append(each.effect.identifier)
         elif each.sight in {Sight.HIDDEN, Sight.TOO_SMALL}:
-            remedy = foresight.remedies.get(each.effect.identifier)
+            remedy = planned.remedies.get(each.effect.identifier)
             row = (each.effect.identifier, _blurred(each, remedy, job.axis))
             blurred.setdefault(_what_to_do(remedy), []).append(row)
     if blurred or untestable:
@@ -167,13 +165,13 @@ def _hidden(job: Job, foresight: Foresight) -> Iterator[str]:
         yield from wrapped(f"{', '.join(names)}: {text}")
 
 
-def _blurred(prospect: Prospect, remedy: Remedy | None, axis: Axis) -> str:
+def _blurred(seen: SeenEffect, remedy: Remedy | None, axis: Axis) -> str:
     """Return what is visible of an effect, and what would be."""
-    shares = f"{_percent(prospect.visibility.share)} visible"
+    shares = f"{_percent(seen.visibility.share)} visible"
     if remedy and remedy.share is not None:
         shares += f", then {_percent(remedy.share)}"
-    if prospect.sight is Sight.TOO_SMALL:
-        shares += f"; found only from {_smallest(prospect, axis)}, hardly plausible"
+    if seen.sight is Sight.TOO_SMALL:
+        shares += f"; found only from {_smallest(seen, axis)}, hardly plausible"
     return shares
 
 
@@ -183,22 +181,22 @@ def _what_to_do(remedy: Remedy | None) -> str:
     return f"{said(remedy.reason)}; {said(remedy.advice)}" if remedy.reason else said(remedy.advice)
 
 
-def _untestable(prospect: Prospect, design: Design) -> str:
-    unexpected = [column for column in prospect.logs if column not in design.conditions]
+def _untestable(seen: SeenEffect, design: Design) -> str:
+    unexpected = [column for column in seen.logs if column not in design.conditions]
     if unexpected:
         return f"cannot be tried without the logged column {', '.join(unexpected)}"
-    reason = prospect.visibility.reason
+    reason = seen.visibility.reason
     return said(reason) if reason else "cannot be tried"
 
 
-def _logs(foresight: Foresight) -> Iterator[str]:
+def _logs(planned: PlannedTest) -> Iterator[str]:
     timed = [
         each.effect.identifier
-        for each in foresight.prospects
+        for each in planned.seen_effects
         if each.effect.shape is Shape.TIME and each.sight is not Sight.OTHER_AXIS and not each.logs
     ]
     by_effects: dict[str, list[str]] = {}
-    for column, identifiers in foresight.logs.items():
+    for column, identifiers in planned.logs.items():
         by_effects.setdefault(", ".join(identifiers), []).append(column)
     if not timed and not by_effects:
         return
@@ -209,9 +207,9 @@ def _logs(foresight: Foresight) -> Iterator[str]:
         yield from wrapped(f"{', '.join(columns)}: to be able to tell {effects}")
 
 
-def _smallest(prospect: Prospect, axis: Axis) -> str:
+def _smallest(found: SeenEffect, axis: Axis) -> str:
     """Return the smallest effect that is found half of the time: by its parameter, or by what it does."""
-    seen = prospect.visibility
+    seen = found.visibility
     if seen.smallest is None:
         return f"{said(wording.deviation(axis, seen.smallest_rms))} rms"
     parameter, value = seen.smallest
@@ -219,8 +217,8 @@ def _smallest(prospect: Prospect, axis: Axis) -> str:
     return f"{parameter.name} {said(wording.significant(value * unit.per_si, 2))} {unit.symbol}".rstrip()
 
 
-def _assumed(key: str, foresight: Foresight) -> str:
-    return " (assumed)" if key in foresight.proposal.assumed else ""
+def _assumed(key: str, planned: PlannedTest) -> str:
+    return " (assumed)" if key in planned.proposal.assumed else ""
 
 
 def _percent(share: float) -> str:

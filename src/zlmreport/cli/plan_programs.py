@@ -7,11 +7,11 @@ from pathlib import Path
 
 from zlmreport.errors import InputError, Place, Problem
 from zlmreport.files import Document
-from zlmreport.foresight.motion import motion_of
 from zlmreport.job.choices import Find, ProgramChoice, programs_by_name
 from zlmreport.job.job import Job
+from zlmreport.planning.plan import Plan
+from zlmreport.planning.programs import motion_of
 from zlmreport.plugins import Registry
-from zlmreport.simulation.description import Plan
 
 _OPTION = Place("zlmreport plan --program")
 

@@ -10,9 +10,8 @@ from zlmreport.cli.terminal import shown_path
 from zlmreport.files import Document
 from zlmreport.job.simulation import load_simulation
 from zlmreport.plugins import find_plugins
-from zlmreport.simulation.interpret import description_of
+from zlmreport.simulation.files import description_of, job_text, readings_table
 from zlmreport.simulation.simulate import simulate
-from zlmreport.simulation.writing import job_text, readings_table
 
 
 def run(options: Namespace) -> int:

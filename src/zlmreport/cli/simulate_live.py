@@ -14,11 +14,10 @@ from zlmreport.errors import InputError, Place
 from zlmreport.files import Document
 from zlmreport.job.simulation import load_simulation
 from zlmreport.language import Language
+from zlmreport.planning.plan import Plan
 from zlmreport.plugins import find_plugins
-from zlmreport.simulation.description import Plan
-from zlmreport.simulation.interpret import description_of
+from zlmreport.simulation.files import description_of, live_job_text, readings_table
 from zlmreport.simulation.machine import StartedMachine, emulated_machine
-from zlmreport.simulation.writing import live_job_text, readings_table
 
 _COMMAND = "zlmreport simulate"
 _SECONDS_A_MINUTE = 60

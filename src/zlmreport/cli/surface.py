@@ -18,8 +18,7 @@ from zlmreport.errors import InputError, Place, Problem
 from zlmreport.job.job import Job
 from zlmreport.model import wording
 from zlmreport.model.axis_model import ModelError
-from zlmreport.plane.plane import Plane, plane_of
-from zlmreport.plane.report import report
+from zlmreport.plane.plane import Plane, plane_of, report
 from zlmreport.plane.surface import Surface
 from zlmreport.plugins import Registry, find_plugins
 from zlmreport.quantities.formatting import MINUS, general_number

@@ -10,9 +10,9 @@ import numpy as np
 from zlmreport.evaluation import printed
 from zlmreport.figures import alternatives
 from zlmreport.figures.figure import Curve, Figure, Panel, Readings, Role
-from zlmreport.foresight.motion import Motion, ProgramStop
 from zlmreport.language import Words
 from zlmreport.measurement.approach import Approach
+from zlmreport.planning.programs import Motion, ProgramStop
 from zlmreport.quantities.arrays import read_only_floats
 
 _TITLE = Words(

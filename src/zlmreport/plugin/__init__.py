@@ -110,10 +110,6 @@ if TYPE_CHECKING:
     from zlmreport.figures.prescribed import worst as worst_position
     from zlmreport.figures.sketch import figure_size
     from zlmreport.figures.svg import hexadecimal as hexadecimal_colour
-    from zlmreport.foresight.motion import Motion
-    from zlmreport.foresight.program_text import ProgramOptions, axis_address, program_number
-    from zlmreport.foresight.program_text import heading as program_heading
-    from zlmreport.foresight.program_text import remark as reading_remark
     from zlmreport.job.document_keys import Customer, Laboratory
     from zlmreport.job.job import Job
     from zlmreport.job.types import Finite, JobPath, Options
@@ -158,6 +154,9 @@ if TYPE_CHECKING:
     from zlmreport.model.needs import whole_period as needs_whole_period
     from zlmreport.model.parameter import Dimension, Parameter
     from zlmreport.model.report import report_error, report_model
+    from zlmreport.planning.programs import Motion, ProgramOptions, axis_address, program_number
+    from zlmreport.planning.programs import heading as program_heading
+    from zlmreport.planning.programs import remark as reading_remark
     from zlmreport.plugin.hookspecs import hookimpl
     from zlmreport.plugin.protocols import (
         Connection,
@@ -518,9 +517,8 @@ _ROOMS = {
     ),
     "zlmreport.figures.sketch": "figure_size",
     "zlmreport.figures.svg": "hexadecimal_colour=hexadecimal",
-    "zlmreport.foresight.motion": "Motion",
-    "zlmreport.foresight.program_text": (
-        "ProgramOptions axis_address program_heading=heading program_number reading_remark=remark"
+    "zlmreport.planning.programs": (
+        "Motion ProgramOptions axis_address program_heading=heading program_number reading_remark=remark"
     ),
     "zlmreport.job.document_keys": "Customer Laboratory",
     "zlmreport.job.job": "Job",

@@ -21,12 +21,12 @@ if TYPE_CHECKING:
     from zlmreport.evaluation.requirements import Finding
     from zlmreport.evaluation.statistics import PositionStatistics
     from zlmreport.figures.figure import Figure
-    from zlmreport.foresight.motion import Motion
     from zlmreport.job.types import Options
     from zlmreport.language import Words
     from zlmreport.live.reading import LiveReading
     from zlmreport.measurement.axis import Axis
     from zlmreport.measurement.measurement_set import MeasurementSet
+    from zlmreport.planning.programs import Motion
     from zlmreport.step_gauge.path import ProbingPath
     from zlmreport.step_gauge.set_up import GaugeSetUp
 

@@ -1,42 +1,21 @@
-"""What is simulated: an axis, a plan, effects, conditions and noise; all in SI."""
+"""What is simulated: an axis, a plan, effects, conditions and noise; all in SI.
+
+Every random part has a stream of its own, so that changing one leaves the others as they are.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from enum import IntEnum
+
+import numpy as np
 
 from zlmreport.measurement.axis import Axis
 from zlmreport.model.axis_model import Term
-from zlmreport.planning.methods import Method
-from zlmreport.quantities.arrays import FloatArray
-
-
-@dataclass(frozen=True, slots=True)
-class Plan:
-    """How the axis is tested.
-
-    Attributes
-    ----------
-    targets : (m,) array
-        Target positions, rising, m or rad.
-    method
-        The positioning method.
-    runs
-        How often each target is read in each direction.
-    overrun
-        How far beyond a target the axis turns round, m or rad.
-    feed
-        m/s or rad/s.
-    dwell
-        Time at rest before each reading, s.
-    """
-
-    targets: FloatArray
-    method: Method = Method.LINEAR
-    runs: int = 5
-    overrun: float = 5e-3
-    feed: float = 2 / 60
-    dwell: float = 5.0
+from zlmreport.model.design import Design
+from zlmreport.planning.plan import Plan
+from zlmreport.quantities.arrays import BoolArray, FloatArray
 
 
 @dataclass(frozen=True, slots=True)
@@ -142,3 +121,101 @@ class Description:
     conditions: Mapping[str, Course] = field(default_factory=dict)
     noise: Noise = field(default_factory=Noise)
     time_is_logged: bool = True
+
+
+class Stream(IntEnum):
+    """A random part; the number belongs to it for ever, or old seeds would give other tests."""
+
+    READING = 1
+    UNEQUAL = 2
+    POSITION = 3
+    POSITION_AND_DIRECTION = 4
+    RUN = 5
+    DRIFT = 6
+    OUTLIER = 7
+    MISSING = 8
+    LOG = 9
+    # 10 are the targets: `zlmreport.planning.targets`
+
+    def generator(self, seed: int, *further: int) -> np.random.Generator:
+        """Return the generator of this part for a seed."""
+        return np.random.default_rng([seed, self, *further])
+
+
+def noise_of(noise: Noise, design: Design, seed: int) -> FloatArray:
+    """Return the random part of each reading, shape (N,), m or rad; resolution and missing ones apart."""
+    targets = int(design.target.max()) + 1
+    runs = int(design.run.max()) + 1
+    per_target = Stream.POSITION.generator(seed).standard_normal(targets)
+    per_direction = Stream.POSITION_AND_DIRECTION.generator(seed).standard_normal(targets)
+    per_run = Stream.RUN.generator(seed).standard_normal(runs)
+    return np.asarray(
+        _readings(noise, design, targets, seed)
+        + noise.position * per_target[design.target]
+        + noise.position_and_direction * design.direction * per_direction[design.target]
+        + noise.run * per_run[design.run]
+        + noise.drift * _drift(design.time, noise.drift_time, seed)
+        + _outliers(noise, len(design.position), seed)
+    )
+
+
+def is_missing(noise: Noise, readings: int, seed: int) -> BoolArray:
+    """Return which readings are missing, shape (N,)."""
+    return np.asarray(Stream.MISSING.generator(seed).random(readings) < noise.missing_share)
+
+
+def rounded(values: FloatArray, resolution: float) -> FloatArray:
+    """Return values as an instrument of some resolution shows them; as they are for 0."""
+    return np.asarray(np.round(values / resolution) * resolution) if resolution else values
+
+
+def _readings(noise: Noise, design: Design, targets: int, seed: int) -> FloatArray:
+    spread = 1 + noise.unequal * Stream.UNEQUAL.generator(seed).uniform(-1, 1, targets)
+    single = Stream.READING.generator(seed).standard_normal(len(design.position))
+    return np.asarray(noise.reading * spread[design.target] * single)
+
+
+def _drift(time: FloatArray, memory: float, seed: int) -> FloatArray:
+    """Return a stationary process of unit variance whose correlation fades as exp(−Δt/memory)."""
+    shocks = Stream.DRIFT.generator(seed).standard_normal(len(time))
+    kept = np.exp(-np.diff(time) / memory)
+    drift = shocks.copy()
+    for later, share in enumerate(kept, 1):
+        drift[later] = share * drift[later - 1] + np.sqrt(1 - share**2) * shocks[later]
+    return drift
+
+
+def _outliers(noise: Noise, readings: int, seed: int) -> FloatArray:
+    random = Stream.OUTLIER.generator(seed)
+    is_off = random.random(readings) < noise.outlier_share
+    return np.asarray(np.where(is_off, random.choice([-1.0, 1.0], readings), 0.0) * noise.outlier_size)
+
+
+def true_course(course: Course, time: FloatArray) -> FloatArray:
+    """Return a condition at each reading, SI, shape (N,)."""
+    end = course.start if course.end is None else course.end
+    if course.time_constant is None:
+        duration = time[-1] or 1.0
+        progress = time / duration
+    else:
+        progress = -np.expm1(-time / course.time_constant)
+    swing = course.swing * np.sin(2 * np.pi * time / course.swing_period)
+    return np.asarray(course.start + (end - course.start) * progress + swing)
+
+
+def logged_course(course: Course, true: FloatArray, seed: int, sensor: int) -> FloatArray:
+    """Return what a sensor logs of a condition.
+
+    Parameters
+    ----------
+    course
+        With the sensor's noise and resolution.
+    true : (N,) array
+        The condition, SI.
+    seed
+        Of the simulation.
+    sensor
+        Number of the sensor: each has noise of its own.
+    """
+    noise = course.sensor_noise * Stream.LOG.generator(seed, sensor).standard_normal(len(true))
+    return rounded(true + noise, course.resolution)

@@ -11,8 +11,9 @@ import numpy as np
 
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.planning.methods import path
+from zlmreport.planning.plan import Plan
 from zlmreport.quantities.arrays import FloatArray, read_only_floats
-from zlmreport.simulation.description import Description, Plan
+from zlmreport.simulation.description import Description
 from zlmreport.simulation.simulate import design_of, deviation_by_all, observed
 
 

@@ -12,12 +12,16 @@ from zlmreport.measurement.measurement_set import CONDITIONS, MeasurementSet
 from zlmreport.measurement.provenance import Provenance
 from zlmreport.model.design import Design
 from zlmreport.model.effect import Effect
-from zlmreport.planning.methods import path
-from zlmreport.planning.visits import planned_design, visits
+from zlmreport.planning.methods import path, planned_design, visits
 from zlmreport.quantities.arrays import FloatArray, read_only_floats, read_only_integers
-from zlmreport.simulation.courses import logged_course, true_course
-from zlmreport.simulation.description import Description
-from zlmreport.simulation.randomness import is_missing, noise_of, rounded
+from zlmreport.simulation.description import (
+    Description,
+    is_missing,
+    logged_course,
+    noise_of,
+    rounded,
+    true_course,
+)
 
 _REMARK = Words(
     en="Simulated readings, not measurements (seed {seed}).",

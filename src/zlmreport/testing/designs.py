@@ -11,9 +11,8 @@ import numpy as np
 
 from zlmreport.measurement.axis import Axis, AxisKind, PositionTable
 from zlmreport.model.design import Design
-from zlmreport.planning.methods import Method, path
+from zlmreport.planning.methods import Method, path, planned_design, visits
 from zlmreport.planning.targets import target_positions
-from zlmreport.planning.visits import planned_design, visits
 from zlmreport.quantities.arrays import FloatArray, read_only_floats
 from zlmreport.quantities.temperature import REFERENCE_TEMPERATURE
 

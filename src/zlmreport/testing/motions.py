@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from zlmreport.errors import Place
-from zlmreport.foresight.motion import Motion, motion_of
 from zlmreport.measurement.axis import Axis
 from zlmreport.planning.methods import Method
+from zlmreport.planning.plan import Plan
+from zlmreport.planning.programs import Motion, motion_of
 from zlmreport.quantities.arrays import read_only_floats
-from zlmreport.simulation.description import Plan
 
 #: Of the job, as it must stand in every program.
 NUMBER = "KIT-7"

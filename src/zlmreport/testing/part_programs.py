@@ -11,9 +11,9 @@ from dataclasses import replace
 from typing import Any, TypeAlias
 
 from zlmreport.errors import InputError
-from zlmreport.foresight.motion import Motion
 from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.planning.methods import Method
+from zlmreport.planning.programs import Motion
 from zlmreport.plugin.protocols import PartProgram
 from zlmreport.testing.expectations import expect, run_all
 from zlmreport.testing.motions import NUMBER, PLACE, sample_motion

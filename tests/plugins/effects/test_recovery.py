@@ -8,15 +8,15 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from hidden_effects.drawn_axes import drawn_linear_test, drawn_rotary_test
+from hidden_effects.sizes import scaled_effect
 from plugins.effects.installed import EFFECTS, ROTARY_ONLY, design_for
 from zlmreport.model.axis_model import Term
 from zlmreport.model.design import Design
 from zlmreport.model.effect import Effect
 from zlmreport.planning.methods import Method
 from zlmreport.simulation.description import Description, Noise
-from zlmreport.simulation.drawing import drawn_linear_test, drawn_rotary_test
 from zlmreport.simulation.simulate import deviation_by, simulate
-from zlmreport.simulation.visibility import scaled_effect
 
 SIGMA = 0.5e-6
 #: Which face of a gauge is touched is no course of a condition: no description simulates it.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from zlmreport.foresight.motion import Motion
+from zlmreport.planning.programs import Motion
 from zlmreport.plugins import find_plugins
 from zlmreport.testing import sample_motion
 

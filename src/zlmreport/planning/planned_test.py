@@ -8,20 +8,24 @@ from itertools import pairwise
 
 from zlmreport.errors import InputError
 from zlmreport.evaluation.requirements import Finding
-from zlmreport.foresight.numbers import PlannedStandard, as_measured
-from zlmreport.foresight.outlook import Prospect, determined, expected_design, outlook, planned_visits
-from zlmreport.foresight.phases import periods_at_phases
-from zlmreport.foresight.proposal import Proposal, propose
-from zlmreport.foresight.remedies import Remedy, remedies
-from zlmreport.foresight.targets import makes_whole_turns
 from zlmreport.job.job import Job
 from zlmreport.language import Words
 from zlmreport.measurement.axis import Axis
 from zlmreport.model.axis_model import AxisModel, Term, chosen_terms
 from zlmreport.model.design import Design
 from zlmreport.model.effect import Effect
-from zlmreport.planning.methods import path
-from zlmreport.planning.visits import Visit
+from zlmreport.planning.methods import Visit, path
+from zlmreport.planning.plan import PlannedStandard, Proposal, as_measured, propose
+from zlmreport.planning.targets import makes_whole_turns, periods_at_phases
+from zlmreport.planning.visibility import (
+    Remedy,
+    SeenEffect,
+    determined,
+    effects_seen,
+    expected_design,
+    planned_visits,
+    remedies,
+)
 
 _ROUNDING = 1e-9
 #: Readings beyond the number of parameters that a diagnosis needs.
@@ -31,7 +35,7 @@ _USUAL_MODEL = ("offset", "scale-error", "backlash")
 
 
 @dataclass(frozen=True, slots=True)
-class Foresight:
+class PlannedTest:
     """A test before it is done.
 
     Attributes
@@ -53,7 +57,7 @@ class Foresight:
         an end of its travel.
     model
         The effects beside which others are looked for: those of the job that the test determines.
-    prospects
+    seen_effects
         What is seen of every other installed effect.
     remedies
         What to do about those that the plan hides, by their identifiers.
@@ -69,7 +73,7 @@ class Foresight:
     half_seen: tuple[Words, ...]
     beyond_travel: tuple[float, float] | None
     model: AxisModel
-    prospects: tuple[Prospect, ...]
+    seen_effects: tuple[SeenEffect, ...]
     remedies: Mapping[str, Remedy]
     findings: Mapping[str, tuple[Finding, ...]]
 
@@ -77,14 +81,14 @@ class Foresight:
     def logs(self) -> dict[str, list[str]]:
         """Conditions to log beside the readings, each with the effects that cannot be tried without it."""
         found: dict[str, list[str]] = {}
-        for prospect in self.prospects:
-            for column in prospect.logs:
+        for seen in self.seen_effects:
+            for column in seen.logs:
                 if column in self.design.conditions:
-                    found.setdefault(column, []).append(prospect.effect.identifier)
+                    found.setdefault(column, []).append(seen.effect.identifier)
         return found
 
 
-def foresee(job: Job, standards: Sequence[PlannedStandard], effects: Sequence[Effect]) -> Foresight:
+def planned_test(job: Job, standards: Sequence[PlannedStandard], effects: Sequence[Effect]) -> PlannedTest:
     """Return what can be said of a job's test before it is done.
 
     Parameters
@@ -110,9 +114,9 @@ def foresee(job: Job, standards: Sequence[PlannedStandard], effects: Sequence[Ef
     model = _model(job, effects)
     base = determined(model, design)
     _demand_readings(job, base, design)
-    prospects = outlook(base, design, effects, proposal.expected)
+    seen_effects = effects_seen(base, design, effects, proposal.expected)
     test = as_measured(job.axis, plan.method, plan.targets, plan.runs)
-    return Foresight(
+    return PlannedTest(
         proposal=proposal,
         visits=listed,
         design=design,
@@ -121,8 +125,8 @@ def foresee(job: Job, standards: Sequence[PlannedStandard], effects: Sequence[Ef
         half_seen=tuple(periods_at_phases(job.axis, plan.targets, 2)),
         beyond_travel=_beyond_travel(job.axis, min(stops), max(stops)),
         model=base,
-        prospects=prospects,
-        remedies=remedies(prospects, model, job.axis, proposal),
+        seen_effects=seen_effects,
+        remedies=remedies(seen_effects, model, job.axis, proposal),
         findings={
             standard.designation: tuple(standard.requirements(test, options))
             for standard, options in standards

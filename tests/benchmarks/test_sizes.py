@@ -7,13 +7,13 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
+from hidden_effects.drawn_axes import drawn_linear_test, drawn_rotary_test
+from hidden_effects.sizes import base_columns, beyond, drawn_theta, scaled_effect
 from simulation.describing import EFFECTS
 from zlmreport.model.design import Design
 from zlmreport.planning.methods import Method
 from zlmreport.simulation.description import Description
-from zlmreport.simulation.drawing import drawn_linear_test, drawn_rotary_test
 from zlmreport.simulation.simulate import design_of, deviation_by
-from zlmreport.simulation.visibility import base_columns, beyond, drawn_theta, scaled_effect
 
 BASE = [EFFECTS["polynomial"], EFFECTS["backlash"]]
 DRAWN = {"linear": drawn_linear_test, "rotary": drawn_rotary_test}

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from zlmreport.simulation.courses import true_course
-from zlmreport.simulation.description import Course
+from zlmreport.simulation.description import Course, true_course
 
 TIME = np.array([0.0, 100.0, 200.0, 400.0])
 

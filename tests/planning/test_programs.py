@@ -5,13 +5,12 @@ from __future__ import annotations
 import pytest
 
 from zlmreport.errors import InputError, Place
-from zlmreport.foresight.motion import motion_of
-from zlmreport.foresight.program_text import program_number
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.axis import Axis
 from zlmreport.planning.methods import Method
+from zlmreport.planning.plan import Plan
+from zlmreport.planning.programs import motion_of, program_number
 from zlmreport.quantities.arrays import read_only_floats
-from zlmreport.simulation.description import Plan
 from zlmreport.testing import sample_motion
 
 PLACE = Place("job.yaml", 3, 4)

@@ -5,12 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from foresight.planned import REGISTRY, WHOLE_PITCHES, planned_job
+from planning.planned import REGISTRY, WHOLE_PITCHES, planned_job
 from zlmreport import pipeline
 from zlmreport.errors import InputError
-from zlmreport.foresight.numbers import as_measured
-from zlmreport.foresight.proposal import Proposal, propose, seed_of
 from zlmreport.planning.methods import Method
+from zlmreport.planning.plan import Proposal, as_measured, propose, seed_of
 
 
 def _proposed(*changes: tuple[str, str]) -> Proposal:

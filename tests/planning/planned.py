@@ -6,10 +6,10 @@ from functools import cache
 from pathlib import Path
 
 from zlmreport import pipeline
-from zlmreport.foresight.foresee import Foresight, foresee
-from zlmreport.foresight.outlook import Prospect
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
+from zlmreport.planning.planned_test import PlannedTest, planned_test
+from zlmreport.planning.visibility import SeenEffect
 from zlmreport.plugins import Plugin, collect
 from zlmreport_plugins import effects
 from zlmreport_plugins.part_programs import fanuc, heidenhain, linuxcnc
@@ -52,11 +52,11 @@ def planned_job(*changes: tuple[str, str]) -> Job:
 
 
 @cache
-def foreseen(*changes: tuple[str, str]) -> Foresight:
+def plan_of_test(*changes: tuple[str, str]) -> PlannedTest:
     job = planned_job(*changes)
-    return foresee(job, pipeline.standards(job, REGISTRY), REGISTRY.effects)
+    return planned_test(job, pipeline.standards(job, REGISTRY), REGISTRY.effects)
 
 
-def prospect(foresight: Foresight, effect: str) -> Prospect:
-    (found,) = (each for each in foresight.prospects if each.effect.identifier == effect)
+def sight_of(planned: PlannedTest, effect: str) -> SeenEffect:
+    (found,) = (each for each in planned.seen_effects if each.effect.identifier == effect)
     return found

@@ -1,0 +1,296 @@
+"""What a plan will see of each installed effect, and what to change so that it sees what it hides.
+
+Each change is tried, none is advised untried.
+"""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from enum import Enum
+from functools import reduce
+
+from zlmreport.language import Words
+from zlmreport.measurement.axis import Axis
+from zlmreport.model import needs
+from zlmreport.model.axis_model import AxisModel, ModelError, refuse_collisions
+from zlmreport.model.design import Design
+from zlmreport.model.effect import Effect
+from zlmreport.model.report import listed
+from zlmreport.model.visibility import Visibility, plan_visibility
+from zlmreport.planning.methods import Method, Visit, path, planned_design, visits
+from zlmreport.planning.plan import Expected, Plan, Proposal, expected_conditions
+from zlmreport.planning.targets import drawn_targets, periods_at_phases, usual_overrun
+from zlmreport.quantities.arrays import FloatArray
+
+#: Share of an effect that a plan sees, below which it hides it.
+HIDDEN_SHARE = 0.1
+#: With more targets than these or more runs, one more is no remedy worth the time.
+_MANY_TARGETS, _MANY_RUNS = 21, 5
+
+_BOUND_TO_POSITION = Words(
+    en="in this sequence time runs along with the position",
+    de="bei dieser Abfolge läuft die Zeit mit der Position mit",
+)
+_SAME_PHASE = Words(
+    en="all targets lie at the same phase of {periods}",
+    de="alle Zielpositionen liegen bei derselben Phase {periods}",
+)
+_MEASURE_LINEARLY = Words(en="measure by the linear method", de="nach dem Linearverfahren messen")
+_RANDOM_FRACTIONS = Words(
+    en="choose targets with a random fraction", de="Zielpositionen mit zufälligem Anteil wählen"
+)
+_MORE_TARGETS = Words(
+    en="take {count} targets with random fractions", de="{count} Zielpositionen mit zufälligem Anteil nehmen"
+)
+_MORE_RUNS = Words(en="measure {runs} runs", de="{runs} Durchläufe messen")
+_LIVELIER = Words(
+    en="measure while there are larger changes of {logs}",
+    de="messen, während sich {logs} stärker ändern",
+)
+_IMITATED = Words(en="{effect} imitates it", de="{effect} ahmt ihn nach")
+
+
+class Sight(Enum):
+    """How far a plan sees an effect."""
+
+    VISIBLE = "visible"
+    #: All that is plausible of it stays below what would be found.
+    TOO_SMALL = "too small"
+    #: The model imitates all or nearly all of it.
+    HIDDEN = "hidden"
+    #: The job does not state what it needs, or the test does not have it.
+    NOT_TESTABLE = "not testable"
+    #: It belongs to axes of the other kind.
+    OTHER_AXIS = "other axis"
+
+
+@dataclass(frozen=True, slots=True)
+class SeenEffect:
+    """What a plan sees of an effect.
+
+    Attributes
+    ----------
+    effect
+        The effect.
+    sight
+        How far it is seen.
+    visibility
+        The numbers.
+    logs
+        Columns that must be logged beside the readings for it to be tried.
+    """
+
+    effect: Effect
+    sight: Sight
+    visibility: Visibility
+    logs: tuple[str, ...]
+
+
+def planned_visits(plan: Plan) -> tuple[Visit, ...]:
+    """Return the readings of a plan in their order."""
+    return visits(path(plan.method, plan.targets.tolist(), plan.runs, plan.overrun))
+
+
+def expected_design(axis: Axis, plan: Plan, expected: Expected) -> Design:
+    """Return a planned test with the conditions that are expected, all of them logged."""
+    design = planned_design(axis, plan.targets, planned_visits(plan), plan.feed, plan.dwell)
+    return replace(design, conditions=expected_conditions(expected.temperature_change, design.time))
+
+
+def determined(model: AxisModel, design: Design) -> AxisModel:
+    """Return the part of a model that a planned test determines; the rest it cannot see or not tell apart."""
+    kept = AxisModel(())
+    for term in model.terms:
+        if term.effect.untestable(design) is None:
+            extended = AxisModel((*kept.terms, term))
+            columns = [each.columns(design, each.grid(design)[0])[0] for each in extended.terms]
+            with contextlib.suppress(ModelError):
+                refuse_collisions(extended, columns)
+                kept = extended
+    return kept
+
+
+def effects_seen(
+    model: AxisModel, design: Design, effects: Sequence[Effect], expected: Expected
+) -> tuple[SeenEffect, ...]:
+    """Return what a planned test sees of every installed effect, best seen first.
+
+    Parameters
+    ----------
+    model
+        The effects that are taken for granted, all of which the test determines.
+    design
+        The plan with the conditions that are expected.
+    effects
+        All that are installed.
+    expected
+        Above all the repeatability.
+
+    Notes
+    -----
+    An effect that stands in the model is left out unless it has forms of more parameters.
+    """
+    by_identifier = {effect.identifier: effect for effect in effects}
+    found = []
+    for seen in plan_visibility(model, design, effects, expected.sigma):
+        effect = by_identifier[seen.effect]
+        found.append(SeenEffect(effect, _sight(effect, seen, design), seen, logs_of(effect, design)))
+    order = list(Sight)
+    return tuple(sorted(found, key=lambda each: (order.index(each.sight), -each.visibility.share)))
+
+
+def logs_of(effect: Effect, design: Design) -> tuple[str, ...]:
+    """Return the columns that an effect asks for, whether a course of them can be expected or not."""
+    asked = _Asked(design.conditions)
+    effect.untestable(replace(design, conditions=asked))
+    return tuple(asked.names)
+
+
+def _sight(effect: Effect, seen: Visibility, design: Design) -> Sight:
+    if seen.reason is not None and effect.untestable(design) is not None:
+        other = seen.reason in (needs.linear_axis(design), needs.rotary_axis(design))
+        return Sight.OTHER_AXIS if other else Sight.NOT_TESTABLE
+    if seen.share < HIDDEN_SHARE:
+        return Sight.HIDDEN
+    return Sight.TOO_SMALL if _is_beyond_all_that_is_plausible(seen) else Sight.VISIBLE
+
+
+def _is_beyond_all_that_is_plausible(seen: Visibility) -> bool:
+    if seen.smallest is None:
+        return False
+    parameter, smallest = seen.smallest
+    plausible = [abs(limit) for limit in (parameter.smallest, parameter.largest) if limit is not None]
+    return parameter.largest is not None and smallest > max(plausible)
+
+
+@dataclass(frozen=True, slots=True)
+class _Asked(Mapping[str, FloatArray]):
+    """Conditions that remember which of them somebody asked for."""
+
+    known: Mapping[str, FloatArray]
+    names: dict[str, None] = field(default_factory=dict)
+
+    def __getitem__(self, name: str) -> FloatArray:
+        self.names[name] = None
+        return self.known[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.known)
+
+    def __len__(self) -> int:
+        return len(self.known)
+
+
+@dataclass(frozen=True, slots=True)
+class Remedy:
+    """What to do about an effect that a plan hides.
+
+    Attributes
+    ----------
+    reason
+        Why the plan hides it; None where nothing better is known than that the model imitates it.
+    advice
+        What to change.
+    share
+        What would then be visible of it; None where another measurement is advised.
+    """
+
+    reason: Words | None
+    advice: Words
+    share: float | None
+
+
+@dataclass(frozen=True, slots=True)
+class _Change:
+    reason: Words | None
+    advice: Words
+    changed: Callable[[Plan], Plan]
+
+
+def remedies(
+    seen_effects: Sequence[SeenEffect], model: AxisModel, axis: Axis, proposal: Proposal
+) -> dict[str, Remedy]:
+    """Return what to do about each effect that a plan hides, by its identifier, where something helps.
+
+    Parameters
+    ----------
+    seen_effects
+        What the plan sees.
+    model
+        The effects that the job takes for granted.
+    axis
+        The axis.
+    proposal
+        The plan.
+    """
+    plan, expected = proposal.plan, proposal.expected
+    blurred = [each for each in seen_effects if each.sight in {Sight.HIDDEN, Sight.TOO_SMALL}]
+    found: dict[str, Remedy] = {}
+    for change in _changes(axis, plan, proposal.seed):
+        left = [each.effect for each in blurred if each.effect.identifier not in found]
+        if not left:
+            break
+        design = expected_design(axis, change.changed(plan), expected)
+        for then in effects_seen(determined(model, design), design, left, expected):
+            if then.sight is Sight.VISIBLE:
+                found[then.effect.identifier] = Remedy(change.reason, change.advice, then.visibility.share)
+    for each in blurred:
+        remedy = _another_measurement(each, model)
+        if remedy:
+            found.setdefault(each.effect.identifier, remedy)
+    return found
+
+
+def _another_measurement(seen: SeenEffect, model: AxisModel) -> Remedy | None:
+    """Return what else would show an effect: livelier conditions, or what its author knows."""
+    if seen.sight is Sight.TOO_SMALL:
+        return Remedy(None, _LIVELIER.given(logs=", ".join(seen.logs)), None) if seen.logs else None
+    for confusion in seen.effect.confusions:
+        if confusion.effect in model.identifiers:
+            return Remedy(_IMITATED.given(effect=confusion.effect), confusion.told_apart_by, None)
+    return None
+
+
+def _changes(axis: Axis, plan: Plan, seed: int) -> Iterator[_Change]:
+    """Yield changes of a plan, each alone, and in the end all together."""
+    of_targets, of_sequence = list(_of_targets(axis, plan, seed)), list(_of_sequence(plan))
+    yield from (*of_targets, *of_sequence)
+    together = [*of_targets[-1:], *of_sequence]
+    if len(together) > 1:
+        yield _together(together)
+
+
+def _together(changes: Sequence[_Change]) -> _Change:
+    return _Change(
+        None,
+        listed([change.advice for change in changes]),
+        lambda plan: reduce(lambda changed, change: change.changed(changed), changes, plan),
+    )
+
+
+def _of_sequence(plan: Plan) -> Iterator[_Change]:
+    if plan.method is not Method.LINEAR:
+        reason = None if plan.method is Method.UNIDIRECTIONAL else _BOUND_TO_POSITION
+        yield _Change(reason, _MEASURE_LINEARLY, lambda each: replace(each, method=Method.LINEAR))
+    if plan.runs < _MANY_RUNS:
+        advice = _MORE_RUNS.given(runs=_MANY_RUNS)
+        yield _Change(None, advice, lambda each: replace(each, runs=_MANY_RUNS))
+
+
+def _of_targets(axis: Axis, plan: Plan, seed: int) -> Iterator[_Change]:
+    """Yield other targets; the last change has all that those before it have."""
+    spread_over = axis if axis.travel else replace(axis, travel=(plan.targets[0], plan.targets[-1]))
+    overrun = min(plan.overrun, usual_overrun(spread_over))
+
+    def drawn(each: Plan, count: int) -> Plan:
+        return replace(each, targets=drawn_targets(spread_over, count, overrun, None, seed))
+
+    blind = periods_at_phases(axis, plan.targets, 1)
+    if blind:
+        reason = _SAME_PHASE.given(periods=listed(blind))
+        yield _Change(reason, _RANDOM_FRACTIONS, lambda each: drawn(each, len(each.targets)))
+    if len(plan.targets) < _MANY_TARGETS:
+        advice = _MORE_TARGETS.given(count=_MANY_TARGETS)
+        yield _Change(None, advice, lambda each: drawn(each, _MANY_TARGETS))
