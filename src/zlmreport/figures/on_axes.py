@@ -1,0 +1,140 @@
+"""A figure on given axes of matplotlib: for notebooks, and for pages of one's own.
+
+This is the one place that knows matplotlib, and it is imported by nothing that makes a certificate. Layout,
+brackets and labels are those of the page; they become artists at the values that they stand for, so axes
+can be zoomed, and drawn upon further. Ticks and titles are the axes' own.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import chain
+from typing import TYPE_CHECKING
+
+import numpy as np
+from matplotlib import rc_context
+from matplotlib.artist import Artist
+from matplotlib.font_manager import FontProperties
+from matplotlib.lines import Line2D
+from matplotlib.patches import PathPatch
+from matplotlib.path import Path
+from matplotlib.text import Annotation
+
+from zlmreport.figures.canvas import Face
+from zlmreport.figures.figure import Figure
+from zlmreport.figures.frame import Frame
+from zlmreport.figures.layout import axis_title, lay_out_alone
+from zlmreport.figures.metrics import font_file
+from zlmreport.figures.shapes import Lettering, Marks, Outline, Shape
+from zlmreport.figures.sketch import legend_shapes, panel_shapes
+from zlmreport.figures.style import TEXT_SIZE, TICK_TEXT_SIZE, Mark
+from zlmreport.language import Language
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+#: What the axes draw themselves.
+_OF_AXES = frozenset({"frame", "tick", "tick x", "tick y"})
+_MARKERS = {Mark.UP: "^", Mark.DOWN: "v", Mark.DISC: "o"}
+_POINTS_PER_INCH = 72
+
+
+def put(figure: Figure, axes: Axes | Sequence[Axes], language: Language = Language.ENGLISH) -> None:
+    """Draw a figure on axes: on one for each of its panels, from top to bottom.
+
+    Parameters
+    ----------
+    figure
+        What is drawn.
+    axes
+        Empty ones, in the size that they will have; legend and brackets stand inside.
+    language
+        Of titles and legends.
+
+    Raises
+    ------
+    ValueError
+        If there are not as many axes as panels.
+    """
+    all_axes = list(axes) if isinstance(axes, Sequence | np.ndarray) else [axes]
+    if len(all_axes) != len(figure.panels):
+        raise ValueError(f"a figure of {len(figure.panels)} panels needs as many axes, not {len(all_axes)}")
+    for number, each in enumerate(all_axes):
+        with rc_context({"lines.scale_dashes": False}):  # dashes are told in points
+            _put_panel(figure, number, each, language)
+
+
+def _put_panel(figure: Figure, number: int, axes: Axes, language: Language) -> None:
+    to_points = _POINTS_PER_INCH / axes.figure.dpi
+    width, height = axes.bbox.width * to_points, axes.bbox.height * to_points
+    layout = lay_out_alone(figure, number, language, width, height)
+    frame, is_lowest = layout.frame, number == len(figure.panels) - 1
+    _set_axes(figure, frame, axes, language, (width, height), is_lowest=is_lowest)
+    shapes = chain(panel_shapes(layout, is_lowest=is_lowest), legend_shapes(layout))
+    drawn = (artist for shape in shapes if shape.kind not in _OF_AXES for artist in _artists(shape, frame))
+    for place, artist in enumerate(drawn):
+        artist.set_zorder(1 + place / 1000)  # from back to front, as they come
+        axes.add_artist(artist)
+
+
+def _set_axes(
+    figure: Figure, frame: Frame, axes: Axes, language: Language, size: tuple[float, float], *, is_lowest: bool
+) -> None:
+    """Set scales, ticks and titles; the frame is a part of the axes, the rest holds legend and brackets."""
+    (left, bottom), (right, top) = frame.values(np.array([(0.0, 0.0), size])).tolist()
+    axes.set(xlim=(left, right), ylim=(bottom, top))
+    for side in ("top", "right"):
+        axes.spines[side].set_visible(False)
+    axes.spines["bottom"].set_bounds(frame.x_scale.lower, frame.x_scale.upper)
+    axes.spines["left"].set_bounds(frame.y_scale.lower, frame.y_scale.upper)
+    small, font = _font(Face.REGULAR, TICK_TEXT_SIZE), _font(Face.REGULAR, TEXT_SIZE)
+    axes.set_xticks(frame.x_scale.ticks, frame.x_scale.labels if is_lowest else None, fontproperties=small)
+    axes.set_xticks(frame.x_scale.marks, minor=True)
+    axes.set_yticks(frame.y_scale.ticks, frame.y_scale.labels, fontproperties=small)
+    axes.set_ylabel(axis_title(figure.y_title, figure.y_unit, language), fontproperties=font)
+    if is_lowest:
+        axes.set_xlabel(axis_title(figure.x_title, figure.x_unit, language), fontproperties=font)
+    else:
+        axes.tick_params(labelbottom=False)
+
+
+def _artists(shape: Shape, frame: Frame) -> Sequence[Artist]:
+    """Return what draws a shape, at values of the frame."""
+    match shape:
+        case Outline():
+            parts = shape.parts if shape.frame else [frame.values(part) for part in shape.parts]
+            paths = (Path(part, closed=shape.is_closed) for part in parts)
+            return [PathPatch(Path.make_compound_path(*paths), **_look(shape), capstyle="butt", joinstyle="miter")]
+        case Marks():
+            points = shape.points if shape.frame else frame.values(shape.points)
+            rim = {"mew": shape.stroke.width, "mec": shape.stroke.colour} if shape.stroke else {"mew": 0.0}
+            inside = shape.fill.colour if shape.fill else "none"
+            return [Line2D(*points.T, ls="none", marker=_MARKERS[shape.mark], ms=shape.size, mfc=inside, **rim)]
+        case Lettering():
+            placed = shape.placed
+            ((x, y),) = frame.values(np.array([(placed.x, placed.y)])).tolist()
+            return [
+                Annotation(
+                    run.text,
+                    (x, y),
+                    (run.x, -run.y),
+                    textcoords="offset points",
+                    fontproperties=_font(run.face, run.size),
+                    color=shape.colour,
+                    parse_math=False,
+                )
+                for run in placed.label.runs
+            ]
+
+
+def _look(outline: Outline) -> dict[str, object]:
+    stroke, fill = outline.stroke, outline.fill
+    inside = (*fill.colour, fill.opacity) if fill else "none"
+    if stroke is None:
+        return {"facecolor": inside, "edgecolor": "none", "linewidth": 0.0}
+    dashes = (0.0, stroke.dashes) if stroke.dashes else "solid"
+    return {"facecolor": inside, "edgecolor": stroke.colour, "linewidth": stroke.width, "linestyle": dashes}
+
+
+def _font(face: Face, size: float) -> FontProperties:
+    return FontProperties(fname=str(font_file(face)), size=size)
