@@ -21,8 +21,8 @@ from zlmreport.figures.figure import (
     Readings,
     Role,
 )
-from zlmreport.figures.frame import Box
-from zlmreport.figures.lettering import plain_label
+from zlmreport.figures.metrics import plain_label
+from zlmreport.figures.shapes import Box
 from zlmreport.language import Language, Words
 from zlmreport.measurement.approach import Approach
 from zlmreport.quantities.arrays import FloatArray

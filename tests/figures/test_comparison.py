@@ -9,9 +9,9 @@ import pytest
 
 from typesetting import samples
 from zlmreport.evaluation.evaluation import Evaluation
-from zlmreport.figures.comparison import comparison_graph
 from zlmreport.figures.figure import Figure, Role
 from zlmreport.figures.layout import lay_out
+from zlmreport.figures.prescribed import comparison_graph
 from zlmreport.language import Language, Words
 from zlmreport.measurement.approach import Approach
 from zlmreport.quantities.arrays import read_only_floats

@@ -18,7 +18,7 @@ from zlmreport.figures.dimensions import (
     margin_width,
     spread,
 )
-from zlmreport.figures.frame import Box, counts
+from zlmreport.figures.shapes import Box, counts
 
 NOTHING = np.empty((0, 2))
 REGION = Box(0.0, 0.0, 300.0, 200.0)

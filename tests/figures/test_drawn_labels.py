@@ -10,7 +10,7 @@ import pytest
 from figures.samples import ALL, ORDINARY, both_directions, drawn, each_direction, figure, pairs
 from zlmreport.figures.canvas import Face
 from zlmreport.figures.figure import Figure
-from zlmreport.figures.sketch import figure_size
+from zlmreport.figures.layout import figure_size
 from zlmreport.language import Language
 
 by_name = pytest.mark.parametrize("sample", ALL.values(), ids=ALL.keys())

@@ -203,3 +203,17 @@ def test_panels_with_spans_of_their_own_draw_lengths_each_in_its_own() -> None:
     canvas = drawn(ORDINARY["a panel of what another leaves"])
     upper, lower = (curve.points[:, 1] for curve in canvas.of("curve mean_positive"))
     assert np.ptp(lower) == pytest.approx(np.ptp(upper), rel=1e-6)
+
+
+def test_a_disc_is_as_wide_as_its_mark_and_round() -> None:
+    canvas = drawn(figure(both_directions()))
+    (marks,) = canvas.of("mark mean_bidirectional")
+    segments = marks.segments[: next(n for n, (operator, _) in enumerate(marks.segments) if operator == "Z")]
+    ends = np.array([points[-2:] for _, points in segments])
+    middle = (ends.min(axis=0) + ends.max(axis=0)) / 2
+    np.testing.assert_allclose(np.hypot(*(ends - middle).T), 3.8 / 2, rtol=1e-9)
+    # Half way along each curve a circle of four of them is true to 3 parts in 10 000.
+    for start, (_, curve) in zip(ends, segments[1:], strict=False):
+        points = np.array([start, *np.reshape(curve, (3, 2))])
+        half_way = np.array([1, 3, 3, 1]) @ points / 8
+        assert np.hypot(*(half_way - middle)) == pytest.approx(3.8 / 2, rel=3e-4)

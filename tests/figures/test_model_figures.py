@@ -22,10 +22,8 @@ from figures.model_samples import (
 )
 from figures.samples import drawn
 from zlmreport.figures.figure import Figure, Panel, Role
-from zlmreport.figures.model_diagram import ModelDiagram
-from zlmreport.figures.model_estimate import estimate
-from zlmreport.figures.model_fall import fall_chart
-from zlmreport.figures.model_residuals import over_condition, over_position, over_run, over_time
+from zlmreport.figures.model_diagram import ModelDiagram, estimate
+from zlmreport.figures.model_residuals import fall_chart, over_condition, over_position, over_run, over_time
 from zlmreport.language import Language
 from zlmreport.measurement.approach import Approach
 from zlmreport.quantities.arrays import FloatArray

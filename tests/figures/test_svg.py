@@ -7,32 +7,15 @@ import sys
 from concurrent.futures import ThreadPoolExecutor
 from xml.etree import ElementTree as ET
 
-import matplotlib as mpl
 import pytest
 
 from figures.samples import ALL, both_directions, figure
 from zlmreport.figures.draw import to_svg
 from zlmreport.figures.figure import Figure
-from zlmreport.figures.sketch import figure_size
+from zlmreport.figures.layout import figure_size
 from zlmreport.language import Language, same
 
 SVG = "{http://www.w3.org/2000/svg}"
-
-#: Settings that a user's matplotlibrc may hold, each of which alters what matplotlib draws by itself.
-UNUSUAL = {
-    "lines.linewidth": 5.0,
-    "lines.scale_dashes": False,
-    "path.simplify_threshold": 1.0,
-    "path.sketch": (1.0, 100.0, 2.0),
-    "font.size": 30.0,
-    "font.family": "serif",
-    "figure.dpi": 300.0,
-    "figure.constrained_layout.use": True,
-    "savefig.dpi": 600.0,
-    "text.usetex": True,
-    "axes.unicode_minus": False,
-    "figure.facecolor": "red",
-}
 
 
 def _svg(language: Language = Language.ENGLISH) -> ET.Element:
@@ -105,26 +88,6 @@ def test_another_process_gives_the_same_bytes() -> None:
     tests = __file__.rsplit("/figures/", 1)[0]
     other = subprocess.run([sys.executable, "-c", program, tests], capture_output=True, check=True)
     assert other.stdout.decode() == to_svg(figure(both_directions()), Language.GERMAN)
-
-
-def test_settings_of_matplotlib_change_nothing() -> None:
-    plain = to_svg(figure(both_directions()), Language.ENGLISH)
-    with mpl.rc_context(UNUSUAL):
-        assert to_svg(figure(both_directions()), Language.ENGLISH) == plain
-
-
-def test_drawing_changes_no_setting_of_matplotlib() -> None:
-    before = dict(mpl.rcParams)
-    to_svg(figure(both_directions()), Language.ENGLISH)
-    assert dict(mpl.rcParams) == before
-
-
-def test_drawing_leaves_pyplot_alone() -> None:
-    program = (
-        "import sys; from zlmreport.figures import draw;"
-        "sys.exit('matplotlib.pyplot' in sys.modules or 'matplotlib.backends.backend_agg' in sys.modules)"
-    )
-    subprocess.run([sys.executable, "-c", program], check=True)
 
 
 def test_threads_draw_alike() -> None:

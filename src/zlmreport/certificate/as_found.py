@@ -22,8 +22,8 @@ from zlmreport.certificate.document import (
 from zlmreport.certificate.facts import Fact, stated
 from zlmreport.certificate.results import Evaluated
 from zlmreport.certificate.scribe import Scribe
-from zlmreport.figures.comparison import comparison_graph
 from zlmreport.figures.figure import Figure
+from zlmreport.figures.prescribed import comparison_graph
 from zlmreport.job.measurement_keys import AsFound
 from zlmreport.language import Words
 from zlmreport.measurement.measurement_set import MeasurementSet

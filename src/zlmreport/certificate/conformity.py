@@ -22,7 +22,7 @@ from zlmreport.certificate.rounding import with_uncertainty
 from zlmreport.certificate.scribe import NOTHING, Scribe
 from zlmreport.evaluation.conformity import Conformity
 from zlmreport.evaluation.evaluation import Evaluation, Parameter
-from zlmreport.figures.conformity import conformity_graph
+from zlmreport.figures.bars import conformity_graph
 from zlmreport.job.evaluation_keys import DecisionRuleKeys
 from zlmreport.language import Words
 from zlmreport.quantities.formatting import fixed_number

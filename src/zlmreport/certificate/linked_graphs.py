@@ -7,8 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from zlmreport.figures.model_diagram import SPREAD, ModelDiagram
-from zlmreport.figures.model_estimate import estimate
+from zlmreport.figures.model_diagram import SPREAD, ModelDiagram, estimate
 from zlmreport.figures.model_residuals import over_position
 from zlmreport.language import Language, Words, same
 from zlmreport.measurement.measurement_set import CONDITION_NAMES, CONDITIONS

@@ -15,10 +15,8 @@ from zlmreport.certificate.model_tables import ModelTables
 from zlmreport.certificate.opinions import OPINION
 from zlmreport.certificate.scribe import Scribe
 from zlmreport.figures.figure import Figure
-from zlmreport.figures.model_diagram import ModelDiagram
-from zlmreport.figures.model_estimate import estimate
-from zlmreport.figures.model_fall import fall_chart
-from zlmreport.figures.model_residuals import over_condition, over_position, over_run, over_time
+from zlmreport.figures.model_diagram import ModelDiagram, estimate
+from zlmreport.figures.model_residuals import fall_chart, over_condition, over_position, over_run, over_time
 from zlmreport.language import Language, Words
 from zlmreport.model import wording
 from zlmreport.model.diagnosis import Diagnosis, Verdict

@@ -19,7 +19,7 @@ from zlmreport.certificate.document import (
     Table,
 )
 from zlmreport.certificate.scribe import Scribe
-from zlmreport.figures.budget_bars import budget_bars
+from zlmreport.figures.bars import budget_bars
 from zlmreport.language import Words
 from zlmreport.measurement.axis import Axis
 from zlmreport.quantities.formatting import fixed_number

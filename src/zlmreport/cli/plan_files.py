@@ -32,7 +32,7 @@ def plan_files(folder: Path, job: Job, planned: PlannedTest) -> tuple[Document, 
 
 
 def _picture(job: Job, planned: PlannedTest) -> str:
-    from zlmreport.figures.draw import to_svg  # noqa: PLC0415 (brings matplotlib)
+    from zlmreport.figures.draw import to_svg  # noqa: PLC0415 (brings the typeface)
 
     keys = job.keys.certificate
     motion = motion_of(keys.number, job.axis, planned.proposal.plan, job.place_of("plan"))

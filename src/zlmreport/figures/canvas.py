@@ -1,7 +1,7 @@
 """What a figure is drawn on: outlines and lines of text, and nothing else.
 
 A canvas measures in points, from its upper left corner, y downwards. Whoever writes a file format
-implements `Canvas`; only the drawing modules beside this one know matplotlib.
+implements `Canvas`.
 """
 
 from __future__ import annotations

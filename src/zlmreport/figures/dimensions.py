@@ -10,7 +10,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
 from zlmreport.figures.canvas import Label
-from zlmreport.figures.frame import Box, PlacedLabel, counts
+from zlmreport.figures.shapes import Box, PlacedLabel, counts
 from zlmreport.quantities.arrays import FloatArray
 
 #: Length of an arrow head, and half its width.

@@ -9,10 +9,9 @@ import numpy as np
 
 from zlmreport.figures.canvas import Canvas, Run, Segment
 from zlmreport.figures.figure import Figure
-from zlmreport.figures.frame import Frame
-from zlmreport.figures.layout import lay_out
-from zlmreport.figures.shapes import Lettering, Marks, Outline
-from zlmreport.figures.sketch import figure_size, sketch
+from zlmreport.figures.layout import figure_size, lay_out
+from zlmreport.figures.shapes import Frame, Lettering, Marks, Outline
+from zlmreport.figures.sketch import sketch
 from zlmreport.figures.style import TRIANGLE_HALF_WIDTH, Mark
 from zlmreport.figures.svg import SvgCanvas
 from zlmreport.language import Language

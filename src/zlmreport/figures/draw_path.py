@@ -10,7 +10,7 @@ import numpy as np
 from zlmreport.figures.canvas import Canvas, Face, Fill, Label, Run, Segment, Stroke
 from zlmreport.figures.figure import Role
 from zlmreport.figures.layout import WIDTH
-from zlmreport.figures.lettering import plain_label
+from zlmreport.figures.metrics import plain_label
 from zlmreport.figures.path_views import Note, Touch, View, path_views
 from zlmreport.figures.scale import round_ticks
 from zlmreport.figures.style import DIMENSION, EXTENSION, FRAME, GROUND, INK, ROLES, TEXT_SIZE

@@ -10,15 +10,21 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from zlmreport.figures.canvas import Label
 from zlmreport.figures.figure import Figure, Panel
-from zlmreport.figures.frame import Box, Frame, PlacedLabel
-from zlmreport.figures.legend import LEGEND_GAP, LegendLayout, lay_out_legend
-from zlmreport.figures.lettering import plain_label
-from zlmreport.figures.panel_layout import PanelLayout, bracket_width, lay_out_panel, level_width
+from zlmreport.figures.metrics import plain_label
+from zlmreport.figures.panel_layout import (
+    LEGEND_GAP,
+    LegendLayout,
+    PanelLayout,
+    bracket_width,
+    lay_out_legend,
+    lay_out_panel,
+    level_width,
+)
 from zlmreport.figures.scale import Scale, category_scale, position_scale, value_scales
+from zlmreport.figures.shapes import Box, Frame, PlacedLabel
 from zlmreport.figures.style import TEXT_SIZE, TICK_TEXT_SIZE
-from zlmreport.language import Language
+from zlmreport.language import Language, Words
 from zlmreport.quantities.arrays import FloatArray
 
 _MILLIMETRE = 72 / 25.4
@@ -32,6 +38,7 @@ TICK_LENGTH = 3.0
 TICK_GAP = 2.5
 _TITLE_GAP = 4.0
 _PANEL_GAP = 10.0
+_LEAST_FRAME = 72.0
 _EDGE = 2.0
 #: Beside the frame at least: half the label of a tick at its end.
 _LEAST_MARGIN = 6.0
@@ -55,15 +62,15 @@ class FigureLayout:
     titles: tuple[PlacedLabel, ...]
 
 
-def figure_height(figure: Figure) -> float:
-    """Return the height of a figure in points; it depends on nothing but the number of panels and bars."""
+def figure_size(figure: Figure) -> tuple[float, float]:
+    """Return width and height of a figure in points; they depend on nothing but its panels and bars."""
     heights = (_HEIGHT_OF_BARS if panel.bars else _HEIGHT_OF_PANEL for panel in figure.panels)
-    return _HEIGHT_BESIDES + sum(heights)
+    return WIDTH, _HEIGHT_BESIDES + sum(heights)
 
 
 def lay_out(figure: Figure, language: Language) -> FigureLayout:
     """Return the places of everything in a figure."""
-    height = figure_height(figure)
+    _, height = figure_size(figure)
     has_bars = any(panel.bars for panel in figure.panels)
     bottom = _EDGE + 1.35 * TEXT_SIZE + _TITLE_GAP + TICK_TEXT_SIZE + TICK_GAP + TICK_LENGTH
     bottom += TICK_LINE if has_bars else 0.0
@@ -75,28 +82,45 @@ def lay_out(figure: Figure, language: Language) -> FigureLayout:
     levels = max(map(level_width, figure.panels), default=0.0)
     brackets = max(map(bracket_width, figure.panels), default=0.0)
     right = WIDTH - _EDGE - max(levels + brackets, _LEAST_MARGIN)
-    if has_bars:
-        names = [bar.label.in_language(language) for panel in figure.panels for bar in panel.bars]
-        x_scale = category_scale(names, right - left, _tick_width)
-    else:
-        x_scale = position_scale(
-            _positions(figure.panels), right - left, _POSITION_ROOM, language.decimal_sign, _tick_width
-        )
-
+    x_scale = _x_scale(figure, language, right - left)
     legends = [lay_out_legend(panel, language, WIDTH - _EDGE - left) for panel in figure.panels]
     boxes = _boxes(left, bottom, right, height, legends)
     panels = tuple(
         lay_out_panel(panel, Frame(box, x_scale, y_scale), legend, levels, language)
         for panel, box, y_scale, legend in zip(figure.panels, boxes, y_scales, legends, strict=True)
     )
-    x_title = _axis_title(figure.x_title.in_language(language), figure.x_unit)
-    y_title = _axis_title(figure.y_title.in_language(language), figure.y_unit)
+    x_title = plain_label(axis_title(figure.x_title, figure.x_unit, language), TEXT_SIZE)
+    y_title = plain_label(axis_title(figure.y_title, figure.y_unit, language), TEXT_SIZE)
     top = boxes[0].top if boxes else height
     titles = (
         PlacedLabel(x_title, (left + right - x_title.width) / 2, _EDGE + 0.35 * TEXT_SIZE),
         PlacedLabel(y_title, _EDGE + 0.8 * TEXT_SIZE, (bottom + top - y_title.width) / 2, 90.0),
     )
     return FigureLayout(WIDTH, height, panels, titles)
+
+
+def lay_out_alone(
+    figure: Figure, number: int, language: Language, width: float, height: float
+) -> PanelLayout:
+    """Return the places in one of a figure's panels that stands alone, in a room of points from (0, 0).
+
+    The frame begins in the room's corner: ticks and titles have their places outside.
+    """
+    panel = figure.panels[number]
+    legend = lay_out_legend(panel, language, width)
+    levels = level_width(panel)
+    right = max(width - levels - bracket_width(panel), _LEAST_FRAME)
+    top = max(height - legend.height - LEGEND_GAP, _LEAST_FRAME)
+    frame = Frame(
+        Box(0.0, 0.0, right, top), _x_scale(figure, language, right), _y_scales(figure, language, top)[number]
+    )
+    return lay_out_panel(panel, frame, legend, levels, language)
+
+
+def axis_title(quantity: Words, unit: str, language: Language) -> str:
+    """Return what stands at an axis."""
+    text = quantity.in_language(language)
+    return f"{text} in {unit}" if unit else text
 
 
 def _boxes(left: float, bottom: float, right: float, top: float, legends: list[LegendLayout]) -> list[Box]:
@@ -111,12 +135,17 @@ def _boxes(left: float, bottom: float, right: float, top: float, legends: list[L
     return boxes
 
 
-def _axis_title(text: str, unit: str) -> Label:
-    return plain_label(f"{text} in {unit}" if unit else text, TEXT_SIZE)
-
-
 def _tick_width(text: str) -> float:
     return plain_label(text, TICK_TEXT_SIZE).width
+
+
+def _x_scale(figure: Figure, language: Language, width: float) -> Scale:
+    """Return the scale along the lower edge: of categories where there are bars, else of positions."""
+    names = [bar.label.in_language(language) for panel in figure.panels for bar in panel.bars]
+    if names:
+        return category_scale(names, width, _tick_width)
+    positions = _positions(figure.panels)
+    return position_scale(positions, width, _POSITION_ROOM, language.decimal_sign, _tick_width)
 
 
 def _y_scales(figure: Figure, language: Language, height: float) -> tuple[Scale, ...]:

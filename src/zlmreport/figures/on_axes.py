@@ -22,10 +22,9 @@ from matplotlib.text import Annotation
 
 from zlmreport.figures.canvas import Face
 from zlmreport.figures.figure import Figure
-from zlmreport.figures.frame import Frame
 from zlmreport.figures.layout import axis_title, lay_out_alone
 from zlmreport.figures.metrics import font_file
-from zlmreport.figures.shapes import Lettering, Marks, Outline, Shape
+from zlmreport.figures.shapes import Frame, Lettering, Marks, Outline, Shape
 from zlmreport.figures.sketch import legend_shapes, panel_shapes
 from zlmreport.figures.style import TEXT_SIZE, TICK_TEXT_SIZE, Mark
 from zlmreport.language import Language
@@ -66,36 +65,34 @@ def put(figure: Figure, axes: Axes | Sequence[Axes], language: Language = Langua
 
 def _put_panel(figure: Figure, number: int, axes: Axes, language: Language) -> None:
     to_points = _POINTS_PER_INCH / axes.figure.dpi
-    width, height = axes.bbox.width * to_points, axes.bbox.height * to_points
-    layout = lay_out_alone(figure, number, language, width, height)
-    frame, is_lowest = layout.frame, number == len(figure.panels) - 1
-    _set_axes(figure, frame, axes, language, (width, height), is_lowest=is_lowest)
+    size = axes.bbox.width * to_points, axes.bbox.height * to_points
+    layout = lay_out_alone(figure, number, language, *size)
+    is_lowest = number == len(figure.panels) - 1
+    _set_scales(layout.frame, axes, size, is_lowest=is_lowest)
+    font = _font(Face.REGULAR, TEXT_SIZE)
+    axes.set_ylabel(axis_title(figure.y_title, figure.y_unit, language), fontproperties=font)
+    if is_lowest:
+        axes.set_xlabel(axis_title(figure.x_title, figure.x_unit, language), fontproperties=font)
     shapes = chain(panel_shapes(layout, is_lowest=is_lowest), legend_shapes(layout))
-    drawn = (artist for shape in shapes if shape.kind not in _OF_AXES for artist in _artists(shape, frame))
-    for place, artist in enumerate(drawn):
+    own = (shape for shape in shapes if shape.kind not in _OF_AXES)
+    for place, artist in enumerate(artist for shape in own for artist in _artists(shape, layout.frame)):
         artist.set_zorder(1 + place / 1000)  # from back to front, as they come
         axes.add_artist(artist)
 
 
-def _set_axes(
-    figure: Figure, frame: Frame, axes: Axes, language: Language, size: tuple[float, float], *, is_lowest: bool
-) -> None:
-    """Set scales, ticks and titles; the frame is a part of the axes, the rest holds legend and brackets."""
+def _set_scales(frame: Frame, axes: Axes, size: tuple[float, float], *, is_lowest: bool) -> None:
+    """Set limits and ticks: the frame is a part of the axes, and the rest holds legend and brackets."""
     (left, bottom), (right, top) = frame.values(np.array([(0.0, 0.0), size])).tolist()
     axes.set(xlim=(left, right), ylim=(bottom, top))
     for side in ("top", "right"):
         axes.spines[side].set_visible(False)
     axes.spines["bottom"].set_bounds(frame.x_scale.lower, frame.x_scale.upper)
     axes.spines["left"].set_bounds(frame.y_scale.lower, frame.y_scale.upper)
-    small, font = _font(Face.REGULAR, TICK_TEXT_SIZE), _font(Face.REGULAR, TEXT_SIZE)
-    axes.set_xticks(frame.x_scale.ticks, frame.x_scale.labels if is_lowest else None, fontproperties=small)
+    font = _font(Face.REGULAR, TICK_TEXT_SIZE)
+    axes.set_xticks(frame.x_scale.ticks, frame.x_scale.labels, fontproperties=font)
     axes.set_xticks(frame.x_scale.marks, minor=True)
-    axes.set_yticks(frame.y_scale.ticks, frame.y_scale.labels, fontproperties=small)
-    axes.set_ylabel(axis_title(figure.y_title, figure.y_unit, language), fontproperties=font)
-    if is_lowest:
-        axes.set_xlabel(axis_title(figure.x_title, figure.x_unit, language), fontproperties=font)
-    else:
-        axes.tick_params(labelbottom=False)
+    axes.set_yticks(frame.y_scale.ticks, frame.y_scale.labels, fontproperties=font)
+    axes.tick_params(labelbottom=is_lowest)
 
 
 def _artists(shape: Shape, frame: Frame) -> Sequence[Artist]:
@@ -104,12 +101,16 @@ def _artists(shape: Shape, frame: Frame) -> Sequence[Artist]:
         case Outline():
             parts = shape.parts if shape.frame else [frame.values(part) for part in shape.parts]
             paths = (Path(part, closed=shape.is_closed) for part in parts)
-            return [PathPatch(Path.make_compound_path(*paths), **_look(shape), capstyle="butt", joinstyle="miter")]
+            return [
+                PathPatch(Path.make_compound_path(*paths), **_look(shape), capstyle="butt", joinstyle="miter")
+            ]
         case Marks():
             points = shape.points if shape.frame else frame.values(shape.points)
             rim = {"mew": shape.stroke.width, "mec": shape.stroke.colour} if shape.stroke else {"mew": 0.0}
             inside = shape.fill.colour if shape.fill else "none"
-            return [Line2D(*points.T, ls="none", marker=_MARKERS[shape.mark], ms=shape.size, mfc=inside, **rim)]
+            return [
+                Line2D(*points.T, ls="none", marker=_MARKERS[shape.mark], ms=shape.size, mfc=inside, **rim)
+            ]
         case Lettering():
             placed = shape.placed
             ((x, y),) = frame.values(np.array([(placed.x, placed.y)])).tolist()

@@ -96,19 +96,18 @@ if TYPE_CHECKING:
     from zlmreport.figures.canvas import Colour, Fill, Segment, Stroke
     from zlmreport.figures.canvas import Face as FontFace
     from zlmreport.figures.canvas import Run as TextRun
-    from zlmreport.figures.draw import draw as draw_with_matplotlib
+    from zlmreport.figures.draw import draw as draw_figure
     from zlmreport.figures.draw import to_svg as figure_to_svg
     from zlmreport.figures.figure import Arrow, Band, Bracket, Curve, Figure, Level, Panel, Role
+    from zlmreport.figures.layout import figure_size
     from zlmreport.figures.metrics import advance as text_advance
     from zlmreport.figures.metrics import has_letter, mark_offset
-    from zlmreport.figures.pen import draw as draw_figure
     from zlmreport.figures.prescribed import DIRECTIONS as APPROACH_TITLES
     from zlmreport.figures.prescribed import LIMITS as LIMIT_ROLES
     from zlmreport.figures.prescribed import MEANS as MEAN_ROLES
     from zlmreport.figures.prescribed import Diagram
     from zlmreport.figures.prescribed import panel as diagram_panel
     from zlmreport.figures.prescribed import worst as worst_position
-    from zlmreport.figures.sketch import figure_size
     from zlmreport.figures.svg import hexadecimal as hexadecimal_colour
     from zlmreport.job.document_keys import Customer, Laboratory
     from zlmreport.job.job import Job
@@ -507,15 +506,14 @@ _ROOMS = {
         "alternative_text=text graph_in_words=graph_of marks_in_words=marks range_in_words=range_of"
     ),
     "zlmreport.figures.canvas": "Colour Fill FontFace=Face Segment Stroke TextRun=Run",
-    "zlmreport.figures.draw": "draw_with_matplotlib=draw figure_to_svg=to_svg",
+    "zlmreport.figures.draw": "draw_figure=draw figure_to_svg=to_svg",
     "zlmreport.figures.figure": "Arrow Band Bracket Curve Figure Level Panel Role",
+    "zlmreport.figures.layout": "figure_size",
     "zlmreport.figures.metrics": "has_letter mark_offset text_advance=advance",
-    "zlmreport.figures.pen": "draw_figure=draw",
     "zlmreport.figures.prescribed": (
         "APPROACH_TITLES=DIRECTIONS Diagram LIMIT_ROLES=LIMITS MEAN_ROLES=MEANS diagram_panel=panel "
         "worst_position=worst"
     ),
-    "zlmreport.figures.sketch": "figure_size",
     "zlmreport.figures.svg": "hexadecimal_colour=hexadecimal",
     "zlmreport.planning.programs": (
         "Motion ProgramOptions axis_address program_heading=heading program_number reading_remark=remark"

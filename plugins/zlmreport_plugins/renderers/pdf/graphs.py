@@ -29,6 +29,7 @@ from zlmreport.plugin import (
     Segment,
     Stroke,
     TextRun,
+    draw_figure,
     figure_size,
 )
 
@@ -61,11 +62,9 @@ class PageGraph:
 
     def draw(self, stream: Any, concrete_width: float, concrete_height: float, style: Any) -> None:
         """Draw the figure into the page, in the size that the document gives it."""
-        from zlmreport.plugin import draw_with_matplotlib  # noqa: PLC0415 - brings matplotlib
-
         width, height = figure_size(self._figure)
         stream.transform(a=concrete_width / width, d=concrete_height / height)
-        draw_with_matplotlib(self._figure, self._language, StreamCanvas(stream, style.font_config))
+        draw_figure(self._figure, self._language, StreamCanvas(stream, style.font_config))
 
 
 class StreamCanvas:

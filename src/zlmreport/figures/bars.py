@@ -5,9 +5,12 @@ from __future__ import annotations
 from zlmreport.evaluation.evaluation import Evaluation, Parameter
 from zlmreport.figures import alternatives
 from zlmreport.figures.figure import Bar, Figure, Level, Panel, Role
-from zlmreport.language import Words, same
+from zlmreport.language import Language, Words, same
+from zlmreport.measurement.axis import Axis
 from zlmreport.model import wording
 from zlmreport.quantities.notation import plain
+from zlmreport.quantities.uncertain import rounded_pair
+from zlmreport.uncertainty.budget import Budget
 
 _UNCERTAIN_TITLE = Words(
     en="Axis {axis}: amounts in percent of their limits TL with their uncertainty ± U",
@@ -79,3 +82,45 @@ def _sentence(parameter: Parameter, bar: Bar) -> Words:
     if bar.accepted is not None:
         words = _ACCEPTED.given(bar=words, accepted=wording.number(bar.accepted, 1))
     return _SENTENCE.given(bar=words)
+
+
+_BUDGET_TITLE = Words(
+    en="Standard uncertainties of the contributions at full effect",
+    de="Standardunsicherheiten der Beiträge bei voller Wirkung",
+)
+_CONTRIBUTIONS = Words(en="Contributions", de="Beiträge")
+_STANDARD_UNCERTAINTY = Words(en="Standard uncertainty", de="Standardunsicherheit")
+_CONTRIBUTION = Words(en="{symbol}, {name}: {value} {unit}.", de="{symbol}, {name}: {value} {unit}.")
+
+
+def budget_bars(budget: Budget, axis: Axis) -> Figure:
+    """Return the graph of the standard uncertainties of a budget, in the order of its table."""
+    unit = axis.deviation_unit
+    bars = []
+    sentences = []
+    for number, each in enumerate(budget.contributions, 1):
+        size = unit.from_si(each.standard_uncertainty)
+        bar = Bar(same(f"u{number}"), size, _written(size))
+        bars.append(bar)
+        sentences.append(
+            _CONTRIBUTION.given(symbol=bar.label, name=each.name, value=bar.value, unit=unit.symbol)
+        )
+    return Figure(
+        key="budget",
+        title=_BUDGET_TITLE,
+        alternative=alternatives.text(*sentences),
+        x_title=_CONTRIBUTIONS,
+        y_title=_STANDARD_UNCERTAINTY,
+        x_unit="",
+        y_unit=unit.symbol,
+        panels=(Panel(bars=tuple(bars)),),
+    )
+
+
+def _written(value: float) -> Words:
+    """Write an uncertainty to two significant digits in each language."""
+    english, german = (
+        rounded_pair(value, value, language.decimal_sign)[1] if value else "0"
+        for language in (Language.ENGLISH, Language.GERMAN)
+    )
+    return Words(english, german)
