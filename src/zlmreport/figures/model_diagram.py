@@ -14,8 +14,7 @@ from zlmreport.language import Words
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.axis import Axis
 from zlmreport.model import wording
-from zlmreport.model.design import at_positions
-from zlmreport.model.design import Design
+from zlmreport.model.design import Design, at_positions
 from zlmreport.model.diagnosis import ErrorNumbers
 from zlmreport.model.effect import Shape
 from zlmreport.model.fit import Fit

@@ -378,7 +378,6 @@ __all__ = [
     "diagram_panel",
     "did_you_mean",
     "draw_figure",
-    "draw_with_matplotlib",
     "evaluate",
     "exceeds",
     "facts_side_by_side",
