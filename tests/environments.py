@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import os
-import subprocess
-import sys
 import sysconfig
 import venv
 from dataclasses import dataclass
 from pathlib import Path
+from subprocess import CompletedProcess
+
+from processes import PYTHON, run
 
 ROOT = Path(__file__).parents[1]
 HOUSE_STANDARD = ROOT / "plugins" / "zlmreport-house-standard"
@@ -24,13 +25,7 @@ class Distribution:
 
 def build(project: Path, folder: Path) -> Distribution:
     """Build a project's source distribution, and its wheel from that."""
-    done = subprocess.run(
-        [sys.executable, "-m", "build", "--no-isolation", "--outdir", folder, project],
-        capture_output=True,
-        encoding="utf-8",
-        check=False,
-    )
-    assert done.returncode == 0, f"{project} cannot be built:\n{done.stdout}{done.stderr}"
+    run(PYTHON, "-m", "build", "--no-isolation", "--outdir", folder, project, check=True)
     (sdist,), (wheel,) = folder.glob("*.tar.gz"), folder.glob("*.whl")
     return Distribution(sdist, wheel)
 
@@ -51,21 +46,11 @@ class Environment:
             if name not in {"PYTHONPATH", "VIRTUAL_ENV", "PYTHONHOME"}
         }
         self._environment["PATH"] = f"{self.bin}{os.pathsep}{os.environ['PATH']}"
-        installed = subprocess.run(
-            [
-                *(sys.executable, "-m", "pip", "--python", self.python),
-                *("install", "--quiet", "--no-deps", "--no-index", *wheels),
-            ],
-            capture_output=True,
-            encoding="utf-8",
-            check=False,
-        )
-        assert installed.returncode == 0, installed.stderr
+        pip = (PYTHON, "-m", "pip", "--python", self.python)
+        run(*pip, "install", "--quiet", "--no-deps", "--no-index", *wheels, check=True)
         (site,) = folder.glob("lib/python*/site-packages")
         (site / "libraries.pth").write_text(f"{sysconfig.get_path('purelib')}\n", encoding="utf-8")
 
-    def run(self, *command: str | Path, folder: Path) -> subprocess.CompletedProcess[str]:
+    def run(self, *command: str | Path, folder: Path) -> CompletedProcess[str]:
         """Run a command that is found here first."""
-        return subprocess.run(
-            command, cwd=folder, env=self._environment, capture_output=True, encoding="utf-8", check=False
-        )
+        return run(*command, cwd=folder, env=self._environment)

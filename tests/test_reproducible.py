@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import os
 import shutil
-import subprocess
-import sys
 from dataclasses import dataclass, field
 from hashlib import sha256
 from pathlib import Path
@@ -13,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from environments import ROOT
+from processes import PYTHON, run
 from zlmreport.plugins import find_plugins
 
 JOB = """\
@@ -111,17 +110,12 @@ def _made(folder: Path, circumstances: Circumstances) -> dict[str, str]:
     for path in configs.rglob("*"):
         os.utime(path, (date, date))
     for number, formats in enumerate(RUNS):
-        done = subprocess.run(
-            [
-                *(sys.executable, "-c", _WITH_CLOCK, str(circumstances.clock)),
-                *(job.name if circumstances.within else job, "--quiet"),
-                *("--output", folder / "out" / str(number), "--format", ",".join(formats)),
-            ],
-            env={"OPENBLAS_NUM_THREADS": "1", "PYTHONHASHSEED": "0", **os.environ, **circumstances.variables},
+        done = run(
+            *(PYTHON, "-c", _WITH_CLOCK, str(circumstances.clock)),
+            *(job.name if circumstances.within else job, "--quiet"),
+            *("--output", folder / "out" / str(number), "--format", ",".join(formats)),
+            env={"PYTHONHASHSEED": "0", **os.environ, **circumstances.variables},
             cwd=job.parent if circumstances.within else folder,
-            capture_output=True,
-            text=True,
-            check=False,
         )
         assert (done.returncode, done.stderr) == (0, "")
     return {

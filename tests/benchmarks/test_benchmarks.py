@@ -4,21 +4,20 @@ from __future__ import annotations
 
 import json
 import math
-import subprocess
-import sys
 from importlib import import_module
 from pathlib import Path
+from subprocess import CompletedProcess
 
 import pytest
 from weasyprint import HTML
 
+import processes
+
 BENCHMARKS = Path(__file__).parents[2] / "benchmarks"
 
 
-def run(*arguments: str | Path) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(
-        [sys.executable, BENCHMARKS, *arguments], capture_output=True, text=True, check=False
-    )
+def run(*arguments: str | Path) -> CompletedProcess[str]:
+    return processes.run(processes.PYTHON, BENCHMARKS, *arguments)
 
 
 @pytest.mark.parametrize("name", ["warm", "cold", "evaluation", "typst", "capture", "memory"])

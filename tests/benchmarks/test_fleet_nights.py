@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import json
 import math
-import subprocess
-import sys
 from pathlib import Path
+
+from processes import PYTHON, run
 
 BENCHMARKS = Path(__file__).parents[2] / "benchmarks"
 
@@ -14,7 +14,7 @@ BENCHMARKS = Path(__file__).parents[2] / "benchmarks"
 def test_the_nights_of_a_fleet_are_measured(tmp_path: Path) -> None:
     file = tmp_path / "results.json"
     sizes = ("--certificates", "1", "--sample", "0", "--kills", "1")
-    subprocess.run([sys.executable, BENCHMARKS, "fleet", *sizes, "--json", file], check=True)
+    run(PYTHON, BENCHMARKS, "fleet", *sizes, "--json", file, check=True)
     lines = json.loads(file.read_text("utf-8"))["results"]["fleet"]
     assert all(math.isfinite(line["value"]) for line in lines)
     assert lines[-1] == {

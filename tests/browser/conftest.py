@@ -1,10 +1,7 @@
 from __future__ import annotations
 
-import os
 import re
 import shutil
-import subprocess
-import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -15,6 +12,8 @@ pytest.importorskip("playwright", reason="playwright is not installed")
 pytest.importorskip("starlette", reason="the workbench's extra is not installed")
 
 from playwright.sync_api import Browser, BrowserContext, Page, sync_playwright
+
+from processes import ZLMREPORT, started
 
 ROOT = Path(__file__).parents[2]
 EXAMPLE = ROOT / "configs" / "hidden-effect"
@@ -52,16 +51,11 @@ def job(tmp_path: Path) -> Path:
 @pytest.fixture
 def address(job: Path) -> Iterator[str]:
     """Return what the command prints: where the page of the job is."""
-    command = [sys.executable, "-m", "zlmreport", "workbench", str(job), "--no-browser"]
-    with subprocess.Popen(
-        command, stdout=subprocess.PIPE, encoding="utf-8", env={**os.environ, "OPENBLAS_NUM_THREADS": "1"}
-    ) as process:
-        assert process.stdout is not None
-        found = _ADDRESS.search(process.stdout.readline())
+    with started(*ZLMREPORT, "workbench", job, "--no-browser") as workbench:
+        found = _ADDRESS.search(workbench.lines(1)[0])
         assert found
         yield found[0]
-        process.terminate()
-        assert process.wait(20) == 0
+        workbench.ended()
 
 
 @pytest.fixture

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import subprocess
-import sys
 import threading
 import time
 from collections.abc import Callable, Iterator
@@ -15,6 +14,7 @@ from random import Random
 from typing import Any
 
 from capture.operated import OperatedAxis
+from processes import PATIENCE, ZLMREPORT, group
 from zlmreport.capture.history import History, read_history
 from zlmreport.emulation.channels import PseudoTerminal
 from zlmreport.emulation.emulator import Emulator, Scene
@@ -125,14 +125,12 @@ def _sitting(done: Killed, now: Callable[[], float], fate: Random | None) -> Non
     records = len(done.history.entries) if done.has_begun else 0
     visit = max(done.history.progress.taken - 1, 0) if done.has_begun else 0
     time.sleep(max(0.0, done.axis.go_back(visit, now()) - now()))
-    command = [sys.executable, "-m", "zlmreport", "capture", str(done.job), "--json"]
+    command = (*ZLMREPORT, "capture", done.job, "--json")
     errors = done.job.with_suffix(".err")
     with (
         done.job.with_suffix(".out").open("wb+") as out,
         errors.open("wb") as wrong,
-        subprocess.Popen(
-            [*command, "--resume"] if done.has_begun else command, stdout=out, stderr=wrong
-        ) as capture,
+        group(*command, *(["--resume"] if done.has_begun else []), stdout=out, stderr=wrong) as capture,
     ):
         if fate and fate.random() < _KILLED_EARLY:
             time.sleep(fate.uniform(0.0, _BEGINNING))
@@ -144,7 +142,7 @@ def _sitting(done: Killed, now: Callable[[], float], fate: Random | None) -> Non
         if capture.poll() is None:
             capture.kill()
             done.kills += 1
-        capture.wait()
+        capture.wait(PATIENCE)
         out.seek(0)
         done.said += [json.loads(line) for line in out.read().rpartition(b"\n")[0].splitlines()]
     if done.journal.exists():
@@ -179,10 +177,10 @@ def _plugged_in(emulator: Emulator) -> Iterator[tuple[str, Callable[[], float]]]
         with channel:
             serve(emulator, channel, Troubles(), is_over=ended.is_set, clock=now)
 
-    thread = threading.Thread(target=run)
+    thread = threading.Thread(target=run, daemon=True)
     thread.start()
     try:
         yield channel.address, now
     finally:
         ended.set()
-        thread.join()
+        thread.join(PATIENCE)

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import os
-import subprocess
-import sys
 from itertools import chain
 from pathlib import Path
 
@@ -12,6 +10,7 @@ import pytest
 
 from capture.moves import Axis, kinds, planned
 from capture.recording import header, recorded, written
+from processes import PYTHON, run
 from zlmreport.capture.events import Ended, Interrupted, Resumed
 from zlmreport.capture.history import read_history, sealed
 from zlmreport.capture.journal import Journal
@@ -152,7 +151,7 @@ def test_a_journal_is_free_again_when_its_capture_was_killed(journal: Path) -> N
         journal = Journal.continued(pathlib.Path({str(journal)!r}))
         os.kill(os.getpid(), 9)
     """
-    subprocess.run([sys.executable, "-c", program], check=False)
+    run(PYTHON, "-c", program)
     with Journal.continued(journal) as opened:
         assert opened.progress.taken == 2
 

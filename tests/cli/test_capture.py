@@ -6,16 +6,17 @@ import fcntl
 import json
 import os
 import pty
+import select
 import struct
-import subprocess
-import sys
 import termios
+from contextlib import suppress
 from pathlib import Path
 
 import pytest
 
 from cli.commands import Run
 from environments import ROOT
+from processes import PATIENCE, ZLMREPORT, group
 from zlmreport.capture.history import read_history
 from zlmreport.cli import main
 
@@ -281,22 +282,19 @@ def _in_a_terminal(*arguments: str, answers: bytes = b"") -> str:
     """Run a command in a terminal of 80 columns; return all that it wrote there."""
     ours, theirs = pty.openpty()
     fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", 24, 80, 0, 0))
-    process = subprocess.Popen(
-        [sys.executable, "-m", "zlmreport", *arguments, "--plugin", str(PLUGIN)],
+    with group(
+        *(*ZLMREPORT, *arguments, "--plugin", PLUGIN),
         env={**os.environ, "TERM": "xterm", "PYTHONPATH": str(ROOT / "tests")},
         stdin=theirs,
         stdout=theirs,
         stderr=theirs,
-    )
-    os.close(theirs)
-    os.write(ours, answers)
-    written = b""
-    while True:
-        try:
-            written += os.read(ours, 65536)
-        except OSError:  # the other end is closed
-            break
-    process.wait()
+    ):
+        os.close(theirs)
+        os.write(ours, answers)
+        written = b""
+        with suppress(OSError):  # the other end is closed
+            while select.select([ours], [], [], PATIENCE)[0]:
+                written += os.read(ours, 65536)
     os.close(ours)
     return written.decode()
 

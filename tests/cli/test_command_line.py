@@ -4,21 +4,15 @@ from __future__ import annotations
 
 import os
 import signal
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 
 from cli.commands import Shop
+from processes import PYTHON, ZLMREPORT, run
 from zlmreport import __version__
 
 COMMANDS = ["check", "init", "plugins", "schema"]
-
-
-def _process(*arguments: str, **settings: object) -> subprocess.CompletedProcess[str]:
-    command = [sys.executable, "-W", "error", "-m", "zlmreport", *arguments]
-    return subprocess.run(command, capture_output=True, encoding="utf-8", check=False, **settings)  # type: ignore[call-overload,no-any-return]
 
 
 def test_version_is_printed(shop: Shop) -> None:
@@ -95,14 +89,7 @@ def test_interruption_ends_quietly(shop: Shop, monkeypatch: pytest.MonkeyPatch) 
 def test_reader_that_goes_away_ends_quietly(tmp_path: Path) -> None:
     read_end, write_end = os.pipe()
     os.close(read_end)
-    done = subprocess.run(
-        [sys.executable, "-m", "zlmreport", "schema"],
-        stdout=write_end,
-        stderr=subprocess.PIPE,
-        encoding="utf-8",
-        check=False,
-        cwd=tmp_path,
-    )
+    done = run(*ZLMREPORT, "schema", stdout=write_end, cwd=tmp_path)
     os.close(write_end)
     assert (done.returncode, done.stderr) == (128 + signal.SIGPIPE, "")
 
@@ -112,13 +99,7 @@ def test_full_disk_under_the_output_is_an_access_error() -> None:
     if not full.exists():
         pytest.skip("there is no /dev/full here")
     with full.open("w") as sink:
-        done = subprocess.run(
-            [sys.executable, "-m", "zlmreport", "schema"],
-            stdout=sink,
-            stderr=subprocess.PIPE,
-            encoding="utf-8",
-            check=False,
-        )
+        done = run(*ZLMREPORT, "schema", stdout=sink)
     assert done.returncode == 3
     assert "No space left on device" in done.stderr
     assert "Traceback" not in done.stderr
@@ -126,13 +107,13 @@ def test_full_disk_under_the_output_is_an_access_error() -> None:
 
 def test_terminal_without_the_letters_gets_escapes() -> None:
     environment = {**os.environ, "PYTHONIOENCODING": "ascii", "PYTHONUTF8": "0"}
-    done = _process("µ.yaml", env=environment)
+    done = run(PYTHON, "-W", "error", "-m", "zlmreport", "µ.yaml", env=environment)
     assert done.returncode == 3
     assert done.stderr.startswith("\\xb5.yaml: cannot be read")
 
 
 def test_name_that_is_no_text_is_printed_as_an_escape(tmp_path: Path) -> None:
-    done = _process(os.fsdecode(b"a\xff.yaml"), cwd=tmp_path)
+    done = run(PYTHON, "-W", "error", "-m", "zlmreport", os.fsdecode(b"a\xff.yaml"), cwd=tmp_path)
     assert done.returncode == 3
     assert "\\udcff" in done.stderr
     assert "Traceback" not in done.stderr
@@ -144,7 +125,7 @@ def test_version_loads_nothing_that_is_slow() -> None:
         "print(*sorted({'numpy', 'pydantic', 'yaml', 'pluggy', 'matplotlib', 'weasyprint', 'jinja2'}"
         " & sys.modules.keys()))"
     )
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, encoding="utf-8", check=True)
+    done = run(PYTHON, "-c", code, check=True)
     assert done.stdout == f"zlmreport {__version__}\n\n"
 
 
@@ -153,5 +134,5 @@ def test_listing_plugins_loads_no_library_that_draws_or_prints() -> None:
         "import sys; from zlmreport.cli import main; main(['plugins']);"
         "print(*sorted({'matplotlib', 'weasyprint', 'jinja2'} & sys.modules.keys()), file=sys.stderr)"
     )
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, encoding="utf-8", check=True)
+    done = run(PYTHON, "-c", code, check=True)
     assert done.stderr == "\n"

@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import os
-import signal
-import subprocess
-import sys
 from argparse import Namespace
 from itertools import islice
 from pathlib import Path
 
 import pytest
 
+from processes import ZLMREPORT, run, started
 from zlmreport.cli import main
 from zlmreport.cli.arguments import parse
 from zlmreport.cli.arguments.values import FAULTS
@@ -64,22 +62,19 @@ def test_a_link_that_is_taken_is_told(tmp_path: Path, capsys: pytest.CaptureFixt
 
 def test_an_instrument_is_read_until_it_is_ended(tmp_path: Path) -> None:
     link = tmp_path / "umd"
-    command = [sys.executable, "-m", "zlmreport", "emulate", "umd1", "--link", str(link), "--course", "25"]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, encoding="utf-8") as emulation:
-        assert emulation.stdout
-        printed = [emulation.stdout.readline() for _ in range(3)]
+    command = (*ZLMREPORT, "emulate", "umd1", "--link", link, "--course", "25")
+    with started(*command) as emulation:
+        printed = emulation.lines(3)
         umd = find_plugins().instrument("umd1")
         with umd.open(umd.options.model_validate({"port": str(link)})) as connection:
             readings = list(islice(connection.readings(), 10))
-        emulation.send_signal(signal.SIGTERM)
-        assert emulation.wait(10) == 0
+        emulation.ended()
     assert printed[1] == f"port: {link}\n"
     assert all(reading.is_usable for reading in readings)
     assert not os.path.lexists(link)
 
 
 def test_an_instrument_that_is_unplugged_ends_the_command() -> None:
-    command = [sys.executable, "-m", "zlmreport", "emulate", "nd28x", "--port", "0", "--fault", "unplugged@0"]
-    done = subprocess.run(command, capture_output=True, encoding="utf-8", check=False, timeout=60)
+    done = run(*ZLMREPORT, "emulate", "nd28x", "--port", "0", "--fault", "unplugged@0")
     assert done.returncode == 0
     assert done.stdout.splitlines()[-1] == "unplugged"

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import json
-import subprocess
-import sys
 from collections.abc import Callable
 from io import StringIO
 from pathlib import Path
@@ -13,6 +11,8 @@ from typing import Any
 import pytest
 
 from fleet.fleets import FLEET, Fleet, without_processes
+from processes import PYTHON
+from processes import run as run_program
 from zlmreport.cli import main
 from zlmreport.cli.fleet_progress import Progress, bar
 
@@ -161,7 +161,7 @@ def test_a_fleet_file_with_a_mistake_is_refused(fleet: Fleet, run: Run) -> None:
 def test_a_night_in_which_nothing_is_due_loads_no_library_that_draws_or_sets_pages() -> None:
     heavy = "{'dask', 'distributed', 'jinja2', 'matplotlib', 'weasyprint'}"
     script = f"import sys, zlmreport.cli.fleet; print(sorted({heavy} & set(sys.modules)))"
-    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
+    done = run_program(PYTHON, "-c", script, check=True)
     assert done.stdout == "[]\n"
 
 

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import json
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 
 from cli.commands import Shop
+from processes import ZLMREPORT, run
 from zlmreport.cli import main
 from zlmreport.job.loading import load
 from zlmreport.pipeline import compose
@@ -74,8 +73,7 @@ def test_starter_job_meets_every_requirement_and_limit(tmp_path: Path) -> None:
 
 def test_starter_job_makes_its_certificate(tmp_path: Path) -> None:
     main(["init", str(tmp_path)])
-    command = [sys.executable, "-m", "zlmreport", "job.yaml", "--quiet"]
-    subprocess.run(command, cwd=tmp_path, check=True)
+    run(*ZLMREPORT, "job.yaml", "--quiet", cwd=tmp_path, check=True)
     assert (tmp_path / "out" / "SAMPLE-0001.pdf").read_bytes().startswith(b"%PDF-")
     results = json.loads((tmp_path / "out" / "SAMPLE-0001.json").read_text())
     assert results["certificate"]["number"] == "SAMPLE-0001"

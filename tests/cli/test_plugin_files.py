@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import os
-import subprocess
-import sys
 from pathlib import Path
+from subprocess import CompletedProcess
 
 import pytest
 
 from environments import ROOT
+from processes import ZLMREPORT, run
 from zlmreport.cli.arguments import parse
 
 _MINE = """\
@@ -22,15 +22,9 @@ def zlmreport_effects():
 """
 
 
-def _run(*arguments: str, folder: Path, **variables: str) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(
-        [sys.executable, "-m", "zlmreport", *arguments],
-        cwd=folder,
-        env={**os.environ, "PYTHONPATH": str(ROOT / "tests"), **variables},
-        capture_output=True,
-        encoding="utf-8",
-        check=False,
-    )
+def _run(*arguments: str, folder: Path, **variables: str) -> CompletedProcess[str]:
+    environment = {**os.environ, "PYTHONPATH": str(ROOT / "tests"), **variables}
+    return run(*ZLMREPORT, *arguments, cwd=folder, env=environment)
 
 
 @pytest.fixture

@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import json
-import signal
-import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from probing.emulated import on_a_port
+from processes import ZLMREPORT, started
 from step_gauge.jobs import write_job
 from zlmreport.cli import main
 from zlmreport.cli.arguments.values import POINT_FAULTS
@@ -114,14 +112,12 @@ def test_options_for_interferometers_are_refused(folder: Path, capsys: Capture, 
 
 def test_the_emulated_machine_is_probed_and_evaluated_as_the_how_to_tells(folder: Path) -> None:
     write_job(folder)
-    command = [sys.executable, "-m", "zlmreport", "emulate", "ippdme", "--job", "job.yaml", "--port", "0"]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, encoding="utf-8") as emulation:
-        assert emulation.stdout
-        printed = [emulation.stdout.readline() for _ in range(3)]
+    command = (*ZLMREPORT, "emulate", "ippdme", "--job", "job.yaml", "--port", "0")
+    with started(*command) as emulation:
+        printed = emulation.lines(3)
         write_live_job(folder, int(printed[1].rpartition(":")[2]))
         assert main(["capture", "job.yaml"]) == 0
-        emulation.send_signal(signal.SIGTERM)
-        assert emulation.wait(30) == 0
+        emulation.ended()
     assert printed[0] == "ippdme: coordinate measuring machine, I++ DME, emulated\n"
     assert main(["job.yaml", "--format", "json", "--quiet"]) == 0
     results = json.loads((folder / "CMM-7.json").read_text("utf-8"))

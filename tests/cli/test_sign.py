@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import subprocess
 import sys
 from pathlib import Path
 
@@ -11,6 +10,7 @@ import pytest
 from cli.commands import Shop
 from environments import ROOT
 from pdf_conformance import complaints
+from processes import ZLMREPORT, run
 from signing.keys import PASSWORD, pkcs12_file
 from zlmreport.cli import main
 from zlmreport.cli.arguments.main_job import SIGN_PASSWORD
@@ -54,13 +54,7 @@ def test_the_password_is_asked_for_at_a_terminal(
 
 
 def test_without_a_terminal_and_a_password_the_user_is_told_where_it_is_taken_from(key: Path) -> None:
-    done = subprocess.run(
-        [sys.executable, "-m", "zlmreport", JOB, "--sign", key],
-        stdin=subprocess.DEVNULL,
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+    done = run(*ZLMREPORT, JOB, "--sign", key)
     assert done.returncode == 2
     assert done.stderr == (
         f"zlmreport --sign: the password of {key} is asked for at a terminal "

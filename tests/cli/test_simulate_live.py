@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import json
-import signal
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 
+from processes import ZLMREPORT, started
 from zlmreport.cli import main
 from zlmreport.errors import Place
 from zlmreport.measurement.axis import Axis
@@ -43,18 +41,11 @@ def test_plan_machine_instrument_capture_and_certificate_go_together(specificati
     """The readings are longer by Δn of the warm air, which the job is told to correct."""
     folder = specification.parent
     link = folder / "interferometer"
-    command = [sys.executable, "-m", "zlmreport", "simulate", str(specification)]
-    with subprocess.Popen(
-        [*command, "--emulate", "umd1", "--link", str(link), "--start", "2"],
-        stdout=subprocess.PIPE,
-        encoding="utf-8",
-    ) as simulation:
-        assert simulation.stdout
-        said = [simulation.stdout.readline() for _ in range(6)]
+    command = (*ZLMREPORT, "simulate", specification, "--emulate", "umd1", "--link", link, "--start", "2")
+    with started(*command) as simulation:
+        said = simulation.lines(6)
         assert main(["capture", str(folder / "job.yaml")]) == 0
-        simulation.send_signal(signal.SIGTERM)
-        assert simulation.wait(20) == 0
-        said += simulation.stdout.readlines()
+        said += simulation.ended()
     assert said[2:4] == [
         "umd1: Laser interferometer display µMD1, emulated\n",
         f"port: {link}\n",
@@ -86,12 +77,10 @@ def _true_means(table: Path) -> list[list[float]]:
 
 
 def test_every_instrument_can_watch_the_axis(specification: Path) -> None:
-    command = [sys.executable, "-m", "zlmreport", "simulate", str(specification), "--emulate", "ids3010"]
-    with subprocess.Popen([*command, "--port", "0"], stdout=subprocess.PIPE, encoding="utf-8") as simulation:
-        assert simulation.stdout
-        said = [simulation.stdout.readline() for _ in range(6)]
-        simulation.send_signal(signal.SIGTERM)
-        assert simulation.wait(20) == 0
+    command = (*ZLMREPORT, "simulate", specification, "--emulate", "ids3010", "--port", "0")
+    with started(*command) as simulation:
+        said = simulation.lines(6)
+        simulation.ended()
     port = said[3].removeprefix("port: ").strip()
     assert port.startswith("socket://127.0.0.1:")
     assert f'port: "{port}"' in (specification.parent / "job.yaml").read_text(encoding="utf-8")

@@ -5,13 +5,12 @@ from __future__ import annotations
 import json
 import re
 import shutil
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 
 from environments import ROOT
+from processes import PYTHON, run
 from zlmreport.cli import main
 from zlmreport.job.loading import load
 from zlmreport.plugins import find_plugins
@@ -31,7 +30,7 @@ def files(folder: Path) -> dict[str, bytes]:
 
 
 def test_the_files_are_those_that_the_program_makes(tmp_path: Path) -> None:
-    subprocess.run([sys.executable, FLEET / "make.py", tmp_path], check=True)
+    run(PYTHON, FLEET / "make.py", tmp_path, check=True)
     assert files(tmp_path) == files(FLEET)
 
 

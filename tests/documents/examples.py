@@ -25,8 +25,6 @@ from __future__ import annotations
 import json
 import re
 import shutil
-import subprocess
-import sys
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -34,6 +32,8 @@ from typing import TypeAlias
 
 from documents.pages import DOCS, ROOT, Block, blocks
 from documents.shell import Shell
+from documents.shell import shell as opened
+from processes import PYTHON, run
 from zlmreport.errors import ZlmreportError
 
 ELLIPSIS = "…"
@@ -78,7 +78,7 @@ def run_page(page: Path, folder: Path, console: Console = compare) -> None:
     """Execute every example of a page in a folder."""
     shutil.copytree(ROOT / "configs", folder / "configs")
     page_blocks = blocks(page)
-    with Shell(folder) as shell:
+    with opened(folder) as shell:
         for block in page_blocks:
             run_block(block, folder, shell, console)
 
@@ -160,13 +160,7 @@ def _current(shell: Shell) -> Path:
 
 
 def _run_python(block: Block, folder: Path) -> None:
-    done = subprocess.run(
-        [sys.executable, "-W", "error", "-c", block.text],
-        cwd=folder,
-        capture_output=True,
-        encoding="utf-8",
-        check=False,
-    )
+    done = run(PYTHON, "-W", "error", "-c", block.text, cwd=folder)
     assert done.returncode == 0, f"{block.place}:\n{done.stdout}{done.stderr}"
 
 

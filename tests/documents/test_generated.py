@@ -5,13 +5,12 @@ from __future__ import annotations
 import difflib
 import re
 import shutil
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 
 from documents.pages import DOCS, name, pages
+from processes import PYTHON, run
 
 _PART = re.compile(r"<!-- generated: ([a-z0-9-]+) -->")
 _END = re.compile(r"<!-- end: ([a-z0-9-]+) -->")
@@ -23,12 +22,7 @@ def regenerated(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Return a copy of the documentation in which the generated parts are written anew."""
     folder = tmp_path_factory.mktemp("regenerated") / "docs"
     shutil.copytree(DOCS, folder, ignore=shutil.ignore_patterns("__pycache__", "*.png"))
-    done = subprocess.run(
-        [sys.executable, str(DOCS / "generate"), str(folder)],
-        capture_output=True,
-        encoding="utf-8",
-        check=False,
-    )
+    done = run(PYTHON, DOCS / "generate", folder)
     assert done.returncode == 0, done.stderr
     return folder
 

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import subprocess
-import sys
 from concurrent.futures import ThreadPoolExecutor
 from xml.etree import ElementTree as ET
 
 import pytest
 
 from figures.samples import ALL, both_directions, figure
+from processes import PYTHON, run
 from zlmreport.figures.draw import to_svg
 from zlmreport.figures.figure import Figure
 from zlmreport.figures.layout import figure_size
@@ -86,8 +85,8 @@ def test_another_process_gives_the_same_bytes() -> None:
         "sys.stdout.buffer.write(to_svg(figure(both_directions()), Language.GERMAN).encode())"
     )
     tests = __file__.rsplit("/figures/", 1)[0]
-    other = subprocess.run([sys.executable, "-c", program, tests], capture_output=True, check=True)
-    assert other.stdout.decode() == to_svg(figure(both_directions()), Language.GERMAN)
+    other = run(PYTHON, "-c", program, tests, check=True)
+    assert other.stdout == to_svg(figure(both_directions()), Language.GERMAN)
 
 
 def test_threads_draw_alike() -> None:

@@ -6,12 +6,17 @@ import contextlib
 import os
 import pwd
 import shutil
+import signal
 import subprocess
 import tempfile
 from collections.abc import Iterator
+from itertools import chain
 from pathlib import Path
+from typing import Any
 
 import pytest
+
+from processes import run, started
 
 
 def _programs() -> Path | None:
@@ -37,23 +42,15 @@ def server() -> Iterator[str]:
         if user:
             shutil.chown(folder, user)
         data = folder / "data"
-
-        def run(*command: str | Path) -> None:
-            subprocess.run(
-                command,
-                check=True,
-                user=user,
-                cwd=folder,
-                stdout=subprocess.DEVNULL,
-                stderr=subprocess.DEVNULL,
-            )
-
-        run(programs / "initdb", "--no-sync", "-U", "zlmreport", "-A", "trust", "-D", data)
-        options = f"-k {folder} -c listen_addresses='' -c fsync=off"
-        run(programs / "pg_ctl", "-w", "-D", data, "-o", options, "-l", folder / "log", "start")
-        try:
+        whose: dict[str, Any] = {"user": user, "cwd": folder}
+        init = (programs / "initdb", "--no-sync", "-U", "zlmreport", "-A", "trust", "-D", data)
+        run(*init, check=True, **whose)
+        settings = (f"unix_socket_directories={folder}", "listen_addresses=", "fsync=off")
+        options = chain.from_iterable(("-c", setting) for setting in (*settings, "log_min_messages=log"))
+        serve = (programs / "postgres", "-D", data, *options)
+        with started(*serve, stderr=subprocess.STDOUT, **whose) as running:
+            running.until("ready to accept connections")
             yield f"postgresql+psycopg://zlmreport@/postgres?host={folder}"
-        finally:
-            run(programs / "pg_ctl", "-w", "-D", data, "-m", "immediate", "stop")
+            running.ended(signal.SIGINT)  # at once, and nothing of it stays in memory
     finally:
         shutil.rmtree(folder, ignore_errors=True)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import os
-import subprocess
 import sys
 import time
 from collections.abc import Iterator
@@ -14,6 +13,7 @@ import pytest
 
 from fleet.deadly import PLUGIN
 from fleet.fleets import FLEET, Fleet, Witness
+from processes import PYTHON, group
 from zlmreport.errors import AccessError
 from zlmreport.fleet import cluster, night
 from zlmreport.fleet.desk import What
@@ -22,7 +22,6 @@ pytest.importorskip("distributed")
 
 SETTINGS = {
     "DASK_DISTRIBUTED__SCHEDULER__ALLOWED_FAILURES": "1",
-    "OPENBLAS_NUM_THREADS": "1",
     "PYTHONPATH": os.pathsep.join(path for path in sys.path if path),
 }
 
@@ -31,14 +30,9 @@ SETTINGS = {
 def started(*command: str, folder: Path) -> Iterator[None]:
     """Run a program of Dask, which ends with those that it started."""
     with (folder / "log").open("ab") as log:
-        process = subprocess.Popen(
-            [sys.executable, "-m", *command], env=os.environ | SETTINGS, cwd=folder, stdout=log, stderr=log
-        )
-    try:
-        yield
-    finally:
-        process.terminate()
-        process.wait()
+        settings = {"env": os.environ | SETTINGS, "cwd": folder, "stdout": log, "stderr": log}
+        with group(PYTHON, "-m", *command, **settings):
+            yield
 
 
 @pytest.fixture(scope="module")

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import os
-import subprocess
 import sys
 from pathlib import Path
+
+from processes import PYTHON, run
 
 KILLS = 12
 
@@ -13,13 +14,8 @@ KILLS = 12
 def test_nights_killed_at_random_moments_are_made_good_by_the_next(tmp_path: Path) -> None:
     script = Path(__file__).with_name("kill_nights.py")
     path = os.pathsep.join(path for path in sys.path if path)
-    done = subprocess.run(
-        [sys.executable, script, tmp_path, str(KILLS), "20261121"],
-        env=os.environ | {"PYTHONPATH": path, "OPENBLAS_NUM_THREADS": "1"},
-        capture_output=True,
-        text=True,
-        check=True,
-    )
+    environment = os.environ | {"PYTHONPATH": path}
+    done = run(PYTHON, script, tmp_path, str(KILLS), "20261121", env=environment, check=True)
     *problems, last = done.stdout.splitlines()
     assert not problems
     assert int(last.split()[0]) >= KILLS // 2

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import os
 import shutil
-import subprocess
 from pathlib import Path
+from subprocess import CompletedProcess
 
 import pytest
 
 from environments import ROOT
+from processes import run
 
 _TOOLS = ["cat", "cksum", "dirname", "env", "sh"]
 #: Answers as a Python 3.11 would that lacks nothing but a system library, and cannot make environments.
@@ -41,14 +42,9 @@ class Machine:
         path.write_text(f'#!/bin/sh\necho "{command} $*" >>"{self.log}"\n{script}\n', encoding="utf-8")
         path.chmod(0o755)
 
-    def run(self, *arguments: str) -> subprocess.CompletedProcess[str]:
-        return subprocess.run(
-            [ROOT / "run", *arguments],
-            env={"PATH": str(self.bin), "ZLMREPORT_VENV": str(self.environment)},
-            capture_output=True,
-            encoding="utf-8",
-            check=False,
-        )
+    def run(self, *arguments: str) -> CompletedProcess[str]:
+        variables = {"PATH": str(self.bin), "ZLMREPORT_VENV": str(self.environment)}
+        return run(ROOT / "run", *arguments, env=variables)
 
     def calls(self, command: str) -> list[str]:
         """Return how a command was called, in order."""

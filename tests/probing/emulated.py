@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 
+from processes import PATIENCE
 from step_gauge.paths import planned
 from zlmreport.emulation.channels import LocalSocket
 from zlmreport.emulation.coordinate_machine import Boxes, CoordinateMachine
@@ -43,13 +44,13 @@ def on_a_port(server: DmeServer) -> Iterator[int]:
             serve(server, channel, Troubles(), is_over=lambda: over.is_set() or server.is_gone)
             channel.close()
 
-        thread = threading.Thread(target=run)
+        thread = threading.Thread(target=run, daemon=True)
         thread.start()
         try:
             yield int(channel.address.rpartition(":")[2])
         finally:
             over.set()
-            thread.join()
+            thread.join(PATIENCE)
 
 
 @dataclass

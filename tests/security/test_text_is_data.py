@@ -3,10 +3,7 @@
 from __future__ import annotations
 
 import json
-import os
 import re
-import subprocess
-import sys
 from html.parser import HTMLParser
 from io import BytesIO
 from itertools import cycle, islice
@@ -17,6 +14,7 @@ import pytest
 from pypdf import PdfReader
 
 from pdf_conformance import complaints
+from processes import PYTHON, run
 from security.hostile import READINGS, job_with, text_keys
 from zlmreport.plugins import find_plugins
 
@@ -78,16 +76,10 @@ def made(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactor
     (folder / "texts.json").write_text(json.dumps(list(texts.values())), encoding="utf-8")
     opened = ""
     for output, formats in FORMATS.items():
-        done = subprocess.run(
-            [
-                *(sys.executable, "-c", _WATCHED),
-                *("job.yaml", "--quiet", "--output", output, "--format", ",".join(formats)),
-            ],
+        done = run(
+            *(PYTHON, "-c", _WATCHED),
+            *("job.yaml", "--quiet", "--output", output, "--format", ",".join(formats)),
             cwd=folder,
-            env={**os.environ, "OPENBLAS_NUM_THREADS": "1"},
-            capture_output=True,
-            text=True,
-            check=False,
         )
         assert (done.returncode, done.stderr) == (0, "")
         opened += done.stdout

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import subprocess
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -12,6 +11,7 @@ import pytest
 from cryptography.hazmat.primitives.serialization import Encoding
 
 from pdf_conformance import complaints
+from processes import run
 from signing.conftest import PLACE
 from signing.keys import PASSWORD, certificate_of, in_der, pkcs12_file, rsa_key
 from zlmreport.errors import AccessError, InputError
@@ -113,11 +113,8 @@ def token(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
     key = rsa_key()
     with pytest.MonkeyPatch.context() as environment:
         environment.setenv("SOFTHSM2_CONF", str(settings))
-        subprocess.run(
-            ["softhsm2-util", "--init-token", "--free", "--label", "Lab", "--pin", _PIN, "--so-pin", _PIN],
-            check=True,
-            capture_output=True,
-        )
+        pins = ("--pin", _PIN, "--so-pin", _PIN)
+        run("softhsm2-util", "--init-token", "--free", "--label", "Lab", *pins, check=True)
         with pkcs11.lib(str(_MODULE)).get_token(token_label="Lab").open(rw=True, user_pin=_PIN) as session:
             label = {pkcs11.Attribute.LABEL: "signature", pkcs11.Attribute.TOKEN: True}
             session.create_object({**decode_rsa_private_key(in_der(key)), **label})

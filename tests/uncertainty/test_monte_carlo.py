@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import math
-import subprocess
-import sys
 from collections.abc import Sequence
 from functools import partial
 
@@ -12,6 +10,7 @@ import numpy as np
 import pytest
 
 from plugins.standards.installed import STANDARDS
+from processes import PYTHON, run
 from uncertainty.budgets import BY_CHANCE, ISO, MICROMETRE, budget, contribution, expanded, uncertainties
 from zlmreport.evaluation.evaluate import evaluate
 from zlmreport.job.types import Options
@@ -180,12 +179,6 @@ print(repr(uncertainties(of, simulated_test(), trials=500)))
 def test_another_process_finds_the_same(request: pytest.FixtureRequest) -> None:
     here = uncertainties(budget(0.5, READING, Distribution.RECTANGULAR), simulated_test(), trials=500)
 
-    elsewhere = subprocess.run(
-        [sys.executable, "-c", _AGAIN],
-        check=True,
-        capture_output=True,
-        text=True,
-        cwd=request.config.rootpath / "tests",
-    ).stdout
+    elsewhere = run(PYTHON, "-c", _AGAIN, check=True, cwd=request.config.rootpath / "tests").stdout
 
     assert elsewhere.strip() == repr(here)

@@ -9,6 +9,7 @@ from contextlib import contextmanager
 from itertools import islice
 from typing import Any
 
+from processes import PATIENCE
 from zlmreport.emulation.channels import PseudoTerminal
 from zlmreport.emulation.emulator import Emulator
 from zlmreport.emulation.faults import Troubles
@@ -36,13 +37,13 @@ def plugged_in(emulator: Emulator, begins_at: float = 0.0) -> Iterator[str]:
         with channel:
             serve(emulator, channel, Troubles(), is_over=ended.is_set, clock=clock)
 
-    thread = threading.Thread(target=run)
+    thread = threading.Thread(target=run, daemon=True)
     thread.start()
     try:
         yield channel.address
     finally:
         ended.set()
-        thread.join()
+        thread.join(PATIENCE)
 
 
 def readings_of(instrument: Instrument, port: str, count: int, **keys: Any) -> list[LiveReading]:

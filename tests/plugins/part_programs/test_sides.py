@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 import shutil
-import subprocess
 from itertools import pairwise
 from pathlib import Path
 
@@ -12,6 +11,7 @@ import pytest
 
 from plugins.part_programs.controls import CONTROLS, linuxcnc
 from plugins.part_programs.planned import written
+from processes import run
 from zlmreport.measurement.approach import Approach
 from zlmreport.planning.methods import Method
 from zlmreport.testing import sample_motion
@@ -55,14 +55,7 @@ def test_interpreter_of_linuxcnc_makes_the_same_moves(method: Method, tmp_path: 
     (tmp_path / "test.ngc").write_text(text, encoding="ascii")
     for name in ("variables", "tools"):
         (tmp_path / name).touch()
-    done = subprocess.run(
-        [rs274, "-v", "variables", "-t", "tools", "-g", "test.ngc"],
-        cwd=tmp_path,
-        capture_output=True,
-        encoding="utf-8",
-        timeout=60,
-        check=True,
-    )
+    done = run(rs274, "-v", "variables", "-t", "tools", "-g", "test.ngc", cwd=tmp_path, check=True)
     stops: list[tuple[float, float]] = []
     for call, first in re.findall(r"(STRAIGHT_FEED|DWELL)\((-?[\d.]+)", done.stdout):
         if call == "STRAIGHT_FEED":

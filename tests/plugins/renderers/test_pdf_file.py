@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import subprocess
 import sys
 from dataclasses import replace
 from hashlib import sha256
@@ -16,6 +15,7 @@ from PIL import Image
 from pypdf import PdfReader
 
 from plugins.renderers.pdf_pages import elements, fonts, read, sample
+from processes import PYTHON, run
 from typesetting import samples
 from zlmreport.errors import AccessError
 from zlmreport.language import Language
@@ -144,13 +144,7 @@ print(sha256(content).hexdigest(), found)
 
 def _in_another_process(zone: str, seed: str) -> str:
     environment = {**os.environ, "TZ": zone, "PYTHONHASHSEED": seed, "PYTHONPATH": str(TESTS)}
-    return subprocess.run(
-        [sys.executable, "-c", _IN_ANOTHER_PROCESS],
-        env=environment,
-        capture_output=True,
-        text=True,
-        check=True,
-    ).stdout.strip()
+    return run(PYTHON, "-c", _IN_ANOTHER_PROCESS, env=environment, check=True).stdout.strip()
 
 
 def test_it_is_the_same_in_other_processes_and_time_zones_and_opens_no_file() -> None:

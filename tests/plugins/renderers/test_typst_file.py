@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import subprocess
 import sys
 from collections.abc import Callable
 from dataclasses import replace
@@ -20,6 +19,7 @@ from pdf_conformance import complaints
 from plugins.renderers.pdf_pages import elements, fonts
 from plugins.renderers.test_pdf_attachments import ATTACHED, specifications
 from plugins.renderers.typst_pages import read, sample
+from processes import PYTHON, run
 from typesetting import samples
 from zlmreport.certificate.document import Certificate
 from zlmreport.errors import AccessError
@@ -143,13 +143,8 @@ def test_other_processes_time_zones_and_languages_give_the_same_bytes() -> None:
         {"TZ": "Pacific/Kiritimati", "LC_ALL": "C", "PYTHONHASHSEED": "1"},
         {"TZ": "America/Anchorage", "SOURCE_DATE_EPOCH": "1000000000", "PYTHONHASHSEED": "2"},
     ):
-        done = subprocess.run(
-            [sys.executable, "-c", program],
-            env={**os.environ, **variables, "PYTHONPATH": str(TESTS)},
-            capture_output=True,
-            text=True,
-            check=True,
-        )
+        environment = {**os.environ, **variables, "PYTHONPATH": str(TESTS)}
+        done = run(PYTHON, "-c", program, env=environment, check=True)
         digests.add(done.stdout)
     assert len(digests) == 1
 
@@ -174,5 +169,5 @@ def test_printing_needs_neither_matplotlib_nor_weasyprint() -> None:
         "TypstRenderer().render(sample_certificate());"
         "print(*{'matplotlib', 'weasyprint', 'jinja2'} & set(sys.modules))"
     )
-    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    done = run(PYTHON, "-c", program, check=True)
     assert done.stdout.split() == []
