@@ -9,7 +9,7 @@ from testing.exemplary import ExemplaryRenderer, ExemplarySource, ExemplaryStand
 from testing.exemplary_effect import ExemplaryEffect
 from testing.exemplary_probing_program import ExemplaryProbing
 from testing.exemplary_program import ExemplaryProgram
-from zlmreport.plugin.hookspecs import hookimpl
+from zlmreport.plugin import hookimpl
 from zlmreport.plugins import Plugin, Registry, collect
 
 

@@ -18,8 +18,9 @@ from testing.exemplary_effect import ExemplaryEffect
 from testing.exemplary_program import ExemplaryProgram
 from zlmreport.errors import AccessError, InputError, Place
 from zlmreport.job.types import Options
-from zlmreport.plugin.hookspecs import hookimpl
-from zlmreport.plugins import DISABLE, FILES, Kind, Plugin, Registry, collect, find_plugins
+from zlmreport.plugin import hookimpl
+from zlmreport.plugin.kinds import EFFECT, SOURCE, STANDARD
+from zlmreport.plugins import DISABLE, FILES, Plugin, Registry, collect, find_plugins
 
 SOUND_PLUGIN = (Plugin("sound", "sound_module"), offering([ExemplaryStandard()]))
 
@@ -49,7 +50,7 @@ def test_what_plugins_offer_is_found_by_name() -> None:
 
 
 def test_origin_of_each_is_known() -> None:
-    plugin = exemplary_registry().origins[Kind.STANDARD, "exemplary:1"]
+    plugin = exemplary_registry().origin(STANDARD, "exemplary:1")
     assert plugin.release == "exemplary-plugins 1.2"
 
 
@@ -63,7 +64,7 @@ def test_order_of_plugins_does_not_matter() -> None:
     one = (Plugin("a"), offering([ExemplaryStandard()], renderers=[ExemplaryRenderer()]))
     other = (Plugin("b"), offering(sources=[ExemplarySource()]))
     there, back = collect([one, other]), collect([other, one])
-    assert list(there.origins.items()) == list(back.origins.items())
+    assert [each.identifier for each in there.offers()] == [each.identifier for each in back.offers()]
 
 
 def test_unknown_name_is_answered_with_the_nearest_at_its_place() -> None:
@@ -219,11 +220,13 @@ def test_module_that_imports_the_package_of_the_built_in_plugins_is_no_misspelt_
     assert _collected(SimpleNamespace(zlmreport_plugins=sys, zlmreport_version="1")).failed == ()
 
 
-def test_two_plugins_of_one_name_refuse_to_start() -> None:
+def test_what_two_plugins_provide_is_refused_to_who_names_it() -> None:
+    registry = _collected(offering([ExemplaryStandard()], [ExemplarySource()]))
+    assert registry.source("exemplary-text").identifier == "exemplary-text"
     with pytest.raises(InputError) as caught:
-        _collected(offering([ExemplaryStandard()]))
+        registry.standard("exemplary:1", Place("job.yaml", 3, 5))
     assert str(caught.value) == (
-        "plugin sound: two plugins provide standard 'exemplary:1': other_module and sound_module; "
+        "job.yaml:3:5: two plugins provide standard 'exemplary:1': other_module and sound_module; "
         "switch one off: ZLMREPORT_DISABLE_PLUGINS=sound"
     )
 
@@ -258,13 +261,13 @@ def _failed(name: str, registry: Registry) -> str:
 
 def test_installed_plugin_is_found(install: Any) -> None:
     install("mine", "from testing.exemplary import ExemplarySource\n"
-        "from zlmreport.plugin.hookspecs import hookimpl\n"
+        "from zlmreport.plugin import hookimpl\n"
         "@hookimpl\n"
         "def zlmreport_sources():\n"
         "    return [ExemplarySource()]\n")  # fmt: skip
     registry = find_plugins({})
     assert registry.source("exemplary-text").identifier == "exemplary-text"
-    assert registry.origins[Kind.SOURCE, "exemplary-text"] == Plugin(
+    assert registry.origin(SOURCE, "exemplary-text") == Plugin(
         "mine", "zlm_test_mine", "zlm_test_mine", "3.0"
     )
 
@@ -295,7 +298,7 @@ def test_plugin_can_be_switched_off(install: Any) -> None:
 def test_built_in_plugins_are_found_by_their_entry_points() -> None:
     names = {point.name for point in distribution("zlmreport").entry_points if point.group == "zlmreport"}
     registry = find_plugins({})
-    found = {plugin.name for plugin in registry.origins.values() if plugin.distribution == "zlmreport"}
+    found = {each.plugin.name for each in registry.offers() if each.plugin.distribution == "zlmreport"}
     assert registry.failed == ()
     assert found == names
 
@@ -314,7 +317,7 @@ def file(tmp_path: Path) -> Any:
 
 EFFECT_FILE = """\
 from testing.exemplary_effect import ExemplaryEffect
-from zlmreport.plugin.hookspecs import hookimpl
+from zlmreport.plugin import hookimpl
 
 class Mine(ExemplaryEffect):
     identifier = "my-effect"
@@ -329,7 +332,7 @@ def test_file_that_the_command_line_names_is_a_plugin(file: Any) -> None:
     path = file(EFFECT_FILE)
     registry = find_plugins({}, [path])
     assert registry.effect("my-effect").identifier == "my-effect"
-    assert registry.origins[Kind.EFFECT, "my-effect"] == Plugin("mine", str(path))
+    assert registry.origin(EFFECT, "my-effect") == Plugin("mine", str(path))
 
 
 def test_file_that_the_environment_names_is_a_plugin(file: Any) -> None:
@@ -392,5 +395,5 @@ def test_file_that_offers_what_is_no_effect_ends_the_work(file: Any) -> None:
 def test_file_that_offers_what_is_there_already_is_refused(file: Any, install: Any) -> None:
     install("installed", EFFECT_FILE)
     path = file(EFFECT_FILE)
-    with pytest.raises(InputError, match="plugin mine: two plugins provide effect 'my-effect'"):
-        find_plugins({}, [path])
+    with pytest.raises(InputError, match="two plugins provide effect 'my-effect': zlm_test_installed and"):
+        find_plugins({}, [path]).effect("my-effect")

@@ -16,7 +16,8 @@ from zlmreport.model.design import Design
 from zlmreport.model.effect import Effect, Shape
 from zlmreport.model.observations import of_readings
 from zlmreport.model.parameter import Parameter, unit_of
-from zlmreport.plugins import Kind, find_plugins
+from zlmreport.plugin.kinds import EFFECT
+from zlmreport.plugins import find_plugins
 from zlmreport.testing import full_designs
 
 _EN, _DE = Language.ENGLISH, Language.GERMAN
@@ -35,7 +36,7 @@ def text() -> str:
     own = [
         effect
         for effect in registry.effects
-        if registry.origins[Kind.EFFECT, effect.identifier].distribution == "zlmreport"
+        if registry.origin(EFFECT, effect.identifier).distribution == "zlmreport"
     ]
     return "\n\n".join(part for shape in Shape for part in _group(shape, own))
 

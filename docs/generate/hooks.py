@@ -11,13 +11,12 @@ from markdown import code, table
 from zlmreport.emulation.emulator import Emulator
 from zlmreport.live.reading import LiveReading
 from zlmreport.planning.programs import Motion, ProgramStop, Reading
-from zlmreport.plugin import hookspecs
+from zlmreport.plugin.kinds import KINDS
 from zlmreport.plugin.protocols import Connection, SourceContext
-from zlmreport.plugins import Kind
 from zlmreport.step_gauge.path import Probing, ProbingPath, Travel
 
 _PROTOCOLS = (
-    *(kind.protocol for kind in Kind),
+    *(kind.protocol for kind in KINDS),
     SourceContext,
     Motion,
     ProgramStop,
@@ -33,10 +32,9 @@ _PROTOCOLS = (
 
 def hooks_text() -> str:
     """Return the hooks with their signatures."""
-    rows = []
-    for name, function in inspect.getmembers(hookspecs, inspect.isfunction):
-        if hasattr(function, f"{hookspecs.PROJECT}_spec"):
-            rows.append((code(_signature(name, function)), _first_line(function)))
+    rows = [
+        (code(f"{kind.hook}() -> Iterable[{kind.interface}]"), f"Return {kind.offers}.") for kind in KINDS
+    ]
     return table(("Hook", "What it does"), rows)
 
 

@@ -11,6 +11,7 @@ from zlmreport.evaluation.quantity import Group
 from zlmreport.evaluation.requirements import Basis
 from zlmreport.language import Language
 from zlmreport.measurement.axis import Axis, AxisKind
+from zlmreport.plugin.kinds import STANDARD
 from zlmreport.plugin.protocols import Standard
 from zlmreport.plugins import find_plugins
 from zlmreport.testing import simulated_test
@@ -40,10 +41,7 @@ def text() -> str:
     own = [
         standard
         for standard in registry.standards
-        if any(
-            key[1] == standard.identifier and plugin.distribution == "zlmreport"
-            for key, plugin in registry.origins.items()
-        )
+        if registry.origin(STANDARD, standard.identifier).distribution == "zlmreport"
     ]
     return "\n\n".join(part for standard in own for part in _section(standard))
 

@@ -1,1 +1,91 @@
-"""The plugins that come with zlmreport; they are found by entry point, like anybody else's."""
+"""The plugins that come with zlmreport; they are found by entry point, like anybody else's.
+
+What each offers is declared here, so that a job loads only those it names.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+#: Entry point to kinds to identifiers.
+OFFERS: Mapping[str, Mapping[str, tuple[str, ...]]] = {
+    "dcc": {"renderer": ("dcc",)},
+    "ecmc": {"source": ("ecmc",)},
+    "effects": {
+        "effect": (
+            "abbe",
+            "air-index",
+            "backlash",
+            "backlash-bow",
+            "backlash-gradient",
+            "compensation-shift",
+            "compensation-sign",
+            "cosine-error",
+            "datum-step",
+            "datum-temperature",
+            "dead-path",
+            "directional-pitch",
+            "eccentricity",
+            "ellipticity",
+            "encoder-interpolation",
+            "first-run",
+            "gauge-misalignment",
+            "gear-mesh",
+            "offset",
+            "periodic",
+            "polynomial",
+            "probe-radius",
+            "reversal-relaxation",
+            "scale-error",
+            "scale-expansion",
+            "scale-joint",
+            "scale-kink",
+            "screw-expansion",
+            "screw-pitch",
+            "thermal-drift",
+            "thermal-growth",
+            "time-periodic",
+        )
+    },
+    "fanuc": {"part_program": ("fanuc",)},
+    "heidenhain": {"part_program": ("heidenhain",)},
+    "html": {"renderer": ("html",)},
+    "ids3010": {"instrument": ("ids3010",)},
+    "iso230_2": {
+        "standard": (
+            "iso230-2:1988",
+            "iso230-2:1997",
+            "iso230-2:2006",
+            "iso230-2:2014",
+        )
+    },
+    "json_results": {"renderer": ("json",)},
+    "laser_csv": {"source": ("laser-csv",)},
+    "linuxcnc": {"part_program": ("linuxcnc",)},
+    "nd28x": {"instrument": ("nd28x",)},
+    "nmtba": {"standard": ("nmtba",)},
+    "pdf": {"renderer": ("pdf",)},
+    "pdf_typst": {"renderer": ("pdf-typst",)},
+    "renishaw_rtl": {"source": ("renishaw-rtl",)},
+    "serial_interferometer": {"source": ("serial-interferometer",)},
+    "siemens_840d": {"part_program": ("siemens-840d",)},
+    "text_readout": {"instrument": ("text-readout",)},
+    "umd": {
+        "instrument": (
+            "umd0",
+            "umd1",
+            "umd2",
+        )
+    },
+    "vdi": {
+        "standard": (
+            "vdi-dgq-3441",
+            "vdi-vde-2617",
+        )
+    },
+    "dmis": {"probing_program": ("dmis",)},
+    "ippdme": {"probing_program": ("ippdme",)},
+    "mv_ms": {"probing_program": ("mv-ms",)},
+    "step_gauge_source": {"source": ("step-gauge",)},
+    "step_gauge_standard": {"standard": ("step-gauge",)},
+}

@@ -28,6 +28,7 @@ from zlmreport.job.job import Job
 from zlmreport.language import Words
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.model.study import Fitted, Study
+from zlmreport.plugin.kinds import RENDERER
 from zlmreport.plugin.protocols import Renderer, SourceContext, Standard, carries_attachments, relationship_of
 from zlmreport.plugins import Registry
 from zlmreport.signing.signer import Signer
@@ -161,8 +162,9 @@ def render(certificate: Certificate, renderers: Sequence[Renderer], registry: Re
     """
     carriers = [each for each in renderers if carries_attachments(each)]
     others = [each for each in renderers if each not in carriers]
-    if carriers and all(each.identifier != RESULTS for each in others):
-        others += [each for each in registry.renderers if each.identifier == RESULTS]
+    is_asked_for = any(each.identifier == RESULTS for each in others)
+    if carriers and not is_asked_for and RESULTS in registry.identifiers(RENDERER):
+        others.append(registry.renderer(RESULTS))
     contents = {each.identifier: each.render(certificate) for each in others}
     if carriers:
         attached = [

@@ -14,7 +14,7 @@ from zlmreport.errors import AccessError, Place
 from zlmreport.job.types import Options
 from zlmreport.language import same
 from zlmreport.live.reading import Fault, LiveReading
-from zlmreport.plugin.hookspecs import hookimpl
+from zlmreport.plugin import hookimpl
 from zlmreport.plugin.protocols import Instrument
 
 _LOST = {"faults": Fault.BEAM_LOST, "value": float("nan"), "message": "the beam is broken"}

@@ -13,7 +13,7 @@ from processes import ZLMREPORT, run
 from zlmreport.cli.arguments import parse
 
 _MINE = """\
-from zlmreport.plugin.hookspecs import hookimpl
+from zlmreport.plugin import hookimpl
 from testing.exemplary_effect import ExemplaryEffect
 
 @hookimpl

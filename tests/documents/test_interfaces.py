@@ -11,19 +11,14 @@ from documents.pages import DOCS
 from zlmreport import errors
 from zlmreport.emulation.emulator import Emulator
 from zlmreport.live.reading import LiveReading
-from zlmreport.plugin import hookspecs
+from zlmreport.plugin.kinds import KINDS
 from zlmreport.plugin.protocols import Connection, SourceContext
-from zlmreport.plugins import Kind
 
 _PAGE = (DOCS / "reference" / "plugin-interfaces.md").read_text(encoding="utf-8")
-_LIVE_HOOKS = [
-    name
-    for name, function in inspect.getmembers(hookspecs, inspect.isfunction)
-    if hasattr(function, f"{hookspecs.PROJECT}_spec")
-]
+_LIVE_HOOKS = [kind.hook for kind in KINDS]
 _MEMBERS = [
     f"{protocol.__name__}.{member}"
-    for protocol in (*(kind.protocol for kind in Kind), SourceContext, Connection, LiveReading, Emulator)
+    for protocol in (*(kind.protocol for kind in KINDS), SourceContext, Connection, LiveReading, Emulator)
     for member in (
         *protocol.__annotations__,
         *(name for name in vars(protocol) if inspect.isfunction(vars(protocol)[name])),

@@ -18,7 +18,7 @@ from pydantic import Field
 
 from zlmreport.job.types import Options
 from zlmreport.language import Words
-from zlmreport.plugin.hookspecs import hookimpl
+from zlmreport.plugin import hookimpl
 from zlmreport.plugin.protocols import ProbingProgram
 from zlmreport.quantities.units import MILLIMETRE
 from zlmreport.step_gauge.path import Probing, ProbingPath

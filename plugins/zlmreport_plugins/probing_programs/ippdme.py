@@ -15,7 +15,7 @@ from zlmreport.errors import InputError
 from zlmreport.job.machine_keys import TOOL
 from zlmreport.job.types import Options
 from zlmreport.language import Words
-from zlmreport.plugin.hookspecs import hookimpl
+from zlmreport.plugin import hookimpl
 from zlmreport.plugin.protocols import ProbingProgram
 from zlmreport.step_gauge.dme_commands import beginning, command
 from zlmreport.step_gauge.path import ProbingPath

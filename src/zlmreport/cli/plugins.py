@@ -8,34 +8,25 @@ from pathlib import Path
 
 from zlmreport.cli.terminal import Colour, shown_path, table
 from zlmreport.language import Language
-from zlmreport.plugins import DISABLE, Kind, Plugin, Registry, find_plugins
+from zlmreport.plugin.kinds import KINDS
+from zlmreport.plugins import DISABLE, Plugin, Registry, find_plugins
 
 
 def run(options: Namespace) -> int:
     """Print every plugin."""
-    print(*listing(find_plugins(files=options.plugin)), sep="\n")
+    print(*listing(find_plugins(files=options.plugin, lenient=True)), sep="\n")
     return 0
 
 
 def listing(registry: Registry) -> Iterator[str]:
     """Yield the lines on all plugins, kind by kind."""
-    for kind, offered in (
-        (Kind.STANDARD, registry.standards),
-        (Kind.SOURCE, registry.sources),
-        (Kind.RENDERER, registry.renderers),
-        (Kind.EFFECT, registry.effects),
-        (Kind.PART_PROGRAM, registry.part_programs),
-        (Kind.PROBING_PROGRAM, registry.probing_programs),
-        (Kind.INSTRUMENT, registry.instruments),
-    ):
+    offers = registry.offers()
+    for kind in KINDS:
         yield Colour.BOLD.of(f"{kind.label}s")
         rows = [
-            (
-                each.identifier,
-                each.title.in_language(Language.ENGLISH),
-                _origin(registry.origins[kind, each.identifier]),
-            )
-            for each in offered
+            (each.identifier, each.offered.title.in_language(Language.ENGLISH), _origin(each.plugin))
+            for each in offers
+            if each.kind is kind
         ]
         yield from table(rows or [("none", "", "")], indent="  ")
     if registry.failed:

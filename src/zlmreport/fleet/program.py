@@ -8,9 +8,11 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from importlib.machinery import PathFinder
 from importlib.metadata import entry_points
 from pathlib import Path
+from typing import Any
 
 from zlmreport.job.job import Job
-from zlmreport.plugins import FILES, Kind, Registry
+from zlmreport.plugin import kinds
+from zlmreport.plugins import FILES, Registry
 from zlmreport.plugins.find import GROUP
 
 OWN = "zlmreport"
@@ -55,10 +57,12 @@ def release(version: str) -> str:
 
 def used(job: Job, formats: Iterable[str], registry: Registry) -> frozenset[str]:
     """Return the names of what takes part in a job, as `versions` has them."""
-    keys = [(Kind.SOURCE, each.identifier) for each in (job.source, job.source_as_found) if each]
-    keys.extend((Kind.STANDARD, choice.identifier) for choice in job.standards)
-    keys.extend((Kind.RENDERER, identifier) for identifier in formats)
-    plugins = [registry.origins[key] for key in keys]
+    keys: list[tuple[kinds.Kind[Any], str]] = [
+        (kinds.SOURCE, each.identifier) for each in (job.source, job.source_as_found) if each
+    ]
+    keys.extend((kinds.STANDARD, choice.identifier) for choice in job.standards)
+    keys.extend((kinds.RENDERER, identifier) for identifier in formats)
+    plugins = [registry.origin(kind, identifier) for kind, identifier in keys]
     names = {plugin.distribution or plugin.module for plugin in plugins}
     return frozenset(names | {OWN} | ({_ALL} if job.effects else set()))
 

@@ -156,7 +156,7 @@ if TYPE_CHECKING:
     from zlmreport.planning.programs import Motion, ProgramOptions, axis_address, program_number
     from zlmreport.planning.programs import heading as program_heading
     from zlmreport.planning.programs import remark as reading_remark
-    from zlmreport.plugin.hookspecs import hookimpl
+    from zlmreport.plugin.kinds import hookimpl
     from zlmreport.plugin.protocols import (
         Connection,
         DataSource,
@@ -547,7 +547,7 @@ _ROOMS = {
     ),
     "zlmreport.model.parameter": "Dimension Parameter",
     "zlmreport.model.report": "report_error report_model",
-    "zlmreport.plugin.hookspecs": "hookimpl",
+    "zlmreport.plugin.kinds": "hookimpl",
     "zlmreport.plugin.protocols": (
         "Connection DataSource Instrument PartProgram ProbingProgram Renderer SourceContext Standard"
     ),

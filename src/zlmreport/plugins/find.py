@@ -1,29 +1,36 @@
-"""Loads plugins: the installed ones by their entry points, others from files that the user names."""
+"""Finds plugins: the installed ones by their entry points, others in files that the user names."""
 
 from __future__ import annotations
 
 import os
 import sys
 import traceback
-from collections.abc import Iterable, Mapping, Sequence
-from importlib.metadata import entry_points
+from collections.abc import Collection, Mapping, Sequence
+from importlib.metadata import EntryPoint, entry_points
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
 
 from zlmreport.errors import AccessError, InputError, Place, Problem
-from zlmreport.plugins.collect import collect
-from zlmreport.plugins.origin import FailedPlugin, Plugin, reason_of
-from zlmreport.plugins.registry import DISABLE, Registry
+from zlmreport.plugins.candidate import Candidate, Key
+from zlmreport.plugins.origin import DISABLE, Plugin, reason_of
+from zlmreport.plugins.registry import Registry
+from zlmreport.plugins.remembered import Memory
 
 GROUP = "zlmreport"
+#: Entry points of this group name what a distribution declares: plugin, kind, identifiers.
+DECLARED = "zlmreport.offers"
 #: Names files that are plugins, parted as in PATH.
 FILES = "ZLMREPORT_PLUGINS"
 
 
-def find_plugins(environment: Mapping[str, str] = os.environ, files: Sequence[Path] = ()) -> Registry:
-    """Load every installed plugin, and those in files that the user names.
+def find_plugins(
+    environment: Mapping[str, str] = os.environ, files: Sequence[Path] = (), *, lenient: bool = False
+) -> Registry:
+    """Find every installed plugin, and those in files that the user names.
 
-    No job names such a file: a job comes from elsewhere, and a plugin is a program.
+    No job names such a file: a job comes from elsewhere, and a plugin is a program. An installed plugin is
+    loaded here only if nobody knows what it offers: its distribution declares nothing (entry points of the
+    group ``zlmreport.offers`` do), and it was not asked before.
 
     Parameters
     ----------
@@ -32,40 +39,81 @@ def find_plugins(environment: Mapping[str, str] = os.environ, files: Sequence[Pa
         ``ZLMREPORT_PLUGINS`` names files that are plugins, parted as in ``PATH``.
     files
         More of them, from the command line.
+    lenient
+        Whether a misspelt hook is passed over: for a listing, which tells of it.
 
     Raises
     ------
     AccessError
         If there is no such file.
     InputError
-        If a file that is named does not work; if two plugins offer the same, or one has a misspelt hook:
-        then no answer could be trusted.
+        If a file that is named does not work; if a plugin has a misspelt hook: what it offers would be
+        missing in silence.
     """
     off = {name.strip() for name in environment.get(DISABLE, "").split(",")}
-    loaded: list[tuple[Plugin, object]] = []
-    failed: list[FailedPlugin] = []
+    installed = entry_points()
+    declared = _declared(installed.select(group=DECLARED))
+    memory = Memory.of_user(environment)
+    candidates: list[Candidate] = []
     disabled: list[str] = []
-    for point in sorted(entry_points(group=GROUP), key=lambda point: (point.name, point.value)):
+    for point in sorted(installed.select(group=GROUP), key=lambda point: (point.name, point.value)):
         if point.name in off:
             disabled.append(point.name)
             continue
-        release = (point.dist.name, point.dist.version) if point.dist else ("", "")
-        plugin = Plugin(point.name, point.module, *release)
-        try:
-            loaded.append((plugin, point.load()))
-        except (Exception, SystemExit) as error:  # noqa: BLE001 - whatever a plugin does, the others work
-            failed.append(FailedPlugin(plugin, reason_of(error)))
+        known = declared.get((_distribution(point), point.name))
+        candidate = Candidate(
+            _plugin(point), point.load, known if known is not None else memory.recall(point)
+        )
+        if known is None:
+            memory.watch(point, candidate)
+        candidates.append(candidate)
     named = [Path(name) for name in environment.get(FILES, "").split(os.pathsep) if name]
-    from_files = [_loaded_file(path) for path in dict.fromkeys(each.resolve() for each in (*named, *files))]
-    registry = collect([*loaded, *from_files], failed, disabled)
-    own = {plugin for plugin, _ in from_files}
-    _demand(each for each in registry.failed if each.plugin in own)
+    from_files = [_in_file(path) for path in dict.fromkeys(each.resolve() for each in (*named, *files))]
+    registry = Registry([*candidates, *from_files], disabled)
+    for candidate in (*candidates, *from_files):
+        _ = candidate.keys  # loads it, if nobody knows what it offers
+    memory.keep()
+    problems = [
+        Problem(Place(each.plugin.module), each.failure.reason) for each in from_files if each.failure
+    ]
+    if not lenient:
+        problems += registry.misspelt
+    if problems:
+        raise InputError(problems)
     return registry
 
 
-def _loaded_file(path: Path) -> tuple[Plugin, object]:
-    """Return the module in a file; its name in the interpreter is one that no import finds."""
-    plugin = Plugin(path.stem, str(path))
+def _plugin(point: EntryPoint) -> Plugin:
+    release = (point.dist.name, point.dist.version) if point.dist else ("", "")
+    return Plugin(point.name, point.module, *release)
+
+
+def _distribution(point: EntryPoint) -> str:
+    return point.dist.name if point.dist else ""
+
+
+def _declared(
+    points: Sequence[EntryPoint] | Collection[EntryPoint],
+) -> Mapping[tuple[str, str], Collection[Key]]:
+    """Return what distributions declare, by distribution and name of the plugin.
+
+    Such a declaration is a mapping of names of entry points to mappings of kinds to identifiers. One that
+    cannot be read is none: the plugin itself will say what is wrong.
+    """
+    found = {}
+    for point in points:
+        try:
+            for name, offers in point.load().items():
+                found[_distribution(point), name] = frozenset(
+                    (kind, identifier) for kind, identifiers in offers.items() for identifier in identifiers
+                )
+        except (Exception, SystemExit):  # noqa: BLE001, S112 - whatever it is, the plugin is asked instead
+            continue
+    return found
+
+
+def _in_file(path: Path) -> Candidate:
+    """Return the plugin in a file; its name in the interpreter is one that no import finds."""
     if not path.is_file():
         raise AccessError.at(Place(str(path)), "there is no such plugin file")
     spec = spec_from_file_location(f"zlmreport plugin {path}", path)
@@ -77,7 +125,7 @@ def _loaded_file(path: Path) -> tuple[Plugin, object]:
         spec.loader.exec_module(module)
     except (Exception, SystemExit) as error:
         raise InputError.at(Place(str(path), _line_in(path, error)), reason_of(error)) from error
-    return plugin, module
+    return Candidate(Plugin(path.stem, str(path)), lambda: module)
 
 
 def _line_in(path: Path, error: BaseException) -> int:
@@ -86,10 +134,3 @@ def _line_in(path: Path, error: BaseException) -> int:
         return error.lineno or 0
     frames = traceback.extract_tb(error.__traceback__)
     return next((frame.lineno or 0 for frame in reversed(frames) if frame.filename == str(path)), 0)
-
-
-def _demand(failed: Iterable[FailedPlugin]) -> None:
-    """Refuse to go on without the plugins that the user named."""
-    problems = [Problem(Place(each.plugin.module), each.reason) for each in failed]
-    if problems:
-        raise InputError(problems)

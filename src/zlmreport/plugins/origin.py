@@ -8,6 +8,9 @@ from pathlib import Path
 
 import pluggy
 
+#: Environment variable that switches plugins off.
+DISABLE = "ZLMREPORT_DISABLE_PLUGINS"
+
 _LONGEST_REASON = 300
 
 

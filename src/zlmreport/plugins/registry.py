@@ -1,102 +1,242 @@
-"""The plugins there are, by kind and name."""
+"""The plugins there are, by kind and name; each is loaded when it is asked for."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
-from types import MappingProxyType
-from typing import TypeVar
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from functools import partial
+from typing import TYPE_CHECKING, Any, TypeVar
 
-from zlmreport.errors import InputError, Place, did_you_mean
-from zlmreport.job.job import Job
-from zlmreport.model.effect import Effect
-from zlmreport.plugin.protocols import (
-    DataSource,
-    Instrument,
-    PartProgram,
-    ProbingProgram,
-    Renderer,
-    Standard,
-)
-from zlmreport.plugins.kind import Kind
-from zlmreport.plugins.origin import FailedPlugin, Plugin
+from zlmreport.errors import InputError, Place, Problem, did_you_mean
+from zlmreport.plugin import kinds
+from zlmreport.plugin.kinds import KINDS, Kind
+from zlmreport.plugins.candidate import Candidate
+from zlmreport.plugins.origin import DISABLE, FailedPlugin, Plugin
 
-#: Environment variable that switches plugins off.
-DISABLE = "ZLMREPORT_DISABLE_PLUGINS"
+if TYPE_CHECKING:
+    from zlmreport.job.job import Job
+    from zlmreport.model.effect import Effect
+    from zlmreport.plugin.protocols import (
+        DataSource,
+        Instrument,
+        PartProgram,
+        ProbingProgram,
+        Renderer,
+        Standard,
+    )
 
-Offered = TypeVar("Offered", Standard, DataSource, Renderer, Effect, PartProgram, Instrument, ProbingProgram)
+Wanted = TypeVar("Wanted")
 
 
 @dataclass(frozen=True, slots=True)
-class Registry:
-    """The plugins there are.
+class Offer:
+    """What a plugin offers.
 
     Attributes
     ----------
-    standards, sources, renderers, effects, part_programs, instruments, probing_programs
-        What they offer, in the order of identifiers.
-    origins
-        The plugin that offers each, by kind and identifier.
-    failed
-        Plugins that could not be loaded.
-    disabled
-        Names of plugins that the environment switches off.
+    kind, identifier
+        What it is, and what jobs call it.
+    offered
+        The object.
+    plugin
+        Where it comes from.
     """
 
-    standards: tuple[Standard, ...] = ()
-    sources: tuple[DataSource, ...] = ()
-    renderers: tuple[Renderer, ...] = ()
-    effects: tuple[Effect, ...] = ()
-    origins: Mapping[tuple[Kind, str], Plugin] = field(default_factory=lambda: MappingProxyType({}))
-    failed: tuple[FailedPlugin, ...] = ()
-    disabled: tuple[str, ...] = ()
-    part_programs: tuple[PartProgram, ...] = ()
-    instruments: tuple[Instrument, ...] = ()
-    probing_programs: tuple[ProbingProgram, ...] = ()
+    kind: Kind[Any]
+    identifier: str
+    offered: Any
+    plugin: Plugin
 
-    def standard(self, identifier: str, named_at: Place | None = None) -> Standard:
-        """Return a standard; raise `InputError` at the place that names it if there is none."""
-        return self._find(Kind.STANDARD, self.standards, identifier, named_at)
 
-    def source(self, identifier: str, named_at: Place | None = None) -> DataSource:
-        """Return a data source; raise `InputError` at the place that names it if there is none."""
-        return self._find(Kind.SOURCE, self.sources, identifier, named_at)
+class Registry:
+    """The plugins there are, by kind and name.
 
-    def renderer(self, identifier: str, named_at: Place | None = None) -> Renderer:
-        """Return a renderer; raise `InputError` at the place that names it if there is none."""
-        return self._find(Kind.RENDERER, self.renderers, identifier, named_at)
+    Parameters
+    ----------
+    candidates
+        All of them. One of which nobody knows what it offers is loaded at once, any other when it is needed.
+    disabled
+        Names of plugins that the environment switches off.
 
-    def effect(self, identifier: str, named_at: Place | None = None) -> Effect:
-        """Return an effect; raise `InputError` at the place that names it if there is none."""
-        return self._find(Kind.EFFECT, self.effects, identifier, named_at)
+    Raises
+    ------
+    InputError
+        If a plugin has a misspelt hook: what it offers would be missing in silence. So does everything that
+        loads one.
+    """
 
-    def part_program(self, identifier: str, named_at: Place | None = None) -> PartProgram:
-        """Return a part program; raise `InputError` at the place that names it if there is none."""
-        return self._find(Kind.PART_PROGRAM, self.part_programs, identifier, named_at)
+    def __init__(self, candidates: Iterable[Candidate] = (), disabled: Iterable[str] = ()) -> None:
+        self.disabled = tuple(disabled)
+        self._candidates = sorted(candidates, key=lambda each: (each.plugin.name, each.plugin.module))
 
-    def instrument(self, identifier: str, named_at: Place | None = None) -> Instrument:
-        """Return a live instrument; raise `InputError` at the place that names it if there is none."""
-        return self._find(Kind.INSTRUMENT, self.instruments, identifier, named_at)
+    def find(self, kind: Kind[Wanted], identifier: str, named_at: Place | None = None) -> Wanted:
+        """Return what jobs call by this name.
 
-    def probing_program(self, identifier: str, named_at: Place | None = None) -> ProbingProgram:
-        """Return a probing program; raise `InputError` at the place that names it if there is none."""
-        return self._find(Kind.PROBING_PROGRAM, self.probing_programs, identifier, named_at)
+        Raises
+        ------
+        InputError
+            At the place that names it, if there is none, or more than one.
+        """
+        key, place = (kind.name, identifier), named_at or Place("zlmreport")
+        for candidate in self._one(key, place):
+            offered = self._loaded(candidate)
+            if key in offered:
+                found: Wanted = offered[key]
+                return found
+        nearest = did_you_mean(identifier, self.identifiers(kind))
+        lines = [f"no plugin provides {kind.label} {identifier[:60]!r}; {nearest}"]
+        lines.extend(f"plugin {each.plugin.name} was not loaded: {each.reason}" for each in self.failed)
+        lines.extend(f"plugin {name} is switched off by {DISABLE}" for name in self.disabled)
+        raise InputError.at(place, "\n  ".join(lines))
+
+    def all(self, kind: Kind[Wanted]) -> tuple[Wanted, ...]:
+        """Return everything of one kind, in the order of identifiers."""
+        place = Place("zlmreport")
+        return tuple(
+            offered
+            for identifier in self.identifiers(kind)
+            for candidate in self._one((kind.name, identifier), place)
+            if (offered := self._loaded(candidate).get((kind.name, identifier))) is not None
+        )
+
+    def identifiers(self, kind: Kind[Any]) -> tuple[str, ...]:
+        """Return what jobs call what there is of one kind, in order; only plugins that say so are loaded."""
+        return tuple(
+            sorted({key[1] for each in self._candidates for key in each.keys if key[0] == kind.name})
+        )
+
+    def origin(self, kind: Kind[Any], identifier: str) -> Plugin:
+        """Return the plugin that offers this."""
+        (candidate,) = self._one((kind.name, identifier), Place("zlmreport"))
+        return candidate.plugin
+
+    def offers(self) -> tuple[Offer, ...]:
+        """Return everything, in the order of kinds and identifiers: all plugins are loaded."""
+        return tuple(
+            Offer(kind, identifier, offered, candidate.plugin)
+            for kind in KINDS
+            for name, identifier, offered, candidate in sorted(
+                (
+                    (*key, offered, candidate)
+                    for candidate in self._candidates
+                    for key, offered in candidate.offered.items()
+                ),
+                key=lambda each: each[:2],
+            )
+            if name == kind.name
+        )
+
+    @property
+    def failed(self) -> tuple[FailedPlugin, ...]:
+        """Plugins that were to be loaded and could not be."""
+        return tuple(each.failure for each in self._candidates if each.failure)
+
+    @property
+    def misspelt(self) -> tuple[Problem, ...]:
+        """Functions of loaded plugins that look like hooks and are none."""
+        return tuple(problem for each in self._candidates for problem in each.misspelt)
 
     def versions(self, job: Job) -> dict[str, str]:
         """Return the release of every plugin that a job's results come from, by its identifier."""
-        used = [(Kind.SOURCE, each.identifier) for each in (job.source, job.source_as_found) if each]
-        used.extend((Kind.STANDARD, choice.identifier) for choice in job.standards)
-        used.extend((Kind.EFFECT, choice.identifier) for choice in job.effects)
-        return {key[1]: self.origins[key].release for key in used}
+        used: list[tuple[Kind[Any], str]] = [
+            (kinds.SOURCE, each.identifier) for each in (job.source, job.source_as_found) if each
+        ]
+        used.extend((kinds.STANDARD, choice.identifier) for choice in job.standards)
+        used.extend((kinds.EFFECT, choice.identifier) for choice in job.effects)
+        return {identifier: self.origin(kind, identifier).release for kind, identifier in used}
 
-    def _find(
-        self, kind: Kind, offered: tuple[Offered, ...], identifier: str, named_at: Place | None
-    ) -> Offered:
-        for each in offered:
-            if each.identifier == identifier:
-                return each
-        known = [each.identifier for each in offered]
-        lines = [f"no plugin provides {kind.label} {identifier[:60]!r}; {did_you_mean(identifier, known)}"]
-        lines.extend(f"plugin {each.plugin.name} was not loaded: {each.reason}" for each in self.failed)
-        lines.extend(f"plugin {name} is switched off by {DISABLE}" for name in self.disabled)
-        raise InputError.at(named_at or Place("zlmreport"), "\n  ".join(lines))
+    def _loaded(self, candidate: Candidate) -> Any:
+        offered = candidate.offered
+        if candidate.misspelt:
+            raise InputError(candidate.misspelt)
+        return offered
+
+    def _one(self, key: tuple[str, str], place: Place) -> Sequence[Candidate]:
+        """Return the plugin that offers this, if there is one; two would answer differently."""
+        offering = [each for each in self._candidates if key in each.keys]
+        if len(offering) > 1:
+            first, second = (each.plugin for each in offering[:2])
+            label = next(kind.label for kind in KINDS if kind.name == key[0])
+            raise InputError.at(
+                place,
+                f"two plugins provide {label} {key[1]!r}: {first.module or first.name} and "
+                f"{second.module or second.name}; switch one off: {DISABLE}={second.name}",
+            )
+        return offering
+
+    @property
+    def standards(self) -> tuple[Standard, ...]:
+        """All standards."""
+        return self.all(kinds.STANDARD)
+
+    @property
+    def sources(self) -> tuple[DataSource, ...]:
+        """All data sources."""
+        return self.all(kinds.SOURCE)
+
+    @property
+    def renderers(self) -> tuple[Renderer, ...]:
+        """All file formats."""
+        return self.all(kinds.RENDERER)
+
+    @property
+    def effects(self) -> tuple[Effect, ...]:
+        """All effects."""
+        return self.all(kinds.EFFECT)
+
+    @property
+    def part_programs(self) -> tuple[PartProgram, ...]:
+        """All writers of part programs."""
+        return self.all(kinds.PART_PROGRAM)
+
+    @property
+    def probing_programs(self) -> tuple[ProbingProgram, ...]:
+        """All writers of probing programs."""
+        return self.all(kinds.PROBING_PROGRAM)
+
+    @property
+    def instruments(self) -> tuple[Instrument, ...]:
+        """All live instruments."""
+        return self.all(kinds.INSTRUMENT)
+
+    def standard(self, identifier: str, named_at: Place | None = None) -> Standard:
+        """Return a standard, as `find` does."""
+        return self.find(kinds.STANDARD, identifier, named_at)
+
+    def source(self, identifier: str, named_at: Place | None = None) -> DataSource:
+        """Return a data source, as `find` does."""
+        return self.find(kinds.SOURCE, identifier, named_at)
+
+    def renderer(self, identifier: str, named_at: Place | None = None) -> Renderer:
+        """Return a renderer, as `find` does."""
+        return self.find(kinds.RENDERER, identifier, named_at)
+
+    def effect(self, identifier: str, named_at: Place | None = None) -> Effect:
+        """Return an effect, as `find` does."""
+        return self.find(kinds.EFFECT, identifier, named_at)
+
+    def part_program(self, identifier: str, named_at: Place | None = None) -> PartProgram:
+        """Return a writer of part programs, as `find` does."""
+        return self.find(kinds.PART_PROGRAM, identifier, named_at)
+
+    def probing_program(self, identifier: str, named_at: Place | None = None) -> ProbingProgram:
+        """Return a writer of probing programs, as `find` does."""
+        return self.find(kinds.PROBING_PROGRAM, identifier, named_at)
+
+    def instrument(self, identifier: str, named_at: Place | None = None) -> Instrument:
+        """Return a live instrument, as `find` does."""
+        return self.find(kinds.INSTRUMENT, identifier, named_at)
+
+
+def _as_it_is(module: object) -> object:
+    return module
+
+
+def collect(loaded: Iterable[tuple[Plugin, object]], disabled: Iterable[str] = ()) -> Registry:
+    """Return the registry of modules, or of any objects that have hooks; raise `InputError` as it does."""
+    candidates = [Candidate(plugin, partial(_as_it_is, module)) for plugin, module in loaded]
+    registry = Registry(candidates, disabled)
+    registry.offers()
+    if registry.misspelt:
+        raise InputError(registry.misspelt)
+    return registry

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from zlmreport.plugin.hookspecs import hookimpl
+from zlmreport.plugin import hookimpl
 from zlmreport.plugin.protocols import DataSource
 from zlmreport_plugins.sources.step_gauge.source import StepGaugeSource
 

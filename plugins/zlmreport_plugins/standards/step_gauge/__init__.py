@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from zlmreport.plugin.hookspecs import hookimpl
+from zlmreport.plugin import hookimpl
 from zlmreport.plugin.protocols import Standard
 from zlmreport_plugins.standards.step_gauge.standard import StepGaugeEvaluation
 

@@ -1,0 +1,189 @@
+"""The kinds of plugins, each declared once: its hook, its interface, its keys, its kit.
+
+All else follows from a row of this table: the hook that plugins answer, what is asked of an object before it
+is used, the listing of ``zlmreport plugins``, the reference page and its kit.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Generic, TypeVar, cast
+
+import pluggy
+
+from zlmreport import plugin as door
+
+if TYPE_CHECKING:
+    from zlmreport.model.effect import Effect
+    from zlmreport.plugin.protocols import (
+        DataSource,
+        Instrument,
+        PartProgram,
+        ProbingProgram,
+        Renderer,
+        Standard,
+    )
+
+PROJECT = "zlmreport"
+
+#: Marks a plugin's functions that answer hooks.
+hookimpl = pluggy.HookimplMarker(PROJECT)
+_hookspec = pluggy.HookspecMarker(PROJECT)
+
+Offered_co = TypeVar("Offered_co", covariant=True)
+
+
+def _nothing_more(offered: Any) -> str:  # noqa: ARG001 - what a kind asks beyond its interface
+    return ""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Kind(Generic[Offered_co]):
+    """What a plugin may offer.
+
+    Attributes
+    ----------
+    name
+        In hooks, in ``zlmreport new`` and where a distribution declares what it offers.
+    label
+        In messages and listings.
+    offers
+        What the hook returns: the rest of the sentence "Return …".
+    interface
+        The name in `zlmreport.plugin` of what each must be.
+    kit
+        The name in `zlmreport.testing` of the function that runs its checks.
+    reserved
+        Job keys that it must not have of its own.
+    suffix
+        Such as its files have; empty for what writes no file.
+    has_keys
+        Whether a job can give it keys of its own.
+    lacks
+        Returns what is wrong with one beyond a missing member; empty if nothing is.
+    """
+
+    name: str
+    label: str
+    offers: str
+    interface: str
+    kit: str
+    reserved: frozenset[str] = frozenset()
+    suffix: str = ""
+    has_keys: bool = True
+    lacks: Callable[[Any], str] = _nothing_more
+
+    @property
+    def hook(self) -> str:
+        """The function that a plugin answers: ``zlmreport_standards``."""
+        return f"{PROJECT}_{self.name.replace(' ', '_')}s"
+
+    @property
+    def protocol(self) -> type[Offered_co]:
+        """What each must be."""
+        return cast("type[Offered_co]", getattr(door, self.interface))
+
+    @property
+    def members(self) -> tuple[str, ...]:
+        """What each must have."""
+        public = (name for name in (*self.protocol.__annotations__, *vars(self.protocol)) if name[0] != "_")
+        return tuple(dict.fromkeys(public))
+
+    def __str__(self) -> str:
+        return self.name
+
+
+def _meaning_two_things(effect: Any) -> str:
+    """Tell of a job key of an effect that means two things, names of parameters among them."""
+    from zlmreport.job.fields import keys_in  # noqa: PLC0415 - brings pydantic
+
+    names = [parameter.name for parameter in (*effect.linear, *effect.searched)]
+    names.extend(keys_in(effect.options))
+    twice = sorted(name for name, times in Counter(names).items() if times > 1)
+    return f"has two parameters or keys called {twice[0]!r}" if twice else ""
+
+
+STANDARD: Kind[Standard] = Kind(
+    name="standard",
+    label="standard",
+    offers="the standards that this plugin evaluates by",
+    interface="Standard",
+    kit="check_standard",
+    reserved=frozenset({"standard", "tolerances"}),
+)
+SOURCE: Kind[DataSource] = Kind(
+    name="source",
+    label="data source",
+    offers="the data sources that this plugin reads",
+    interface="DataSource",
+    kit="check_source",
+    reserved=frozenset({"plugin"}),
+)
+RENDERER: Kind[Renderer] = Kind(
+    name="renderer",
+    label="format",
+    offers="the file formats that this plugin writes",
+    interface="Renderer",
+    kit="check_renderer",
+    suffix=".pdf",
+    has_keys=False,
+)
+EFFECT: Kind[Effect] = Kind(
+    name="effect",
+    label="effect",
+    offers="the effects that this plugin adds to the error model",
+    interface="Effect",
+    kit="check_effect",
+    lacks=_meaning_two_things,
+)
+PART_PROGRAM: Kind[PartProgram] = Kind(
+    name="part_program",
+    label="part program",
+    offers="the languages in which this plugin writes part programs",
+    interface="PartProgram",
+    kit="check_part_program",
+    reserved=frozenset({"program"}),
+    suffix=".ngc",
+)
+PROBING_PROGRAM: Kind[ProbingProgram] = Kind(
+    name="probing_program",
+    label="probing program",
+    offers="the languages in which this plugin writes probing programs",
+    interface="ProbingProgram",
+    kit="check_probing_program",
+    reserved=frozenset({"program"}),
+    suffix=".dmi",
+)
+INSTRUMENT: Kind[Instrument] = Kind(
+    name="instrument",
+    label="instrument",
+    offers="the live instruments that this plugin reads",
+    interface="Instrument",
+    kit="check_instrument",
+    reserved=frozenset({"plugin"}),
+)
+
+#: In the order in which they are listed.
+KINDS: tuple[Kind[Any], ...] = (
+    STANDARD,
+    SOURCE,
+    RENDERER,
+    EFFECT,
+    PART_PROGRAM,
+    PROBING_PROGRAM,
+    INSTRUMENT,
+)
+
+
+def specifications() -> type:
+    """Return the hooks of all kinds, as pluggy wants to see them."""
+
+    def specified(kind: Kind[Any]) -> Callable[[], object]:
+        def hook() -> object: ...
+
+        hook.__name__, hook.__doc__ = kind.hook, f"Return {kind.offers}."
+        return _hookspec(hook)
+
+    return type("Hooks", (), {kind.hook: staticmethod(specified(kind)) for kind in KINDS})
