@@ -10,8 +10,7 @@ import numpy as np
 from hidden_effects.sizes import beyond
 from zlmreport.model.axis_model import Term
 from zlmreport.model.design import Design
-from zlmreport.model.effect import Effect
-from zlmreport.model.parameter import Dimension
+from zlmreport.model.effect import Dimension, Effect
 from zlmreport.quantities.arrays import FloatArray
 
 #: A deviation of which a smaller share is left is imitated entirely.

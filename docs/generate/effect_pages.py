@@ -13,9 +13,8 @@ from zlmreport.job.fields import keys_in
 from zlmreport.language import Language, Words
 from zlmreport.measurement.axis import AxisKind
 from zlmreport.model.design import Design
-from zlmreport.model.effect import Effect, Shape
+from zlmreport.model.effect import Effect, Parameter, Shape, unit_of
 from zlmreport.model.observations import of_readings
-from zlmreport.model.parameter import Parameter, unit_of
 from zlmreport.plugin.kinds import EFFECT
 from zlmreport.plugins import find_plugins
 from zlmreport.testing import full_designs

@@ -13,7 +13,7 @@ from zlmreport.model.effect import Effect
 from zlmreport.model.observations import Observations
 from zlmreport.quantities.arrays import FloatArray
 from zlmreport_plugins.effects import zlmreport_effects
-from zlmreport_plugins.effects.polynomial import Polynomial
+from zlmreport_plugins.effects.geometry import Polynomial
 
 EFFECTS: Mapping[str, Effect] = {effect.identifier: effect for effect in zlmreport_effects()}
 INSTALLED = tuple(EFFECTS.values())

@@ -12,8 +12,7 @@ import numpy as np
 from zlmreport.language import same
 from zlmreport.measurement.axis import Axis
 from zlmreport.model.design import Design
-from zlmreport.model.effect import Effect, Shape
-from zlmreport.model.parameter import Dimension, Parameter
+from zlmreport.model.effect import Dimension, Effect, Parameter, Shape
 from zlmreport.quantities.arrays import FloatArray
 
 _FILE = Path(__file__).parents[1] / "data" / "nist" / "reference_datasets.json"

@@ -16,7 +16,7 @@ from zlmreport.measurement.axis import AxisKind
 from zlmreport.model.axis_model import AxisModel, ModelError, Term, chosen_terms
 from zlmreport.model.fit import fit
 from zlmreport.model.observations import of_readings
-from zlmreport_plugins.effects.polynomial import Polynomial
+from zlmreport_plugins.effects.geometry import Polynomial
 
 DESIGN = linear_test(targets=7, runs=3)
 READINGS = known(DESIGN)

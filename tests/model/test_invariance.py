@@ -19,7 +19,7 @@ from zlmreport.model.axis_model import AxisModel
 from zlmreport.model.diagnosis import Diagnosis, Verdict, diagnose
 from zlmreport.model.effect import Effect
 from zlmreport.quantities.arrays import FloatArray
-from zlmreport_plugins.effects.polynomial import Polynomial
+from zlmreport_plugins.effects.geometry import Polynomial
 
 DESIGN = linear_test(13, 4)
 MODEL = model_of(Polynomial(3), "backlash")

@@ -11,8 +11,7 @@ from zlmreport.job.types import Options
 from zlmreport.language import Words
 from zlmreport.measurement.axis import Axis
 from zlmreport.model.design import Design
-from zlmreport.model.effect import Confusion, Effect, Shape
-from zlmreport.model.parameter import Dimension, Parameter
+from zlmreport.model.effect import Confusion, Dimension, Effect, Parameter, Shape
 from zlmreport.quantities.arrays import FloatArray
 
 

@@ -16,7 +16,7 @@ from zlmreport.plugin import (
     needs_linear_axis,
     needs_logged,
 )
-from zlmreport_plugins.effects import told_apart
+from zlmreport_plugins.effects import experiments
 from zlmreport_plugins.effects.faces import FACE
 
 
@@ -49,8 +49,8 @@ class GaugeMisalignment(Effect):
         de="Die Residuen fallen im Verhältnis zur Position.",
     )
     confusions = (
-        Confusion("cosine-error", told_apart.GAUGE_REPLACED_BY_LASER),
-        Confusion("scale-error", told_apart.GAUGE_REALIGNED),
+        Confusion("cosine-error", experiments.GAUGE_REPLACED_BY_LASER),
+        Confusion("scale-error", experiments.GAUGE_REALIGNED),
     )
 
     def untestable(self, design: Design) -> Words | None:

@@ -1,29 +1,218 @@
-"""Something repeats along the axis, and nothing says what it is."""
+"""Errors that repeat along the axis: with the turn of a screw, the signal of a scale, or with neither."""
 
 from __future__ import annotations
 
+from typing import Annotated
+
 import numpy as np
+from pydantic import AfterValidator, Field
 
 from zlmreport.plugin import (
+    Axis,
     Confusion,
     Design,
     Dimension,
     Effect,
     FloatArray,
+    Options,
     Parameter,
     Shape,
     Words,
     harmonic_columns,
     harmonic_parameters,
+    needs_both_directions,
+    needs_linear_axis,
     needs_targets,
+    needs_whole_period,
 )
-from zlmreport_plugins.effects import told_apart
+from zlmreport_plugins.effects import experiments
 
-_LARGEST = 20e-6
+#: In which a contest tries such an effect.
+COMBINATIONS = ((1,), (2,), (1, 2))
+_SCREW_PITCH = "axis.screw_pitch"
+_LARGEST_OF_PITCH = 8e-6
+_LARGEST_OF_DIRECTION = 3e-6
+_SIGNAL_PERIOD = "axis.signal_period"
+_LARGEST_OF_SIGNAL = 2e-6
+_LARGEST_OF_ANY = 20e-6
 #: Fewer periods within the travel are a bow; more than half the number of targets cannot be told from fewer.
 _FEWEST_PERIODS = 1.3
 _STEPS_PER_PERIOD = 4
 _LEAST_TARGETS = 6
+
+
+def _distinct(harmonics: tuple[int, ...]) -> tuple[int, ...]:
+    if len(set(harmonics)) < len(harmonics):
+        raise ValueError("a harmonic stands there twice; each is named once, as in [1, 2]")
+    return harmonics
+
+
+class HarmonicOptions(Options):
+    """The harmonics of a known period."""
+
+    harmonics: Annotated[tuple[Annotated[int, Field(ge=1, le=4)], ...], AfterValidator(_distinct)] = Field(
+        (1, 2), min_length=1, description="Harmonics of the period, 1 to 4: 1 is once a period."
+    )
+
+
+class ScrewPitch(Effect):
+    """A periodic error of the ball screw, its bearing or its coupling: it repeats with every turn.
+
+    Targets at whole pitches all see the same phase and do not see it at all; ISO 230-2 asks for random
+    fractions in the targets for this reason.
+    """
+
+    identifier = "screw-pitch"
+    title = Words(en="Periodic error of the screw", de="Periodischer Steigungsfehler der Spindel")
+    equation = "Σ A_{h}·sin(2π·h·P/p_{0} + φ_{h})"
+    searched = (
+        Parameter(
+            "period",
+            "p_{0}",
+            Dimension.POSITION,
+            Words(en="pitch of the screw", de="Steigung der Spindel"),
+            0.0,
+        ),
+    )
+    shape = Shape.POSITION
+    look = Words(
+        en="The residuals repeat with the pitch: folded at it, they lie on one wave.",
+        de="Die Residuen wiederholen sich mit der Steigung: über ihr gefaltet liegen sie auf einer Welle.",
+    )
+    confusions = (Confusion("periodic", experiments.FINE_RUN),)
+    options = HarmonicOptions
+
+    def __init__(self, settings: HarmonicOptions | None = None) -> None:
+        self.settings = settings or HarmonicOptions()
+        self.orders = self.settings.harmonics
+        self.linear = harmonic_parameters(self.orders, _LARGEST_OF_PITCH)
+
+    def with_settings(self, settings: HarmonicOptions) -> Effect:
+        """Return the effect with the stated harmonics."""
+        return ScrewPitch(settings)
+
+    def forms(self) -> tuple[Effect, ...]:
+        """Return the combinations of harmonics that a contest tries."""
+        return tuple(ScrewPitch(HarmonicOptions(harmonics=orders)) for orders in COMBINATIONS)
+
+    def untestable(self, design: Design) -> Words | None:
+        """Demand a linear axis, its pitch, and a travel of one turn."""
+        return needs_linear_axis(design) or needs_whole_period(design, design.axis.screw_pitch, _SCREW_PITCH)
+
+    def grid(self, design: Design) -> FloatArray:
+        """Return the pitch that the job states: it is known."""
+        return np.array([[design.axis.screw_pitch]], dtype=np.float64)
+
+    def columns(self, design: Design, theta: FloatArray) -> FloatArray:
+        """Return sine and cosine of each harmonic."""
+        return harmonic_columns(2 * np.pi * design.position / theta[0], self.orders)
+
+    def expected(self, axis: Axis) -> dict[str, float]:
+        """Return the pitch."""
+        return {} if axis.screw_pitch is None else {"period": axis.screw_pitch}
+
+
+class DirectionalPitch(Effect):
+    """A wobbling axial bearing or a bent screw: the reversal value itself repeats with the pitch.
+
+    Nothing else known does so; a fine run over two pitches shows it. It cannot be seen at whole pitches.
+    """
+
+    identifier = "directional-pitch"
+    title = Words(en="Periodic lost motion of the screw", de="Periodische Umkehrspanne der Spindel")
+    equation = "d·A·sin(2π·P/p_{0} + φ)"
+    linear = harmonic_parameters([1], _LARGEST_OF_DIRECTION)
+    searched = (
+        Parameter(
+            "period",
+            "p_{0}",
+            Dimension.POSITION,
+            Words(en="pitch of the screw or gear", de="Steigung der Spindel oder Teilung des Getriebes"),
+            0.0,
+        ),
+    )
+    shape = Shape.DIRECTION
+    look = Words(
+        en="The gap between the directions repeats with the pitch.",
+        de="Der Abstand der beiden Richtungen wiederholt sich mit der Steigung.",
+    )
+
+    def untestable(self, design: Design) -> Words | None:
+        """Demand both directions, the pitch, and a travel of one turn."""
+        return needs_both_directions(design) or needs_whole_period(
+            design, design.axis.screw_pitch, _SCREW_PITCH
+        )
+
+    def grid(self, design: Design) -> FloatArray:
+        """Return the pitch that the job states: it is known."""
+        return np.array([[design.axis.screw_pitch]], dtype=np.float64)
+
+    def columns(self, design: Design, theta: FloatArray) -> FloatArray:
+        """Return sine and cosine, with the sign of the approach."""
+        return design.direction[:, np.newaxis] * harmonic_columns(2 * np.pi * design.position / theta[0], [1])
+
+    def expected(self, axis: Axis) -> dict[str, float]:
+        """Return the pitch."""
+        return {} if axis.screw_pitch is None else {"period": axis.screw_pitch}
+
+
+class EncoderInterpolation(Effect):
+    """Offset, unequal amplitudes and phase of an encoder's two signals: an error within each signal period.
+
+    Makers state 1 % to 2 % of the signal period: 0.2 µm to 0.4 µm at 20 µm. The period is exact in the
+    encoder's own positions, so it is known; targets must be true to a micrometre, and at random fractions
+    of the period, or the error looks like independent noise. Micro steps over two or three signal periods
+    show it plainly.
+    """
+
+    identifier = "encoder-interpolation"
+    title = Words(en="Interpolation error of the encoder", de="Interpolationsabweichung des Messsystems")
+    equation = "Σ A_{h}·sin(2π·h·P/Λ_{s} + φ_{h})"
+    searched = (
+        Parameter(
+            "period",
+            "Λ_{s}",
+            Dimension.POSITION,
+            Words(en="signal period of the scale", de="Signalperiode des Maßstabs"),
+            0.0,
+        ),
+    )
+    shape = Shape.POSITION
+    look = Words(
+        en="The residuals look like noise over the travel; folded at the signal period they lie on a wave.",
+        de="Die Residuen sehen über dem Verfahrweg wie Rauschen aus; über der Signalperiode gefaltet "
+        "liegen sie auf einer Welle.",
+    )
+    options = HarmonicOptions
+
+    def __init__(self, settings: HarmonicOptions | None = None) -> None:
+        self.settings = settings or HarmonicOptions()
+        self.orders = self.settings.harmonics
+        self.linear = harmonic_parameters(self.orders, _LARGEST_OF_SIGNAL)
+
+    def with_settings(self, settings: HarmonicOptions) -> Effect:
+        """Return the effect with the stated harmonics."""
+        return EncoderInterpolation(settings)
+
+    def forms(self) -> tuple[Effect, ...]:
+        """Return the combinations of harmonics that a contest tries."""
+        return tuple(EncoderInterpolation(HarmonicOptions(harmonics=orders)) for orders in COMBINATIONS)
+
+    def untestable(self, design: Design) -> Words | None:
+        """Demand the signal period, and a travel that holds one."""
+        return needs_whole_period(design, design.axis.signal_period, _SIGNAL_PERIOD)
+
+    def grid(self, design: Design) -> FloatArray:
+        """Return the signal period that the job states: it is known."""
+        return np.array([[design.axis.signal_period]], dtype=np.float64)
+
+    def columns(self, design: Design, theta: FloatArray) -> FloatArray:
+        """Return sine and cosine of each harmonic."""
+        return harmonic_columns(2 * np.pi * design.position / theta[0], self.orders)
+
+    def expected(self, axis: Axis) -> dict[str, float]:
+        """Return the signal period."""
+        return {} if axis.signal_period is None else {"period": axis.signal_period}
 
 
 class Periodic(Effect):
@@ -36,7 +225,7 @@ class Periodic(Effect):
     identifier = "periodic"
     title = Words(en="Periodic error of unknown period", de="Periodische Abweichung unbekannter Periode")
     equation = "A·sin(2π·P/Λ + φ)"
-    linear = harmonic_parameters([1], _LARGEST)
+    linear = harmonic_parameters([1], _LARGEST_OF_ANY)
     searched = (
         Parameter(
             "period",
@@ -52,12 +241,12 @@ class Periodic(Effect):
         de="Die Residuen wiederholen sich längs der Achse, in beiden Richtungen gleich.",
     )
     confusions = (
-        Confusion("screw-pitch", told_apart.FINE_RUN),
-        Confusion("gear-mesh", told_apart.FULL_TURN),
-        Confusion("compensation-sign", told_apart.TABLE_OFF),
-        Confusion("time-periodic", told_apart.LINEAR_METHOD),
-        Confusion("polynomial", told_apart.DENSER_TARGETS),
-        Confusion("abbe", told_apart.OTHER_HEIGHT),
+        Confusion("screw-pitch", experiments.FINE_RUN),
+        Confusion("gear-mesh", experiments.FULL_TURN),
+        Confusion("compensation-sign", experiments.TABLE_OFF),
+        Confusion("time-periodic", experiments.LINEAR_METHOD),
+        Confusion("polynomial", experiments.DENSER_TARGETS),
+        Confusion("abbe", experiments.OTHER_HEIGHT),
     )
 
     def untestable(self, design: Design) -> Words | None:

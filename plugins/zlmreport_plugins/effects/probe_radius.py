@@ -16,7 +16,7 @@ from zlmreport.plugin import (
     needs_linear_axis,
     needs_logged,
 )
-from zlmreport_plugins.effects import told_apart
+from zlmreport_plugins.effects import experiments
 from zlmreport_plugins.effects.faces import FACE
 
 
@@ -45,7 +45,7 @@ class ProbeRadius(Effect):
         en="The two kinds of faces stand apart by the same amount everywhere.",
         de="Die beiden Arten von Flächen liegen überall um denselben Betrag auseinander.",
     )
-    confusions = (Confusion("backlash", told_apart.CALIBRATED_BLOCK),)
+    confusions = (Confusion("backlash", experiments.CALIBRATED_BLOCK),)
 
     def untestable(self, design: Design) -> Words | None:
         """Demand a linear axis, and the faces."""

@@ -13,7 +13,6 @@ Everything here is (check): no Fanuc control has run such a program yet.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Iterator
 from typing import Any, Literal
 
@@ -30,8 +29,6 @@ from zlmreport.plugin import (
     program_number,
     reading_remark,
 )
-
-_ADDRESS = re.compile("[XYZABCUVW]")
 
 
 class FanucOptions(ProgramOptions):
@@ -63,7 +60,7 @@ class Fanuc:
 
 
 def _lines(motion: Motion, options: FanucOptions) -> Iterator[str]:
-    axis = axis_address(motion, options, _ADDRESS, "X, Y, Z, A, B, C, U, V or W")
+    axis = axis_address(motion, options)
     yield "%"
     yield f"O{options.number:04d}"
     yield from (_remark(text) for text in program_heading(motion))

@@ -28,7 +28,6 @@ from zlmreport.plugin import (
     reading_remark,
 )
 
-_ADDRESS = re.compile("[XYZABCUVW]")
 _NOT_IN_NAMES = re.compile(r"[^A-Za-z0-9_-]")
 
 
@@ -52,7 +51,7 @@ class Heidenhain:
 
 
 def _blocks(motion: Motion, options: HeidenhainOptions) -> Iterator[str]:
-    axis = axis_address(motion, options, _ADDRESS, "X, Y, Z, A, B, C, U, V or W")
+    axis = axis_address(motion, options)
     name = _NOT_IN_NAMES.sub("_", motion.number)
     feed, dwell = program_number(motion.feed), program_number(motion.dwell)
     yield f"BEGIN PGM {name} MM"

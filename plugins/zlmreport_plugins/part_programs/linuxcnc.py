@@ -10,7 +10,6 @@ The words used are those of LinuxCNC's own documentation, and its stand-alone in
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Iterator
 from typing import Any
 
@@ -27,8 +26,6 @@ from zlmreport.plugin import (
     program_number,
     reading_remark,
 )
-
-_ADDRESS = re.compile("[XYZABCUVW]")
 
 
 class LinuxCncOptions(ProgramOptions):
@@ -51,7 +48,7 @@ class LinuxCnc:
 
 
 def _lines(motion: Motion, options: LinuxCncOptions) -> Iterator[str]:
-    axis = axis_address(motion, options, _ADDRESS, "X, Y, Z, A, B, C, U, V or W")
+    axis = axis_address(motion, options)
     yield from (f"({text})" for text in program_heading(motion))
     yield "G21 G90 G94 G40 G49 G80 (mm, absolute, feed per minute, no offsets)"
     yield "G61.1 (exact stop)"

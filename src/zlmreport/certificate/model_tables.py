@@ -13,8 +13,8 @@ from zlmreport.language import Language, Words
 from zlmreport.model import wording
 from zlmreport.model.design import Design
 from zlmreport.model.diagnosis import Diagnosis
+from zlmreport.model.effect import unit_of
 from zlmreport.model.estimate import Estimate, Plausibility
-from zlmreport.model.parameter import unit_of
 from zlmreport.model.report import serious_candidates
 from zlmreport.model.study import Fitted, Wave, waves
 from zlmreport.model.visibility import Visibility

@@ -14,9 +14,9 @@ from zlmreport.language import Language, Words
 from zlmreport.model import wording
 from zlmreport.model.design import Design
 from zlmreport.model.diagnosis import ErrorNumbers
+from zlmreport.model.effect import Dimension, unit_of
 from zlmreport.model.estimate import Estimate, Plausibility
 from zlmreport.model.fit import Fit
-from zlmreport.model.parameter import Dimension, unit_of
 from zlmreport.model.study import Fitted, waves
 from zlmreport.quantities.formatting import fixed_number, general_number
 from zlmreport.quantities.uncertain import rounded_pair

@@ -11,7 +11,7 @@ from zlmreport.cli.model_lines import said
 from zlmreport.cli.plan_files import SIGNS
 from zlmreport.job.job import Job
 from zlmreport.measurement.axis import Axis
-from zlmreport.model.parameter import unit_of
+from zlmreport.model.effect import unit_of
 from zlmreport.planning.planned_test import PlannedTest
 from zlmreport.planning.targets import in_users_unit
 from zlmreport.planning.visibility import Remedy, SeenEffect

@@ -12,8 +12,7 @@ from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.axis import Axis
 from zlmreport.model import wording
 from zlmreport.model.design import Design
-from zlmreport.model.effect import Shape
-from zlmreport.model.parameter import unit_of
+from zlmreport.model.effect import Shape, unit_of
 from zlmreport.planning.methods import Method, Visit
 from zlmreport.planning.plan import ASSUMPTION
 from zlmreport.planning.planned_test import PlannedTest

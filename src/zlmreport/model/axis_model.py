@@ -12,8 +12,7 @@ from zlmreport.job.choices import EffectChoice
 from zlmreport.language import Language
 from zlmreport.measurement.axis import AxisKind
 from zlmreport.model.design import Design
-from zlmreport.model.effect import Effect
-from zlmreport.model.parameter import Parameter, unit_of
+from zlmreport.model.effect import Effect, Parameter, unit_of
 from zlmreport.quantities.arrays import BoolArray, FloatArray
 
 #: A combination of columns this much shorter than its longest member is zero but for rounding.

@@ -9,10 +9,10 @@ from enum import StrEnum
 import numpy as np
 
 from zlmreport.language import Words
-from zlmreport.model import needs, wording
+from zlmreport.model import wording
 from zlmreport.model.axis_model import AxisModel, ModelError
 from zlmreport.model.candidates import NotTestable, effects_to_try
-from zlmreport.model.effect import Effect
+from zlmreport.model.effect import Effect, is_of_another_axis
 from zlmreport.model.estimate import Estimate
 from zlmreport.model.evidence import Ranked
 from zlmreport.model.fit import Assumptions, Fit, cross_validated_rms, fit
@@ -332,9 +332,7 @@ def _not_excluded(candidates: Sequence[Candidate], not_testable: Sequence[NotTes
         return ()
     alike = {confusion.effect for confusion in candidates[0].effect.confusions}
     return tuple(
-        each.effect
-        for each in not_testable
-        if each.effect in alike and not needs.is_of_another_axis(each.reason)
+        each.effect for each in not_testable if each.effect in alike and not is_of_another_axis(each.reason)
     )
 
 

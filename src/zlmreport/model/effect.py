@@ -1,4 +1,11 @@
-"""What an effect is: one physical cause of deviations, on a page of its own."""
+"""What an effect is: one physical cause of deviations, its parameters, and what it needs of a test.
+
+Each of the functions that begin with ``needs`` says in words what is missing, or returns None. An effect
+joins its needs by ``or``, the first that is not met answers::
+
+    def untestable(self, design: Design) -> Words | None:
+        return needs_linear_axis(design) or needs_logged(design, "axis_temperature")
+"""
 
 from __future__ import annotations
 
@@ -10,10 +17,125 @@ import numpy as np
 
 from zlmreport.job.types import Options
 from zlmreport.language import Words
-from zlmreport.measurement.axis import Axis
+from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.model.design import Design
-from zlmreport.model.parameter import Parameter
 from zlmreport.quantities.arrays import FloatArray
+from zlmreport.quantities.units import ARCSECOND, DEGREE, MICROMETRE, MILLIMETRE, Unit
+
+_NO_COLUMN = Words(
+    en="no column {column} was logged beside the readings",
+    de="die Spalte {column} wurde nicht neben den Messwerten aufgezeichnet",
+)
+_NO_COLUMNS = Words(
+    en="no columns {columns} were logged beside the readings",
+    de="die Spalten {columns} wurden nicht neben den Messwerten aufgezeichnet",
+)
+_NO_KEY = Words(en="the job does not state {key}", de="der Auftrag nennt {key} nicht")
+_ONE_DIRECTION = Words(
+    en="the targets were approached from one direction only",
+    de="die Zielpositionen wurden nur aus einer Richtung angefahren",
+)
+_NOT_LINEAR = Words(en="it belongs to linear axes", de="er gehört zu Linearachsen")
+_NOT_ROTARY = Words(en="it belongs to rotary axes", de="er gehört zu Drehachsen")
+_FEW_TARGETS = Words(
+    en="it needs at least {least} target positions; there are {found}",
+    de="er braucht mindestens {least} Zielpositionen; es sind {found}",
+)
+_FEW_RUNS = Words(
+    en="it needs at least {least} runs; there are {found}",
+    de="er braucht mindestens {least} Durchläufe; es sind {found}",
+)
+_NO_TIME = Words(
+    en="no time passes between the first reading and the last",
+    de="zwischen dem ersten und dem letzten Messwert vergeht keine Zeit",
+)
+_SHORT_TRAVEL = Words(
+    en="the measured travel is shorter than one period ({key})",
+    de="der gemessene Verfahrweg ist kürzer als eine Periode ({key})",
+)
+
+
+class Dimension(Enum):
+    """What kind of quantity a parameter is; its printed unit follows from it and the kind of axis."""
+
+    DEVIATION = "deviation"
+    SLOPE = "deviation per position"
+    POSITION = "position along the axis"
+    TIME = "time"
+    DEVIATION_PER_KELVIN = "deviation per kelvin"
+    EXPANSION = "deviation per position and kelvin"
+    LENGTH = "length across the axis"
+    ANGLE = "phase"
+    RATIO = "ratio"
+
+
+_LINEAR = {
+    Dimension.DEVIATION: MICROMETRE,
+    Dimension.SLOPE: Unit("µm/m", "um/m", 1e6),
+    Dimension.POSITION: MILLIMETRE,
+    Dimension.TIME: Unit("s", "s", 1.0),
+    Dimension.DEVIATION_PER_KELVIN: Unit("µm/K", "um/K", 1e6),
+    Dimension.EXPANSION: Unit("µm/(m·K)", "um/(m K)", 1e6),
+    Dimension.LENGTH: MILLIMETRE,
+    Dimension.ANGLE: DEGREE,
+    Dimension.RATIO: Unit("", "1", 1.0),
+}
+_ROTARY = _LINEAR | {
+    Dimension.DEVIATION: ARCSECOND,
+    Dimension.SLOPE: Unit("″/°", "arcsec/deg", ARCSECOND.per_si / DEGREE.per_si),
+    Dimension.POSITION: DEGREE,
+    Dimension.DEVIATION_PER_KELVIN: Unit("″/K", "arcsec/K", ARCSECOND.per_si),
+    Dimension.EXPANSION: Unit("″/(°·K)", "arcsec/(deg K)", ARCSECOND.per_si / DEGREE.per_si),
+}
+_READINGS = Unit("readings", "readings", 1.0)
+
+
+def unit_of(dimension: Dimension, kind: AxisKind, *, time_is_counted: bool = False) -> Unit:
+    """Return the unit in which a parameter is read and printed.
+
+    Parameters
+    ----------
+    dimension
+        What kind of quantity it is.
+    kind
+        Of the axis.
+    time_is_counted
+        Whether the design counts readings instead of seconds.
+    """
+    if dimension is Dimension.TIME and time_is_counted:
+        return _READINGS
+    return (_LINEAR if kind is AxisKind.LINEAR else _ROTARY)[dimension]
+
+
+@dataclass(frozen=True, slots=True)
+class Parameter:
+    """A parameter of an effect.
+
+    Attributes
+    ----------
+    name
+        ASCII, as jobs and results files name it: ``lost_motion``.
+    notation
+        As printed: ``B``.
+    dimension
+        What kind of quantity it is.
+    description
+        In words.
+    smallest, largest
+        The plausible range, SI; a value outside it is reported as implausible and never clipped. None
+        where nothing is known. The range of a time is in seconds and says nothing where time is counted.
+    is_refined
+        Of a searched parameter, whether the search goes on between the values of the grid: not where only
+        these make sense (a number of teeth), or where nothing changes between them (the gap of a joint).
+    """
+
+    name: str
+    notation: str
+    dimension: Dimension
+    description: Words
+    smallest: float | None = None
+    largest: float | None = None
+    is_refined: bool = True
 
 
 class Shape(Enum):
@@ -108,3 +230,60 @@ class Effect(Protocol):
     def expected(self, axis: Axis) -> dict[str, float]:  # noqa: ARG002 - of this one nothing is known
         """Return values of parameters that follow from the job (a stated Abbe offset), SI; mostly empty."""
         return {}
+
+
+def needs_logged(design: Design, *columns: str) -> Words | None:
+    """Demand logged conditions, by their names."""
+    missing = [column for column in columns if column not in design.conditions]
+    if len(missing) > 1:
+        return _NO_COLUMNS.given(columns=", ".join(missing))
+    return _NO_COLUMN.given(column=missing[0]) if missing else None
+
+
+def needs_stated(value: object, key: str) -> Words | None:
+    """Demand that the job states something, by its value and its key."""
+    return _NO_KEY.given(key=key) if value is None else None
+
+
+def needs_both_directions(design: Design) -> Words | None:
+    """Demand targets that are approached from both directions."""
+    return None if design.is_bidirectional else _ONE_DIRECTION
+
+
+def needs_linear_axis(design: Design) -> Words | None:
+    """Demand an axis along which positions are lengths."""
+    return None if design.axis.kind is AxisKind.LINEAR else _NOT_LINEAR
+
+
+def needs_rotary_axis(design: Design) -> Words | None:
+    """Demand an axis along which positions are angles."""
+    return None if design.axis.kind is AxisKind.ROTARY else _NOT_ROTARY
+
+
+def is_of_another_axis(reason: Words) -> bool:
+    """Whether a need that is not met is that for another kind of axis: no measurement would meet it."""
+    return reason in (_NOT_LINEAR, _NOT_ROTARY)
+
+
+def needs_targets(design: Design, least: int) -> Words | None:
+    """Demand a number of target positions."""
+    found = len(design.target_positions)
+    return None if found >= least else _FEW_TARGETS.given(least=least, found=found)
+
+
+def needs_runs(design: Design, least: int) -> Words | None:
+    """Demand a number of runs."""
+    found = len(np.unique(design.run))
+    return None if found >= least else _FEW_RUNS.given(least=least, found=found)
+
+
+def needs_passing_time(design: Design) -> Words | None:
+    """Demand readings that were not all taken at once."""
+    return None if design.duration > 0 else _NO_TIME
+
+
+def needs_whole_period(design: Design, period: float | None, key: str) -> Words | None:
+    """Demand a period that the job states under a key, and a travel that is not shorter."""
+    if period is None:
+        return needs_stated(period, key)
+    return None if design.length >= period else _SHORT_TRAVEL.given(key=key)

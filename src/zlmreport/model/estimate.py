@@ -18,8 +18,8 @@ from zlmreport.measurement.axis import Axis
 from zlmreport.model.axis_model import Term
 from zlmreport.model.contrasts import Contrasts
 from zlmreport.model.distributions import t_quantile
+from zlmreport.model.effect import Dimension, Parameter
 from zlmreport.model.noise import Noise
-from zlmreport.model.parameter import Dimension, Parameter
 from zlmreport.model.search import Place, Problem, Solution
 from zlmreport.quantities.arrays import FloatArray
 

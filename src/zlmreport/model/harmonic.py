@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from zlmreport.language import Words
-from zlmreport.model.parameter import Dimension, Parameter
+from zlmreport.model.effect import Dimension, Parameter
 from zlmreport.quantities.arrays import FloatArray
 
 _SINE, _COSINE = "sine", "cosine"

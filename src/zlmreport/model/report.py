@@ -10,10 +10,10 @@ from zlmreport.measurement.axis import Axis
 from zlmreport.model import wording
 from zlmreport.model.design import Design
 from zlmreport.model.diagnosis import Candidate, Diagnosis, ErrorNumbers, Verdict
+from zlmreport.model.effect import unit_of
 from zlmreport.model.estimate import Estimate
 from zlmreport.model.fit import Fit
 from zlmreport.model.noise import Noise
-from zlmreport.model.parameter import unit_of
 from zlmreport.model.residuals import Failure
 from zlmreport.model.visibility import Visibility
 

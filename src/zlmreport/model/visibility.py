@@ -13,9 +13,8 @@ from zlmreport.model.candidates import Family, effects_to_try
 from zlmreport.model.comparison import Comparison
 from zlmreport.model.contrasts import Metric
 from zlmreport.model.design import Design
-from zlmreport.model.effect import Effect
+from zlmreport.model.effect import Effect, Parameter
 from zlmreport.model.null_distribution import NullDistribution, simulate_null
-from zlmreport.model.parameter import Parameter
 from zlmreport.quantities.arrays import FloatArray
 
 #: Values of searched parameters that are looked at.

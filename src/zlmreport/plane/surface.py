@@ -20,11 +20,10 @@ from zlmreport.measurement.approach import Approach
 from zlmreport.model.axis_model import AxisModel, ModelError, Term
 from zlmreport.model.design import Design, outside_of_measured
 from zlmreport.model.diagnosis import ErrorNumbers
-from zlmreport.model.effect import Effect, Shape
+from zlmreport.model.effect import Dimension, Effect, Parameter, Shape
 from zlmreport.model.estimate import Estimate, InstrumentError
 from zlmreport.model.fit import Assumptions, Fit, Prediction, cross_validated_rms, fit
 from zlmreport.model.noise import NoiseSource, noise_parts
-from zlmreport.model.parameter import Dimension, Parameter
 from zlmreport.plane.lines import ACROSS, Readings, points
 from zlmreport.quantities.arrays import FloatArray
 from zlmreport.quantities.units import Unit

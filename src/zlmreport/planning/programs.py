@@ -24,6 +24,8 @@ _LEAST_RATE = 0.001
 _RATE_DIGITS = 3
 _TARGETS_A_LINE = 5
 _LONGEST_NAME = 32
+#: Addresses of most controls.
+_ONE_LETTER = re.compile("[XYZABCUVW]")
 #: What no control takes for the end of a remark, for an address, or for a word of its own.
 _NOT_PLAIN = re.compile(r"[^A-Za-z0-9 ._+-]")
 _SIGNS = {Approach.POSITIVE: "+", Approach.NEGATIVE: "-"}
@@ -218,7 +220,12 @@ class ProgramOptions(Options):
     decimals: int = Field(3, ge=0, le=9, description="Digits after the decimal point of positions.")
 
 
-def axis_address(motion: Motion, options: ProgramOptions, addresses: re.Pattern[str], such_as: str) -> str:
+def axis_address(
+    motion: Motion,
+    options: ProgramOptions,
+    addresses: re.Pattern[str] = _ONE_LETTER,
+    such_as: str = "X, Y, Z, A, B, C, U, V or W",
+) -> str:
     """Return how the program addresses the axis.
 
     Parameters
@@ -228,7 +235,7 @@ def axis_address(motion: Motion, options: ProgramOptions, addresses: re.Pattern[
     options
         The keys of the part program.
     addresses
-        What the control takes, in capitals.
+        What the control takes, in capitals; a single letter, if nothing is stated.
     such_as
         The same for people.
 

@@ -13,10 +13,9 @@ from functools import reduce
 
 from zlmreport.language import Words
 from zlmreport.measurement.axis import Axis
-from zlmreport.model import needs
 from zlmreport.model.axis_model import AxisModel, ModelError, refuse_collisions
 from zlmreport.model.design import Design
-from zlmreport.model.effect import Effect
+from zlmreport.model.effect import Effect, needs_linear_axis, needs_rotary_axis
 from zlmreport.model.report import listed
 from zlmreport.model.visibility import Visibility, plan_visibility
 from zlmreport.planning.methods import Method, Visit, path, planned_design, visits
@@ -150,7 +149,7 @@ def logs_of(effect: Effect, design: Design) -> tuple[str, ...]:
 
 def _sight(effect: Effect, seen: Visibility, design: Design) -> Sight:
     if seen.reason is not None and effect.untestable(design) is not None:
-        other = seen.reason in (needs.linear_axis(design), needs.rotary_axis(design))
+        other = seen.reason in (needs_linear_axis(design), needs_rotary_axis(design))
         return Sight.OTHER_AXIS if other else Sight.NOT_TESTABLE
     if seen.share < HIDDEN_SHARE:
         return Sight.HIDDEN

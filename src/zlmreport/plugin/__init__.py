@@ -140,18 +140,23 @@ if TYPE_CHECKING:
     from zlmreport.measurement.provenance import Provenance, SourceFile
     from zlmreport.measurement.text_file import TextFile, known_encoding, parse_number, quoted, read_text
     from zlmreport.model.design import Design
-    from zlmreport.model.effect import Confusion, Effect, Shape
+    from zlmreport.model.effect import (
+        Confusion,
+        Dimension,
+        Effect,
+        Parameter,
+        Shape,
+        needs_both_directions,
+        needs_linear_axis,
+        needs_logged,
+        needs_passing_time,
+        needs_rotary_axis,
+        needs_runs,
+        needs_stated,
+        needs_targets,
+        needs_whole_period,
+    )
     from zlmreport.model.harmonic import harmonic_columns, harmonic_parameters
-    from zlmreport.model.needs import both_directions as needs_both_directions
-    from zlmreport.model.needs import linear_axis as needs_linear_axis
-    from zlmreport.model.needs import logged as needs_logged
-    from zlmreport.model.needs import passing_time as needs_passing_time
-    from zlmreport.model.needs import rotary_axis as needs_rotary_axis
-    from zlmreport.model.needs import runs as needs_runs
-    from zlmreport.model.needs import stated as needs_stated
-    from zlmreport.model.needs import targets as needs_targets
-    from zlmreport.model.needs import whole_period as needs_whole_period
-    from zlmreport.model.parameter import Dimension, Parameter
     from zlmreport.model.report import report_error, report_model
     from zlmreport.planning.programs import Motion, ProgramOptions, axis_address, program_number
     from zlmreport.planning.programs import heading as program_heading
@@ -538,14 +543,11 @@ _ROOMS = {
     "zlmreport.measurement.provenance": "Provenance SourceFile",
     "zlmreport.measurement.text_file": "TextFile known_encoding parse_number quoted read_text",
     "zlmreport.model.design": "Design",
-    "zlmreport.model.effect": "Confusion Effect Shape",
-    "zlmreport.model.harmonic": "harmonic_columns harmonic_parameters",
-    "zlmreport.model.needs": (
-        "needs_both_directions=both_directions needs_linear_axis=linear_axis needs_logged=logged "
-        "needs_passing_time=passing_time needs_rotary_axis=rotary_axis needs_runs=runs needs_stated=stated "
-        "needs_targets=targets needs_whole_period=whole_period"
+    "zlmreport.model.effect": (
+        "Confusion Dimension Effect Parameter Shape needs_both_directions needs_linear_axis needs_logged "
+        "needs_passing_time needs_rotary_axis needs_runs needs_stated needs_targets needs_whole_period"
     ),
-    "zlmreport.model.parameter": "Dimension Parameter",
+    "zlmreport.model.harmonic": "harmonic_columns harmonic_parameters",
     "zlmreport.model.report": "report_error report_model",
     "zlmreport.plugin.kinds": "hookimpl",
     "zlmreport.plugin.protocols": (

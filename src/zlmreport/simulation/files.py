@@ -17,8 +17,7 @@ from zlmreport.language import Language
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.measurement_set import CONDITIONS, MeasurementSet
 from zlmreport.model.axis_model import Term, chosen_terms
-from zlmreport.model.effect import Effect
-from zlmreport.model.parameter import unit_of
+from zlmreport.model.effect import Effect, unit_of
 from zlmreport.planning.methods import Method
 from zlmreport.planning.plan import Plan
 from zlmreport.planning.targets import target_generator, target_positions

@@ -10,9 +10,8 @@ import numpy as np
 from zlmreport.job.fields import keys_in
 from zlmreport.measurement.axis import AxisKind
 from zlmreport.model.design import Design
-from zlmreport.model.effect import Confusion, Effect, Shape
+from zlmreport.model.effect import Confusion, Dimension, Effect, Parameter, Shape
 from zlmreport.model.observations import of_readings
-from zlmreport.model.parameter import Dimension, Parameter
 from zlmreport.quantities.arrays import FloatArray
 from zlmreport.quantities.notation import plain
 from zlmreport.testing.designs import full_designs, poor_designs

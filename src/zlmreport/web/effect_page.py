@@ -12,8 +12,7 @@ from zlmreport.language import Language, Words
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.axis import Axis
 from zlmreport.model.design import Design, at_positions
-from zlmreport.model.effect import Effect, Shape
-from zlmreport.model.parameter import Parameter, unit_of
+from zlmreport.model.effect import Effect, Parameter, Shape, unit_of
 from zlmreport.plugins import Registry
 from zlmreport.quantities.arrays import FloatArray
 from zlmreport.quantities.formatting import general_number

@@ -20,9 +20,8 @@ from zlmreport.language import Language, Words
 from zlmreport.model import wording
 from zlmreport.model.design import Design
 from zlmreport.model.diagnosis import ErrorNumbers
-from zlmreport.model.effect import Shape
+from zlmreport.model.effect import Shape, unit_of
 from zlmreport.model.estimate import Estimate
-from zlmreport.model.parameter import unit_of
 from zlmreport.model.study import BY_TABLE, Fitted, corrected, moves_with_time
 from zlmreport.plugins import Registry
 from zlmreport.quantities.formatting import general_number

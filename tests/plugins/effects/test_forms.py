@@ -9,9 +9,9 @@ import pytest
 from pydantic import ValidationError
 
 from plugins.effects.installed import EFFECTS, design_for
-from zlmreport_plugins.effects.harmonic_options import HarmonicOptions
-from zlmreport_plugins.effects.polynomial import PolynomialOptions
-from zlmreport_plugins.effects.screw_expansion import BearingOptions
+from zlmreport_plugins.effects.geometry import PolynomialOptions
+from zlmreport_plugins.effects.periodic import HarmonicOptions
+from zlmreport_plugins.effects.thermal import BearingOptions
 
 NO_THETA = np.empty(0)
 

@@ -1,4 +1,4 @@
-"""The gear of a rotary axis errs with every tooth."""
+"""Errors of rotary axes: eccentricity, ellipticity, and the mesh of a gear."""
 
 from __future__ import annotations
 
@@ -21,14 +21,70 @@ from zlmreport.plugin import (
     needs_rotary_axis,
     needs_targets,
 )
-from zlmreport_plugins.effects import told_apart
+from zlmreport_plugins.effects import experiments
 
 _LARGEST = 200e-6
+_WAVES = 2
 _TURN = 2 * math.pi
 #: One and two waves a turn have names of their own; fewer waves in the travel are a bow.
 _FEWEST_TEETH = 3
 _FEWEST_WAVES = 1.3
 _LEAST_TARGETS = 6
+
+
+class Eccentricity(Effect):
+    """A wave of one period a turn, of amplitude e/R: 1 µm at a radius of 50 mm is 20 µrad or 4.1″.
+
+    Over part of a turn a polynomial imitates it; over 40° it cannot be seen.
+    """
+
+    identifier = "eccentricity"
+    title = Words(en="Eccentricity of the graduation", de="Exzentrizität der Teilung")
+    equation = "A·sin(θ + φ)"
+    linear = harmonic_parameters([1], _LARGEST)
+    shape = Shape.POSITION
+    look = Words(
+        en="The residuals make one wave a turn.",
+        de="Die Residuen bilden eine Welle je Umdrehung.",
+    )
+    confusions = (
+        Confusion("polynomial", experiments.FULL_TURN),
+        Confusion("ellipticity", experiments.TWO_HEADS),
+    )
+
+    def untestable(self, design: Design) -> Words | None:
+        """Demand a rotary axis."""
+        return needs_rotary_axis(design)
+
+    def columns(self, design: Design, theta: FloatArray) -> FloatArray:  # noqa: ARG002 - no θ
+        """Return sine and cosine."""
+        return harmonic_columns(design.position, [1])
+
+
+class Ellipticity(Effect):
+    """Two waves a turn: a misaligned coupling (β²/4; 10 mrad are 5″), an oval bearing, a wobbling disc."""
+
+    identifier = "ellipticity"
+    title = Words(en="Two waves a turn (coupling, wobble)", de="Zwei Wellen je Umdrehung (Kupplung, Taumeln)")
+    equation = "A·sin(2·θ + φ)"
+    linear = harmonic_parameters([1], _LARGEST)
+    shape = Shape.POSITION
+    look = Words(
+        en="The residuals make two waves a turn.",
+        de="Die Residuen bilden zwei Wellen je Umdrehung.",
+    )
+    confusions = (
+        Confusion("polynomial", experiments.FULL_TURN),
+        Confusion("eccentricity", experiments.TWO_HEADS),
+    )
+
+    def untestable(self, design: Design) -> Words | None:
+        """Demand a rotary axis."""
+        return needs_rotary_axis(design)
+
+    def columns(self, design: Design, theta: FloatArray) -> FloatArray:  # noqa: ARG002 - no θ
+        """Return sine and cosine of the double angle."""
+        return harmonic_columns(_WAVES * design.position, [1])
 
 
 class GearMesh(Effect):
@@ -57,7 +113,7 @@ class GearMesh(Effect):
         en="The residuals make a whole number of waves a turn.",
         de="Die Residuen bilden eine ganze Zahl von Wellen je Umdrehung.",
     )
-    confusions = (Confusion("periodic", told_apart.FULL_TURN),)
+    confusions = (Confusion("periodic", experiments.FULL_TURN),)
 
     def untestable(self, design: Design) -> Words | None:
         """Demand a rotary axis, and enough targets for a wave."""

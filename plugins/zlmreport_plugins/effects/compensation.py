@@ -1,4 +1,4 @@
-"""The control's compensation table acts one row off."""
+"""A compensation table of the control that acts wrongly: with another sign, or displaced."""
 
 from __future__ import annotations
 
@@ -20,7 +20,54 @@ from zlmreport.plugin import (
     Words,
     needs_stated,
 )
-from zlmreport_plugins.effects import told_apart
+from zlmreport_plugins.effects import experiments
+
+
+class CompensationSign(Effect):
+    """A deviation in proportion to the table C(P), which is given in the sign of the deviation.
+
+    The factor tells what happened: 2, the table acts with the wrong sign; 1, it does not act; −1, it acts
+    twice. Controls differ in the sign that they expect, and a table with the wrong one doubles the error.
+    """
+
+    identifier = "compensation-sign"
+    title = Words(
+        en="Compensation with wrong sign, or off", de="Kompensation mit falschem Vorzeichen oder aus"
+    )
+    equation = "k·C(P)"
+    linear = (
+        Parameter(
+            "factor",
+            "k",
+            Dimension.RATIO,
+            Words(
+                en="2: wrong sign; 1: not active; −1: applied twice",
+                de="2: falsches Vorzeichen; 1: nicht aktiv; −1: doppelt angewandt",
+            ),
+            -1.5,
+            2.5,
+        ),
+    )
+    shape = Shape.POSITION
+    look = Words(
+        en="The residuals look like the compensation table.",
+        de="Die Residuen sehen aus wie die Kompensationstabelle.",
+    )
+    confusions = (
+        Confusion("periodic", experiments.TABLE_OFF),
+        Confusion("polynomial", experiments.TABLE_OFF),
+        Confusion("compensation-shift", experiments.TABLE_READ_BACK),
+    )
+
+    def untestable(self, design: Design) -> Words | None:
+        """Demand the table."""
+        return needs_stated(design.axis.compensation_table, "axis.compensation_table")
+
+    def columns(self, design: Design, theta: FloatArray) -> FloatArray:  # noqa: ARG002 - no θ
+        """Return one column: C(P)."""
+        table = design.axis.compensation_table
+        assert table is not None  # noqa: S101  # else it is untestable
+        return table.at(design.position)[:, np.newaxis]
 
 
 class ShiftOptions(Options):
@@ -55,7 +102,7 @@ class CompensationShift(Effect):
         en="The residuals look like the slope of the compensation table.",
         de="Die Residuen sehen aus wie die Steigung der Kompensationstabelle.",
     )
-    confusions = (Confusion("compensation-sign", told_apart.TABLE_READ_BACK),)
+    confusions = (Confusion("compensation-sign", experiments.TABLE_READ_BACK),)
     options = ShiftOptions
 
     def __init__(self, settings: ShiftOptions | None = None) -> None:

@@ -1,0 +1,252 @@
+"""Errors of length, of beam and of guide: what is fixed in position and smooth along the axis."""
+
+from __future__ import annotations
+
+import numpy as np
+from pydantic import Field
+
+from zlmreport.plugin import (
+    Axis,
+    Confusion,
+    Design,
+    Dimension,
+    Effect,
+    FloatArray,
+    Options,
+    Parameter,
+    Shape,
+    Words,
+    needs_linear_axis,
+    needs_stated,
+    needs_targets,
+)
+from zlmreport_plugins.effects import experiments
+
+_ORDERS_OF_A_CONTEST = (2, 3, 4, 5)
+_LARGEST = 50e-6
+
+
+class Offset(Effect):
+    """A constant: where the instrument was preset.
+
+    It says nothing of the axis: the instrument's common error, a dead path in constant air and the mean of
+    every drift end here as well.
+    """
+
+    identifier = "offset"
+    title = Words(en="Zero offset", de="Nullpunktverschiebung")
+    equation = "a"
+    linear = (
+        Parameter(
+            "offset",
+            "a",
+            Dimension.DEVIATION,
+            Words(en="offset of the zero", de="Verschiebung des Nullpunkts"),
+        ),
+    )
+    shape = Shape.POSITION
+    look = Words(
+        en="The residuals stand off zero by the same amount everywhere.",
+        de="Die Residuen liegen überall um denselben Betrag neben null.",
+    )
+    confusions = (
+        Confusion("dead-path", experiments.DEAD_PATH_CHANGED),
+        Confusion("thermal-drift", experiments.PRESET_AGAIN),
+    )
+
+    def columns(self, design: Design, theta: FloatArray) -> FloatArray:  # noqa: ARG002 - no θ
+        """Return one column: 1."""
+        return np.ones((len(design.position), 1))
+
+
+class ScaleError(Effect):
+    """A deviation in proportion to the position: lead of the screw, length of the scale, wavelength.
+
+    In a single test nothing tells it from an expansion at constant temperature, a wrong coefficient of
+    expansion in the correction, or a wrong refractive index.
+    """
+
+    identifier = "scale-error"
+    title = Words(en="Scale error", de="Maßstabsfehler")
+    equation = "b·P"
+    linear = (
+        Parameter(
+            "slope",
+            "b",
+            Dimension.SLOPE,
+            Words(en="error per position", de="Abweichung je Position"),
+            -50e-6,
+            50e-6,
+        ),
+    )
+    shape = Shape.POSITION
+    look = Words(
+        en="The residuals lie on a straight line over the position, the same in both directions.",
+        de="Die Residuen liegen über der Position auf einer Geraden, in beiden Richtungen auf derselben.",
+    )
+    confusions = (
+        Confusion("cosine-error", experiments.BEAM_REALIGNED),
+        Confusion("gauge-misalignment", experiments.GAUGE_REALIGNED),
+        Confusion("scale-expansion", experiments.WARMER_AXIS),
+        Confusion("thermal-growth", experiments.COLD_RESTART),
+        Confusion("air-index", experiments.OTHER_AIR),
+    )
+
+    def columns(self, design: Design, theta: FloatArray) -> FloatArray:  # noqa: ARG002 - no θ
+        """Return one column: P."""
+        return design.position[:, np.newaxis]
+
+
+class PolynomialOptions(Options):
+    """The order of the polynomial."""
+
+    order: int = Field(3, ge=2, le=9, description="Highest power of the position; 3 is a cubic.")
+
+
+class Polynomial(Effect):
+    """The full polynomial from its constant up, over the position scaled to −1 … 1 of the measured travel.
+
+    It describes and explains nothing: guideways, a screw's lead and a table's bow all look like this. Its
+    constant and its slope are those of `offset` and `scale-error`, which cannot stand beside it. An order
+    above 3 swallows Abbe errors and kinks.
+    """
+
+    identifier = "polynomial"
+    title = Words(en="Polynomial over the position", de="Polynom über der Position")
+    equation = "Σ c_{k}·p^k, k = 0 … n;  p = (P − P_{mid}) / (L/2)"
+    shape = Shape.POSITION
+    look = Words(
+        en="The residuals follow a smooth bow over the position, the same in both directions.",
+        de="Die Residuen folgen über der Position einem glatten Bogen, in beiden Richtungen demselben.",
+    )
+    confusions = (
+        Confusion("abbe", experiments.OTHER_HEIGHT),
+        Confusion("scale-kink", experiments.DENSER_TARGETS),
+        Confusion("periodic", experiments.DENSER_TARGETS),
+        Confusion("compensation-sign", experiments.TABLE_OFF),
+        Confusion("eccentricity", experiments.FULL_TURN),
+        Confusion("ellipticity", experiments.FULL_TURN),
+    )
+    contains = ("offset", "scale-error")
+    options = PolynomialOptions
+
+    def __init__(self, order: int = 3) -> None:
+        self.settings = PolynomialOptions(order=order)
+        self.order = order
+        self.linear = tuple(_coefficient(power) for power in range(order + 1))
+
+    def with_settings(self, settings: PolynomialOptions) -> Effect:
+        """Return the polynomial of the stated order."""
+        return Polynomial(settings.order)
+
+    def forms(self) -> tuple[Effect, ...]:
+        """Return the polynomials that a contest tries."""
+        return tuple(Polynomial(order) for order in _ORDERS_OF_A_CONTEST)
+
+    def untestable(self, design: Design) -> Words | None:
+        """Demand more targets than coefficients."""
+        return needs_targets(design, self.order + 2)
+
+    def columns(self, design: Design, theta: FloatArray) -> FloatArray:  # noqa: ARG002 - no θ
+        """Return the powers of p."""
+        scaled = (design.position - design.middle) / (design.length / 2)
+        return np.vander(scaled, self.order + 1, increasing=True)
+
+
+def _coefficient(power: int) -> Parameter:
+    bound = _LARGEST if power > 1 else None
+    return Parameter(
+        f"c{power}",
+        f"c_{{{power}}}",
+        Dimension.DEVIATION,
+        Words(en="coefficient of power {power}", de="Koeffizient der {power}. Potenz").given(power=power),
+        None if bound is None else -bound,
+        bound,
+    )
+
+
+class CosineError(Effect):
+    """A beam at an angle φ reads P·cos φ: always too short, by φ²/2 in proportion.
+
+    1 mrad costs 0.5 µm/m. If the returned beam walks by S over the distance D, then φ = S/(2D) and the
+    error is S²/(8D²). A rising line cannot be a cosine error.
+    """
+
+    identifier = "cosine-error"
+    title = Words(en="Cosine error of the beam", de="Kosinusfehler des Strahls")
+    equation = "−P·φ²/2"
+    linear = (
+        Parameter(
+            "shortening",
+            "φ²/2",
+            Dimension.SLOPE,
+            Words(
+                en="relative shortening by the misalignment",
+                de="relative Verkürzung durch die Schiefstellung",
+            ),
+            0.0,
+            50e-6,
+        ),
+    )
+    shape = Shape.POSITION
+    look = Words(
+        en="The residuals fall in proportion to the position.",
+        de="Die Residuen fallen im Verhältnis zur Position.",
+    )
+    confusions = (
+        Confusion("scale-error", experiments.BEAM_REALIGNED),
+        Confusion("gauge-misalignment", experiments.GAUGE_REPLACED_BY_LASER),
+    )
+
+    def untestable(self, design: Design) -> Words | None:
+        """Demand a linear axis."""
+        return needs_linear_axis(design)
+
+    def columns(self, design: Design, theta: FloatArray) -> FloatArray:  # noqa: ARG002 - no θ
+        """Return one column: −P."""
+        return -design.position[:, np.newaxis]
+
+
+class Abbe(Effect):
+    """The offset of the measuring line times the rotation of the axis.
+
+    200 mm and 10 µrad are 2 µm; 1 m and 1″ are 4.85 µm. The parameter is the offset: where the job states
+    it, estimate and statement can be compared.
+    """
+
+    identifier = "abbe"
+    title = Words(en="Abbe error", de="Abbe-Fehler")
+    equation = "h·θ(P)"
+    linear = (
+        Parameter(
+            "abbe_offset",
+            "h",
+            Dimension.LENGTH,
+            Words(en="distance of the measuring line from the scale", de="Abstand der Messlinie vom Maßstab"),
+            -2.0,
+            2.0,
+        ),
+    )
+    shape = Shape.POSITION
+    look = Words(
+        en="The residuals have the shape of the axis's pitch or yaw.",
+        de="Die Residuen haben den Verlauf des Nick- oder Gierwinkels der Achse.",
+    )
+    confusions = (
+        Confusion("polynomial", experiments.OTHER_HEIGHT),
+        Confusion("periodic", experiments.OTHER_HEIGHT),
+    )
+
+    def untestable(self, design: Design) -> Words | None:
+        """Demand a linear axis, and the record of its angles."""
+        return needs_linear_axis(design) or needs_stated(design.axis.angular_errors, "axis.angular_errors")
+
+    def columns(self, design: Design, theta: FloatArray) -> FloatArray:  # noqa: ARG002 - no θ
+        """Return one column: the angle at the position."""
+        record = design.axis.angular_errors
+        assert record is not None  # noqa: S101  # else it is untestable
+        return record.at(design.position)[:, np.newaxis]
+
+    def expected(self, axis: Axis) -> dict[str, float]:
+        """Return the offset that the job states."""
+        return {} if axis.abbe_offset is None else {"abbe_offset": axis.abbe_offset}

@@ -1,0 +1,188 @@
+"""What differs between the directions: lost motion, and how it changes along the axis, after a reversal."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from zlmreport.plugin import (
+    Confusion,
+    Design,
+    Dimension,
+    Effect,
+    FloatArray,
+    Parameter,
+    Shape,
+    Words,
+    needs_both_directions,
+    needs_targets,
+)
+from zlmreport_plugins.effects import experiments
+
+#: Of the travel: a shorter distance ends before the second target, a longer one is a straight line.
+_SHORTEST, _LONGEST = 0.01, 0.2
+_LENGTHS = 10
+
+
+class Backlash(Effect):
+    """The same gap between the directions everywhere: play in the drive, friction, a flexible coupling.
+
+    B has the sign of B_i = x̄_i↑ − x̄_i↓. Play between the drive and a table that is measured at the table
+    makes it negative: the table lags behind in either direction. A following error at one feed looks alike.
+    """
+
+    identifier = "backlash"
+    title = Words(en="Lost motion at reversal", de="Umkehrspanne")
+    equation = "½·B·d"
+    linear = (
+        Parameter(
+            "lost_motion",
+            "B",
+            Dimension.DEVIATION,
+            Words(en="reversal value of the whole axis", de="Umkehrspanne der ganzen Achse"),
+            -100e-6,
+            100e-6,
+        ),
+    )
+    shape = Shape.DIRECTION
+    look = Words(
+        en="The two directions stand apart by the same amount everywhere.",
+        de="Die beiden Richtungen liegen überall um denselben Betrag auseinander.",
+    )
+    confusions = (
+        Confusion("probe-radius", experiments.CALIBRATED_BLOCK),
+        Confusion("reversal-relaxation", experiments.OTHER_OVERRUN),
+    )
+
+    def untestable(self, design: Design) -> Words | None:
+        """Demand both directions."""
+        return needs_both_directions(design)
+
+    def columns(self, design: Design, theta: FloatArray) -> FloatArray:  # noqa: ARG002 - no θ
+        """Return one column: half the direction."""
+        return design.direction[:, np.newaxis] / 2
+
+
+class BacklashGradient(Effect):
+    """A screw held at one end winds up the more, the farther the nut is from its bearing; guides wear.
+
+    In the linear method the distance since the reversal grows along the axis as well: whatever is in
+    proportion to that distance looks the same, until the overrun is changed.
+    """
+
+    identifier = "backlash-gradient"
+    title = Words(en="Lost motion that grows along the axis", de="Längs der Achse wachsende Umkehrspanne")
+    equation = "g·d·P"
+    linear = (
+        Parameter(
+            "gradient",
+            "g",
+            Dimension.SLOPE,
+            Words(en="half the growth of the gap per position", de="halbe Zunahme des Abstands je Position"),
+            -50e-6,
+            50e-6,
+        ),
+    )
+    shape = Shape.DIRECTION
+    look = Words(
+        en="The two directions draw apart along the axis.",
+        de="Die beiden Richtungen laufen längs der Achse auseinander.",
+    )
+    confusions = (Confusion("reversal-relaxation", experiments.OTHER_OVERRUN),)
+
+    def untestable(self, design: Design) -> Words | None:
+        """Demand both directions."""
+        return needs_both_directions(design)
+
+    def columns(self, design: Design, theta: FloatArray) -> FloatArray:  # noqa: ARG002 - no θ
+        """Return one column: the position, with the sign of the approach."""
+        return (design.direction * design.position)[:, np.newaxis]
+
+
+class BacklashBow(Effect):
+    """A screw fixed at both ends is most compliant in its middle, and so is its lost motion."""
+
+    identifier = "backlash-bow"
+    title = Words(en="Lost motion that is largest in the middle", de="In der Mitte größte Umkehrspanne")
+    equation = "k·d·(1 − p²);  p = (P − P_{mid}) / (L/2)"
+    linear = (
+        Parameter(
+            "bow",
+            "k",
+            Dimension.DEVIATION,
+            Words(en="half the additional gap in the middle", de="halber zusätzlicher Abstand in der Mitte"),
+            -20e-6,
+            20e-6,
+        ),
+    )
+    shape = Shape.DIRECTION
+    look = Words(
+        en="The two directions stand apart most in the middle of the travel.",
+        de="Die beiden Richtungen liegen in der Mitte des Verfahrwegs am weitesten auseinander.",
+    )
+    confusions = (Confusion("reversal-relaxation", experiments.OTHER_OVERRUN),)
+
+    def untestable(self, design: Design) -> Words | None:
+        """Demand both directions, and targets between the ends."""
+        return needs_both_directions(design) or needs_targets(design, 3)
+
+    def columns(self, design: Design, theta: FloatArray) -> FloatArray:  # noqa: ARG002 - no θ
+        """Return one column: a parabola over the travel, with the sign of the approach."""
+        scaled = (design.position - design.middle) / (design.length / 2)
+        return (design.direction * (1 - scaled**2))[:, np.newaxis]
+
+
+class ReversalRelaxation(Effect):
+    """Friction and elastic wind-up that fade with the distance s since the last reversal.
+
+    Where every target is approached from the same distance (pendulum, quasi-pilgrim step) this is backlash.
+    """
+
+    identifier = "reversal-relaxation"
+    title = Words(en="Relaxation after a reversal", de="Ausklingen nach einer Umkehr")
+    equation = "A·d·exp(−s/λ)"
+    linear = (
+        Parameter(
+            "amplitude",
+            "A",
+            Dimension.DEVIATION,
+            Words(en="deviation at the reversal", de="Abweichung an der Umkehr"),
+            -20e-6,
+            20e-6,
+        ),
+    )
+    searched = (
+        Parameter(
+            "relaxation_length",
+            "λ",
+            Dimension.POSITION,
+            Words(
+                en="distance over which it fades to a third",
+                de="Strecke, auf der sie auf ein Drittel abklingt",
+            ),
+            0.0,
+            0.5,
+        ),
+    )
+    shape = Shape.DIRECTION
+    look = Words(
+        en="The first targets after each reversal stand off.",
+        de="Die ersten Zielpositionen nach jeder Umkehr liegen daneben.",
+    )
+    confusions = (
+        Confusion("backlash", experiments.OTHER_OVERRUN),
+        Confusion("backlash-bow", experiments.OTHER_OVERRUN),
+        Confusion("backlash-gradient", experiments.OTHER_OVERRUN),
+    )
+
+    def untestable(self, design: Design) -> Words | None:
+        """Demand targets at different distances."""
+        return needs_targets(design, 3)
+
+    def grid(self, design: Design) -> FloatArray:
+        """Return lengths in a geometric row."""
+        return design.length * np.geomspace(_SHORTEST, _LONGEST, _LENGTHS)[:, np.newaxis]
+
+    def columns(self, design: Design, theta: FloatArray) -> FloatArray:
+        """Return one column: the exponential, with the sign of the approach."""
+        fading = np.exp(-design.since_reversal / float(theta[0]))
+        return (design.direction * fading)[:, np.newaxis]

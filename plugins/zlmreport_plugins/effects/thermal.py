@@ -1,0 +1,289 @@
+"""What warms: expansion along a logged temperature, growth and drift with time."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+import numpy as np
+from pydantic import Field
+
+from zlmreport.plugin import (
+    Confusion,
+    Design,
+    Dimension,
+    Effect,
+    FloatArray,
+    Options,
+    Parameter,
+    Shape,
+    Words,
+    above_reference_temperature,
+    needs_linear_axis,
+    needs_logged,
+    needs_passing_time,
+)
+from zlmreport_plugins.effects import experiments
+
+#: Of the duration: a shorter one ends with the first readings, a longer one is a straight line.
+_SHORTEST, _LONGEST = 0.05, 1.5
+_CONSTANTS = 12
+_SCALE_LOG = "axis_temperature"
+_SCREW_LOG = "screw_temperature"
+
+
+def time_constants(design: Design) -> FloatArray:
+    """Return time constants in a geometric row, shape (12, 1)."""
+    return design.duration * np.geomspace(_SHORTEST, _LONGEST, _CONSTANTS)[:, np.newaxis]
+
+
+def warmed_up(design: Design, time_constant: float) -> FloatArray:
+    """Return how much of the way to the final state is done at each reading, from 0 to 1."""
+    return -np.expm1(-design.time / time_constant)
+
+
+class ScaleExpansion(Effect):
+    """A scale that is longer than at 20 °C puts the axis too far out, in proportion to the position.
+
+    Glass ceramic 0, glass 8, steel 10 to 12 µm/(m·K). The temperature is never centred: only ΔT from 20 °C
+    predicts another day. At constant temperature this is a scale error.
+    """
+
+    identifier = "scale-expansion"
+    title = Words(en="Thermal expansion of the scale", de="Wärmeausdehnung des Maßstabs")
+    equation = "α·P·(T_{s} − 20 °C)"
+    linear = (
+        Parameter(
+            "expansion",
+            "α",
+            Dimension.EXPANSION,
+            Words(
+                en="coefficient of expansion, less the one compensated",
+                de="nicht kompensierter Ausdehnungskoeffizient",
+            ),
+            0.0,
+            25e-6,
+        ),
+    )
+    shape = Shape.TIME
+    look = Words(
+        en="The residuals fan out over the position, and the slope follows the temperature of the scale.",
+        de="Die Residuen fächern über der Position auf, und die Steigung folgt der Temperatur des Maßstabs.",
+    )
+    confusions = (
+        Confusion("thermal-growth", experiments.TURNING_TEMPERATURE),
+        Confusion("screw-expansion", experiments.SCREW_SENSOR),
+        Confusion("scale-error", experiments.WARMER_AXIS),
+        Confusion("air-index", experiments.OTHER_AIR),
+    )
+
+    def untestable(self, design: Design) -> Words | None:
+        """Demand a linear axis, and the temperature of the scale."""
+        return needs_linear_axis(design) or needs_logged(design, _SCALE_LOG)
+
+    def columns(self, design: Design, theta: FloatArray) -> FloatArray:  # noqa: ARG002 - no θ
+        """Return one column: position times temperature above 20 °C."""
+        return (design.position * above_reference_temperature(design.conditions[_SCALE_LOG]))[:, np.newaxis]
+
+
+class BearingOptions(Options):
+    """Where the screw is held."""
+
+    fixed_bearing: Literal["first", "last"] = Field(
+        "first",
+        description="End of the travel at which the fixed bearing is: the first position, or the last.",
+    )
+
+
+class ScrewExpansion(Effect):
+    """A screw measured by its own rotation grows with the heat of nut and bearings: 10 to 12 µm/(m·K).
+
+    It grows away from its fixed bearing; a wrong origin spoils the fit, so both ends are tried.
+    """
+
+    identifier = "screw-expansion"
+    title = Words(en="Thermal expansion of the screw", de="Wärmeausdehnung der Spindel")
+    equation = "α·(P − P_{f})·(T_{b} − 20 °C)"
+    linear = (
+        Parameter(
+            "expansion",
+            "α",
+            Dimension.EXPANSION,
+            Words(en="coefficient of expansion of the screw", de="Ausdehnungskoeffizient der Spindel"),
+            0.0,
+            25e-6,
+        ),
+    )
+    shape = Shape.TIME
+    look = Words(
+        en="The residuals fan out from one end of the travel as the screw warms up.",
+        de="Die Residuen fächern von einem Ende des Verfahrwegs her auf, während die Spindel warm wird.",
+    )
+    confusions = (
+        Confusion("thermal-growth", experiments.TURNING_TEMPERATURE),
+        Confusion("scale-expansion", experiments.SCREW_SENSOR),
+    )
+    options = BearingOptions
+
+    def __init__(self, settings: BearingOptions | None = None) -> None:
+        self.settings = settings or BearingOptions()
+        self.fixed_bearing = self.settings.fixed_bearing
+
+    def with_settings(self, settings: BearingOptions) -> Effect:
+        """Return the effect with the bearing at the stated end."""
+        return ScrewExpansion(settings)
+
+    def forms(self) -> tuple[Effect, ...]:
+        """Return the bearing at either end."""
+        return tuple(ScrewExpansion(BearingOptions(fixed_bearing=end)) for end in ("first", "last"))
+
+    def untestable(self, design: Design) -> Words | None:
+        """Demand a linear axis, and the temperature of the screw."""
+        return needs_linear_axis(design) or needs_logged(design, _SCREW_LOG)
+
+    def columns(self, design: Design, theta: FloatArray) -> FloatArray:  # noqa: ARG002 - no θ
+        """Return one column: distance from the bearing times temperature above 20 °C."""
+        first, last = design.axis.travel or design.span
+        bearing = first if self.fixed_bearing == "first" else last
+        return ((design.position - bearing) * above_reference_temperature(design.conditions[_SCREW_LOG]))[
+            :, np.newaxis
+        ]
+
+
+class ThermalGrowth(Effect):
+    """A length that approaches its warm state exponentially: a fan over the position that opens with time.
+
+    In pendulum and quasi-pilgrim tests time runs along with the position, and nearly all of this hides in
+    the scale error.
+    """
+
+    identifier = "thermal-growth"
+    title = Words(en="Growth while warming up", de="Längung beim Warmlaufen")
+    equation = "A·P·(1 − exp(−t/τ))"
+    linear = (
+        Parameter(
+            "growth",
+            "A",
+            Dimension.SLOPE,
+            Words(en="growth per position once warm", de="Längung je Position im warmen Zustand"),
+            -100e-6,
+            100e-6,
+        ),
+    )
+    searched = (
+        Parameter(
+            "time_constant",
+            "τ",
+            Dimension.TIME,
+            Words(en="time constant", de="Zeitkonstante"),
+            60.0,
+            14_400.0,
+        ),
+    )
+    shape = Shape.TIME
+    look = Words(
+        en="The residuals fan out over the position while time passes, ever slower.",
+        de="Die Residuen fächern mit der Zeit über der Position auf, immer langsamer.",
+    )
+    confusions = (
+        Confusion("screw-expansion", experiments.TURNING_TEMPERATURE),
+        Confusion("scale-expansion", experiments.TURNING_TEMPERATURE),
+        Confusion("scale-error", experiments.COLD_RESTART),
+    )
+
+    def untestable(self, design: Design) -> Words | None:
+        """Demand a linear axis, and that time passes."""
+        return needs_linear_axis(design) or needs_passing_time(design)
+
+    def grid(self, design: Design) -> FloatArray:
+        """Return time constants."""
+        return time_constants(design)
+
+    def columns(self, design: Design, theta: FloatArray) -> FloatArray:
+        """Return one column: position times the progress of warming up."""
+        return (design.position * warmed_up(design, theta[0]))[:, np.newaxis]
+
+
+class ThermalDrift(Effect):
+    """Spindle, structure or tripod move alike for every target, approaching a final state exponentially.
+
+    A time constant much longer than the test is a steady drift.
+    """
+
+    identifier = "thermal-drift"
+    title = Words(en="Drift of the zero while warming up", de="Nullpunktdrift beim Warmlaufen")
+    equation = "A·(1 − exp(−t/τ))"
+    linear = (
+        Parameter(
+            "drift",
+            "A",
+            Dimension.DEVIATION,
+            Words(en="drift once warm", de="Drift im warmen Zustand"),
+            -50e-6,
+            50e-6,
+        ),
+    )
+    searched = (
+        Parameter(
+            "time_constant",
+            "τ",
+            Dimension.TIME,
+            Words(en="time constant", de="Zeitkonstante"),
+            60.0,
+            14_400.0,
+        ),
+    )
+    shape = Shape.TIME
+    look = Words(
+        en="The residuals move with time, at all positions alike, ever slower.",
+        de="Die Residuen wandern mit der Zeit, an allen Positionen gleich, immer langsamer.",
+    )
+    confusions = (
+        Confusion("datum-temperature", experiments.TURNING_TEMPERATURE),
+        Confusion("first-run", experiments.MORE_RUNS),
+        Confusion("datum-step", experiments.DRIFT_RUN),
+        Confusion("offset", experiments.PRESET_AGAIN),
+    )
+
+    def untestable(self, design: Design) -> Words | None:
+        """Demand that time passes."""
+        return needs_passing_time(design)
+
+    def grid(self, design: Design) -> FloatArray:
+        """Return time constants."""
+        return time_constants(design)
+
+    def columns(self, design: Design, theta: FloatArray) -> FloatArray:
+        """Return one column: the progress of warming up."""
+        return warmed_up(design, theta[0])[:, np.newaxis]
+
+
+class DatumTemperature(Effect):
+    """The place where scale or optics are fixed moves with the temperature, the same for every target."""
+
+    identifier = "datum-temperature"
+    title = Words(en="Zero that follows the temperature", de="Nullpunkt folgt der Temperatur")
+    equation = "k·(T_{s} − 20 °C)"
+    linear = (
+        Parameter(
+            "sensitivity",
+            "k",
+            Dimension.DEVIATION_PER_KELVIN,
+            Words(en="motion of the zero per kelvin", de="Bewegung des Nullpunkts je Kelvin"),
+            -20e-6,
+            20e-6,
+        ),
+    )
+    shape = Shape.TIME
+    look = Words(
+        en="The residuals follow the logged temperature, at all positions alike.",
+        de="Die Residuen folgen der aufgezeichneten Temperatur, an allen Positionen gleich.",
+    )
+    confusions = (Confusion("thermal-drift", experiments.TURNING_TEMPERATURE),)
+
+    def untestable(self, design: Design) -> Words | None:
+        """Demand the temperature of the axis."""
+        return needs_logged(design, _SCALE_LOG)
+
+    def columns(self, design: Design, theta: FloatArray) -> FloatArray:  # noqa: ARG002 - no θ
+        """Return one column: temperature above 20 °C."""
+        return above_reference_temperature(design.conditions[_SCALE_LOG])[:, np.newaxis]
