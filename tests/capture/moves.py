@@ -19,7 +19,7 @@ from zlmreport.planning.plan import Plan
 
 MM, UM = 1e-3, 1e-6
 #: At 100 mm/s the axis cannot run 5 mm over a target and come back within 0.1 s.
-SETTINGS = Settings(tolerance=1 * MM, stability=1 * UM, dwell=1.0, turn=0.1, stay=3.0)
+SETTINGS = Settings(tolerance=1 * MM, stability=1 * UM, dwell=1.0, turn=0.1, stay=3.0, feed=100 * MM)
 
 
 def planned(method: Method = Method.LINEAR, targets=(0, 100, 200), runs: int = 1) -> Plan:

@@ -133,12 +133,15 @@ class Recorded:
         Actual position, m or rad: the mean, seen from the datum.
     mean
         What it was made of.
+    late
+        How long after the reading its visit was known, s.
     """
 
     visit: ListedVisit
     attempt: int
     position: float
     mean: Mean
+    late: float = 0.0
 
     @property
     def deviation(self) -> float:
@@ -172,9 +175,21 @@ class Missed:
 
 @dataclass(frozen=True, slots=True)
 class Repeated:
-    """The axis stands still at the visit that was read last: the reading stays as it is."""
+    """The axis stands still at a visit that was read before, and its reading stays as it is.
+
+    Attributes
+    ----------
+    visit
+        The visit.
+    position
+        Where it stands now, m or rad; None in journals of older versions, as the mean.
+    mean
+        The reading that is not taken.
+    """
 
     visit: ListedVisit
+    position: float | None = None
+    mean: Mean | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -210,6 +225,38 @@ class NotNext:
     target: int
     approach: Approach
     visit: ListedVisit
+
+
+@dataclass(frozen=True, slots=True)
+class Unclear:
+    """The axis stands still at a target, and what went before does not say which visit it is.
+
+    Attributes
+    ----------
+    target
+        Its number, from 1.
+    approach
+        How the axis came there.
+    candidates
+        What it may be, with the probability of each, most probable first; None for no visit at all.
+    position
+        Actual position, m or rad: the mean, seen from the datum.
+    mean
+        The reading, to be filed when somebody says where.
+    """
+
+    target: int
+    approach: Approach
+    candidates: tuple[tuple[ListedVisit | None, float], ...]
+    position: float
+    mean: Mean
+
+
+@dataclass(frozen=True, slots=True)
+class Placed:
+    """The operator said which visit an unclear stop is; None for no visit at all."""
+
+    visit: ListedVisit | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -294,6 +341,8 @@ Event: TypeAlias = (
     | Repeated
     | WrongDirection
     | NotNext
+    | Unclear
+    | Placed
     | Elsewhere
     | ZeroLost
     | TrackLost
@@ -305,4 +354,4 @@ Event: TypeAlias = (
 )
 
 #: After these nothing is taken any more until an operator has seen to it.
-HALTING = (MovedBeforeDatum, DatumMoved, ZeroLost, TrackLost, TooSlow, Finished)
+HALTING = (MovedBeforeDatum, DatumMoved, ZeroLost, TooSlow, Finished)

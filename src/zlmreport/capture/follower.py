@@ -21,16 +21,18 @@ from zlmreport.capture.events import (
     NotChecked,
     NotNext,
     Passed,
+    Placed,
     Recorded,
     Repeated,
     Settling,
     TooSlow,
     TrackLost,
+    Unclear,
     WrongDirection,
     ZeroLost,
 )
-from zlmreport.capture.matching import matching
 from zlmreport.capture.pace import Pace
+from zlmreport.capture.place import Place, Programme, Route, Stop
 from zlmreport.capture.progress import Progress
 from zlmreport.capture.settings import Settings
 from zlmreport.capture.track import Track
@@ -38,6 +40,10 @@ from zlmreport.capture.visit_list import ListedVisit
 from zlmreport.capture.window import Window
 from zlmreport.live.reading import Fault, LiveReading
 from zlmreport.measurement.approach import Approach
+
+
+#: What an operator may make of the feed, by the override of the control.
+_FASTEST = 1.5
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,9 +68,9 @@ class Status:
 class Follower:
     """Follows an axis along its visit list.
 
-    It takes a reading when the axis came to the target that is next from its side, and all readings over the
-    dwell keep within the stability range and inside the tolerance. Whatever else happens it names, and takes
-    nothing.
+    It takes a reading when the axis came to a target from its side, all readings over the dwell keep within
+    the stability range and inside the tolerance, and it is clear which visit of the list that is. Whatever
+    else happens it names, and takes nothing.
 
     Attributes
     ----------
@@ -80,10 +86,25 @@ class Follower:
         Where to begin: `Progress.begin`, or that of a journal.
     settings
         When a reading is taken.
+    is_watched
+        Whether an operator answers questions while the axis goes on; if not, a question halts.
+    last
+        When the last visit was, s, by the clock of the readings; None if the program cannot have run on
+        since then.
     """
 
-    def __init__(self, progress: Progress, settings: Settings) -> None:
+    def __init__(
+        self,
+        progress: Progress,
+        settings: Settings,
+        *,
+        is_watched: bool = False,
+        last: float | None = None,
+    ) -> None:
         self.progress = progress
+        self._is_watched = is_watched
+        self._route = Route(settings.tolerance)
+        self._place = Place(Programme(progress.visits, settings), settings, progress.taken, last)
         self.is_halted = progress.is_over
         self._settings = settings
         self._window = Window(settings.stability, settings.dwell)
@@ -108,11 +129,18 @@ class Follower:
 
     def feed(self, reading: LiveReading) -> list[Event]:
         """Return what happens with a reading, in order; mostly nothing."""
+        return self._lived_through(() if self.is_halted else self._seen(reading))
+
+    def told(self, visit: ListedVisit | None) -> list[Event]:
+        """Return what happens when the operator says which visit an unclear stop is; None for none."""
+        return self._lived_through(self._answered(visit))
+
+    def _lived_through(self, happening: Iterable[Event]) -> list[Event]:
         events: list[Event] = []
-        for event in () if self.is_halted else self._seen(reading):
+        for event in happening:
             events.append(event)
             self.progress = self.progress.after(event)
-            if isinstance(event, HALTING):
+            if isinstance(event, HALTING) or (isinstance(event, Unclear) and not self._is_watched):
                 self.is_halted = True
                 break
         return events
@@ -130,20 +158,31 @@ class Follower:
         if self._latest is not None:
             yield from self._after_a_gap(self._latest, reading)
         self._window.add(reading, self._lost)
-        self._latest, self._lost = reading, 0
+        before, self._latest, self._lost = self._latest, reading, 0
         zero = self.progress.zero
         if zero is None:
             yield from self._at_the_datum(reading)
             return
         self._track.add(reading.value + zero)
+        self._follow_route(before, reading, zero)
         yield from self._on_the_way(reading.time)
         if self._window.is_still and self._stood_at is None:
             yield from self._at_a_standstill(zero)
+        yield from self._at_the_end(reading, zero)
+
+    def _follow_route(self, before: LiveReading | None, reading: LiveReading, zero: float) -> None:
+        """Follow where the axis turns round: of readings that come seldom each counts that can be true."""
+        if before is None or self._track.position is None:
+            return
+        reach = _FASTEST * self._settings.feed * (reading.time - before.time) + self._settings.motion
+        can_be = abs(reading.value - before.value) <= reach
+        self._route.add(reading.value + zero if can_be else self._track.position)
 
     def _without_zero(self, reading: LiveReading) -> Iterator[Event]:
         """Lose the zero; before a datum is taken there is none to lose."""
         self._window.clear()
         self._track.forget()
+        self._route.lose()
         if self.progress.zero is not None:
             yield ZeroLost(reading.message, self.progress.rest_of_part)
 
@@ -160,6 +199,7 @@ class Follower:
             yield TrackLost(gap)
         if self.progress.zero is not None and not self._has_stayed(latest, reading):
             self._track.forget()
+            self._route.lose()
             self._look_ahead()
 
     def _has_stayed(self, latest: LiveReading, reading: LiveReading) -> bool:
@@ -249,24 +289,56 @@ class Follower:
         return None
 
     def _at_target(self, target: int, approach: Approach | None, mean: Mean, zero: float) -> Iterator[Event]:
-        """Say what a standstill at a target is, and take the reading if it is a visit that may be next."""
+        """Say what a standstill at a target is, and take the reading if it is clear which visit that is."""
         progress = self.progress
-        if approach is None:
+        heading = self._route.heading or approach
+        if heading is None and (progress.must_check or not self._route.breaks):
             if target == progress.next.target:
                 yield WrongDirection(progress.next, None)
             return
-        was_checked = progress.must_check
-        if was_checked:
-            yield self._checked(target, approach, mean.value + zero)
-            if self.progress.must_check:
+        stop = Stop(target, heading, approach, mean.value + zero, mean)
+        if progress.must_check:
+            if approach is None:
                 return
-            index = progress.taken if self._is_next(target, approach) else None
+            yield self._checked(target, approach, stop.position)
+            if self.progress.must_check or not self._is_next(target, approach):
+                return
+        self._place.add(stop, self._route)
+        yield from self._decided()
+        if self._place.undecided and self.progress.question is None:
+            yield self._question()
+
+    def _decided(self) -> Iterator[Event]:
+        """Say of each stop what it is, once that is clear."""
+        for stop, index in self._place.decided():
+            if self.progress.question is not None:
+                yield Placed(None if index is None else self.progress.visits[index])
+            yield from self._filed(stop, index)
+
+    def _filed(self, stop: Stop, index: int | None) -> Iterator[Event]:
+        if index is None:
+            yield self._out_of_turn(stop)
+        elif stop.approach is not self.progress.visits[index].approach:
+            yield WrongDirection(self.progress.visits[index], stop.approach)
         else:
-            index = matching(progress.visits, progress.taken, self._passed, target, approach)
-        if index is not None:
-            yield from self._taken(index, mean, zero)
-        elif not was_checked:
-            yield self._out_of_turn(target, approach)
+            yield from self._taken(index, stop)
+
+    def _answered(self, visit: ListedVisit | None) -> Iterator[Event]:
+        index = None if visit is None else visit.number - 1
+        yield Placed(visit)
+        yield from self._filed(self._place.told(index), index)
+        yield from self._decided()
+        if self._place.undecided:
+            yield self._question()
+
+    def _question(self) -> Unclear:
+        stop = self._place.undecided[0]
+        odds = sorted(self._place.odds().items(), key=lambda each: -each[1])
+        visits = self.progress.visits
+        candidates = tuple((None if index is None else visits[index], share) for index, share in odds)
+        return Unclear(
+            stop.target, stop.heading or visits[0].approach, candidates, stop.position, stop.mean
+        )
 
     def _is_next(self, target: int, approach: Approach) -> bool:
         visit = self.progress.next
@@ -282,27 +354,46 @@ class Follower:
             return DatumMoved(earlier.visit, difference, self.progress.rest_of_part)
         return DatumHolds(earlier.visit, difference)
 
-    def _taken(self, index: int, mean: Mean, zero: float) -> Iterator[Event]:
+    def _taken(self, index: int, stop: Stop) -> Iterator[Event]:
         progress = self.progress
         self._passed = 0
         self._look_ahead()
-        for visit in progress.visits[progress.taken : index]:
-            yield Missed(visit, progress.attempts.get(visit.part, 1))
         visit = progress.visits[index]
-        yield Recorded(visit, progress.attempts.get(visit.part, 1), mean.value + zero, mean)
-        if index == len(progress.visits) - 1:
+        if visit.number in progress.filed and not self._is_better(visit, stop.position):
+            yield Repeated(visit, stop.position, stop.mean)
+            return
+        for missed in progress.visits[progress.taken : index]:
+            if missed.number not in progress.filed:
+                yield Missed(missed, progress.attempts.get(missed.part, 1))
+        late = self._latest.time - stop.mean.time if self._latest else 0.0
+        yield Recorded(visit, progress.attempts.get(visit.part, 1), stop.position, stop.mean, late)
+
+    def _at_the_end(self, reading: LiveReading, zero: float) -> Iterator[Event]:
+        """Finish when the axis leaves the last visit, or has stood there for long enough to stay."""
+        progress = self.progress
+        if progress.taken < len(progress.visits) or progress.question is not None:
+            return
+        visit = progress.visits[-1]
+        last = progress.read.get((visit.target, visit.approach))
+        rest = (self._settings.stay - self._settings.dwell) / 2
+        has_left = abs(reading.value + zero - visit.position) > self._settings.tolerance
+        if last is None or has_left or reading.time - last.mean.time >= rest:
             yield Finished()
 
-    def _out_of_turn(self, target: int, approach: Approach) -> Event:
+    def _is_better(self, visit: ListedVisit, position: float) -> bool:
+        """Tell whether a later reading of a visit takes the place of the earlier one."""
+        earlier = self.progress.read.get((visit.target, visit.approach))
+        if earlier is None:
+            return True
+        nearer = abs(position - visit.position) - abs(earlier.deviation)
+        return nearer <= self._settings.motion
+
+    def _out_of_turn(self, stop: Stop) -> Event:
         """Name a standstill at which nothing may be taken."""
-        progress = self.progress
-        if progress.taken:
-            last = progress.visits[progress.taken - 1]
-            if (last.target, last.approach) == (target, approach):
-                return Repeated(last)
-        if target == progress.next.target:
-            return WrongDirection(progress.next, approach)
-        return NotNext(target, approach, progress.next)
+        following = self.progress.next
+        if stop.target == following.target or stop.heading is None:
+            return WrongDirection(following, stop.approach)
+        return NotNext(stop.target, stop.heading, following)
 
 
 def follow(readings: Iterable[LiveReading], progress: Progress, settings: Settings) -> Iterator[Event]:

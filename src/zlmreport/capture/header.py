@@ -90,7 +90,7 @@ class Header:
             tool=str(record["tool"]),
             started=dt.datetime.fromisoformat(record["started"]),
             method=str(record["method"]),
-            settings=Settings(**{name: finite(record["settings"][name]) for name in fields(Settings)}),
+            settings=Settings(**{name: finite(value) for name, value in record["settings"].items()}),
             datum=None if datum is None else finite(datum),
             visits=tuple(
                 ListedVisit(

@@ -166,6 +166,7 @@ def _settings(options: CaptureOptions, plan: Plan, axis: Axis) -> Settings:
         dwell=options.dwell,
         turn=2 * plan.overrun / (_FASTEST * plan.feed),
         stay=plan.dwell,
+        feed=plan.feed,
     )
 
 

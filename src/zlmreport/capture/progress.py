@@ -15,8 +15,10 @@ from zlmreport.capture.events import (
     Event,
     Finished,
     Missed,
+    Placed,
     Recorded,
     Resumed,
+    Unclear,
     ZeroLost,
 )
 from zlmreport.capture.visit_list import ListedVisit
@@ -43,6 +45,10 @@ class Progress:
         What was read under this datum: the latest reading of each target from each side.
     must_check
         Whether the datum may have moved: it is held against an earlier reading before anything is taken.
+    filed
+        The numbers of the visits that have a reading: of the attempt that goes on, and of earlier parts.
+    question
+        A stop of which the operator is to say which visit it is; None for none.
     is_over
         Whether the test is over.
     """
@@ -54,6 +60,8 @@ class Progress:
     zero: float | None = None
     read: Mapping[tuple[int, Approach], Recorded] = field(default_factory=lambda: MappingProxyType({}))
     must_check: bool = False
+    filed: frozenset[int] = frozenset()
+    question: Unclear | None = None
     is_over: bool = False
 
     @classmethod
@@ -86,9 +94,14 @@ class Progress:
                 changes = {"must_check": False}
             case Recorded(visit=visit):
                 read = {**self.read, (visit.target, visit.approach): event}
-                changes = {"taken": visit.number, "read": MappingProxyType(read)}
+                filed = self.filed | {visit.number}
+                changes = {"taken": visit.number, "read": MappingProxyType(read), "filed": filed}
             case Missed(visit=visit):
                 changes = {"taken": visit.number}
+            case Unclear():
+                changes = {"question": event}
+            case Placed():
+                changes = {"question": None}
             case ZeroLost() | DatumMoved():
                 changes = self._begun_again()
             case Resumed():
@@ -104,8 +117,8 @@ class Progress:
         the datum is taken anew.
         """
         if self.read:
-            return {"must_check": True}
-        return {"zero": self._zero_before_datum}
+            return {"must_check": True, "question": None}
+        return {"zero": self._zero_before_datum, "question": None}
 
     def _begun_again(self) -> dict[str, Any]:
         """Return what changes when the datum is gone: its part of the test begins anew, if it had begun."""
@@ -118,6 +131,8 @@ class Progress:
             "zero": self._zero_before_datum,
             "read": MappingProxyType({}),
             "must_check": False,
+            "filed": frozenset(number for number in self.filed if self.visits[number - 1].part != part),
+            "question": None,
         }
 
     @property

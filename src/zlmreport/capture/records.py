@@ -24,12 +24,14 @@ from zlmreport.capture.events import (
     NotChecked,
     NotNext,
     Passed,
+    Placed,
     Recorded,
     Repeated,
     Resumed,
     Settling,
     TooSlow,
     TrackLost,
+    Unclear,
     WrongDirection,
     ZeroLost,
 )
@@ -54,6 +56,8 @@ _KINDS: Mapping[str, type] = MappingProxyType(
         "repeated": Repeated,
         "wrong-direction": WrongDirection,
         "not-next": NotNext,
+        "unclear": Unclear,
+        "placed": Placed,
         "elsewhere": Elsewhere,
         "zero-lost": ZeroLost,
         "track-lost": TrackLost,
@@ -65,6 +69,8 @@ _KINDS: Mapping[str, type] = MappingProxyType(
     }
 )
 _NAMES = {kind: name for name, kind in _KINDS.items()}
+#: Fields that a record leaves out where they say nothing, with what they are then.
+_UNSTATED: Mapping[str, Any] = MappingProxyType({"late": 0.0, "position": None, "mean": None})
 
 
 def to_record(event: Event) -> Record:
@@ -74,6 +80,8 @@ def to_record(event: Event) -> Record:
         value = getattr(event, name)
         if isinstance(value, Mean):
             record |= {each: _plain(getattr(value, each)) for each in fields(Mean)}
+        elif name in _UNSTATED and value == _UNSTATED[name]:
+            continue
         else:
             record[name] = _plain(value)
     if isinstance(event, Recorded):
@@ -84,7 +92,9 @@ def to_record(event: Event) -> Record:
 def from_record(record: Mapping[str, Any], visits: Sequence[ListedVisit]) -> Event:
     """Return the event of a record; raise KeyError, TypeError, ValueError or IndexError for any other."""
     kind = _KINDS[record["record"]]
-    event: Event = kind(**{name: _READERS[name](record, visits) for name in fields(kind)})
+    unstated = {name for name in _UNSTATED if ("value" if name == "mean" else name) not in record}
+    stated = (name for name in fields(kind) if name not in unstated)
+    event: Event = kind(**{name: _READERS[name](record, visits) for name in stated})
     return event
 
 
@@ -112,7 +122,9 @@ def _plain(value: Any) -> Any:
     return int(value) if isinstance(value, Approach) else value
 
 
-def _visit(number: Any, visits: Sequence[ListedVisit]) -> ListedVisit:
+def _visit(number: Any, visits: Sequence[ListedVisit]) -> ListedVisit | None:
+    if number is None:
+        return None
     if number not in range(1, len(visits) + 1):
         raise ValueError(f"there is no visit {number!r}")
     return visits[int(number) - 1]
@@ -141,6 +153,9 @@ def _number(name: str) -> _Reader:
 _READERS: Mapping[str, _Reader] = MappingProxyType(
     {
         "visit": lambda record, visits: _visit(record["visit"], visits),
+        "candidates": lambda record, visits: tuple(
+            (_visit(number, visits), finite(odds)) for number, odds in record["candidates"]
+        ),
         "void": lambda record, visits: tuple(_visit(number, visits) for number in record["void"]),
         "mean": lambda record, _visits: _mean(record),
         "approach": lambda record, _visits: (
@@ -152,7 +167,7 @@ _READERS: Mapping[str, _Reader] = MappingProxyType(
         "reason": lambda record, _visits: str(record["reason"]),
         **{
             name: _number(name)
-            for name in ("position", "difference", "seconds", "silence", "spacing", "largest")
+            for name in ("position", "difference", "seconds", "silence", "spacing", "largest", "late")
         },
     }
 )

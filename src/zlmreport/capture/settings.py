@@ -31,6 +31,8 @@ class Settings:
         readings that are further apart may have missed it.
     stay
         How long the axis rests at a target, s: in a shorter silence no visit can have gone unseen.
+    feed
+        Of the program, m/s or rad/s; 0 if it is not known.
     """
 
     tolerance: float
@@ -38,6 +40,7 @@ class Settings:
     dwell: float
     turn: float
     stay: float
+    feed: float = 0.0
 
     @property
     def motion(self) -> float:

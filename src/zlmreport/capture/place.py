@@ -1,0 +1,463 @@
+"""Where the program is: the history of stops held against the visit list.
+
+Each stop is explained in all the ways that could have led to it: the program went on, visits went unseen, the
+operator went back over a target, somebody began anew elsewhere, or it is no stop of the program at all. What
+was seen weighs most: between two visits a program turns round at known places. Where nothing was seen, in a
+silence of the line, time stands in. What is left is a probability for each visit of the list; a reading is
+filed only where one explanation is clear.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict, deque
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from itertools import accumulate
+from math import exp, hypot, inf, log, pi, sqrt
+from statistics import median
+from typing import NamedTuple
+
+from zlmreport.capture.events import Mean
+from zlmreport.capture.settings import Settings
+from zlmreport.capture.visit_list import ListedVisit
+from zlmreport.measurement.approach import Approach
+
+#: A reading is filed if all other explanations together are less probable than this; that a stop is none of
+#: the program's harms less to believe, for later stops can still say otherwise.
+_DOUBT, _DOUBT_OF_NONE = 1e-3, 0.1
+#: Explanations that are less probable than this beside the best are dropped.
+_HOPELESS = -18.0
+# The rest are logarithms of how often such a thing happens, at a stop. They are judgement: how an operator works.
+#: A visit that went unseen on the way, and each further one; in a silence, where they are to be expected.
+_SKIPPED, _EACH_SKIPPED = -1.0, -0.7
+_UNSEEN, _EACH_UNSEEN = -0.5, -0.05
+#: The axis came back to its last visit; it went back and forth before one of the next three.
+_REPEATED, _DETOUR = -4.0, -4.0
+_NEAR = 3
+#: A program began anew, at the beginning of a part of the test; anywhere else.
+_BEGUN_ANEW, _ANYWHERE = -8.0, -13.0
+#: No stop of the program: at the target that is next or was last, from its wrong side; before the program;
+#: elsewhere.
+_WRONG_SIDE, _BEFORE, _STRAY = -5.0, -5.0, -13.0
+#: Before the program: not its first visit although nobody saw where the axis came from.
+_NOT_FIRST = -6.0
+#: A program that the operator was to begin at a visit ran on while nobody watched.
+_RAN_ON = -7.0
+#: What a turning point weighs that is where the program has it: an arbitrary one would lie anywhere.
+_TURN, _OTHER_TURN = 3.0, -3.0
+#: How often the axis turns round on its way to where a program begins anew.
+_TURNS_TO_BEGIN = 2
+#: A silence in which the axis also stood on hold; how improbable a time is that nothing holds to.
+_HELD, _ANY_TIME = log(0.02), -2.3
+_TOO_FAST = -20.0
+#: How far the time of a program is off, as a logarithm: before it was measured, and at least.
+_UNKNOWN_PACE, _STEADY_PACE = 0.3, 0.05
+_STEPS = 15
+
+
+@dataclass(frozen=True, slots=True)
+class Stop:
+    """A standstill at a target.
+
+    Attributes
+    ----------
+    target
+        Its number, from 1.
+    heading
+        How the axis came from afar, by which the program is followed; None if nobody saw.
+    approach
+        How it came at last, which a reading needs: an overshoot turns it round. None if nobody saw.
+    position
+        Where it stands, seen from the datum, m or rad.
+    mean
+        The reading.
+    """
+
+    target: int
+    heading: Approach | None
+    approach: Approach | None
+    position: float
+    mean: Mean
+
+
+class Route:
+    """Where the axis turned round, from afar: what is less than a threshold is no turn.
+
+    Attributes
+    ----------
+    turns
+        Turning points so far, m or rad.
+    breaks
+        How often the axis was out of sight.
+    heading
+        Which way it goes; None as long as that is not known.
+    first
+        Where it was seen first, m or rad; None before, and after a break.
+    """
+
+    def __init__(self, threshold: float) -> None:
+        self.turns: list[float] = []
+        self.breaks = 0
+        self.heading: Approach | None = None
+        self.first: float | None = None
+        self._threshold = threshold
+        self._lowest = self._highest = 0.0
+
+    def lose(self) -> None:
+        """Take note that nobody sees the axis."""
+        self.breaks += 1
+        self.heading = self.first = None
+
+    def add(self, position: float) -> None:
+        """Take note of where it is, m or rad."""
+        if self.first is None:
+            self.first = self._lowest = self._highest = position
+        self._lowest = min(self._lowest, position)
+        self._highest = max(self._highest, position)
+        if self.heading is not Approach.POSITIVE and position > self._lowest + self._threshold:
+            self._turn(Approach.POSITIVE, self._lowest)
+            self._highest = position
+        elif self.heading is not Approach.NEGATIVE and position < self._highest - self._threshold:
+            self._turn(Approach.NEGATIVE, self._highest)
+            self._lowest = position
+        if self.heading is Approach.POSITIVE:
+            self._lowest = self._highest
+        elif self.heading is Approach.NEGATIVE:
+            self._highest = self._lowest
+
+    def _turn(self, heading: Approach, at: float) -> None:
+        if self.heading is not None:
+            self.turns.append(at)
+        self.heading = heading
+
+
+class Turn(NamedTuple):
+    """A turning point of a program, m or rad, and the target beyond which it lies, if it does."""
+
+    position: float
+    beyond: float | None
+
+
+class Programme:
+    """The motion of the plan: where it turns round between two visits, and how long it takes.
+
+    Parameters
+    ----------
+    visits
+        The list.
+    settings
+        The feed, and the rest at each target.
+    """
+
+    def __init__(self, visits: Sequence[ListedVisit], settings: Settings) -> None:
+        self.visits = tuple(visits)
+        first = self.visits[0]
+        self.start = first.position - first.approach * first.travelled
+        self._turns: list[Turn] = []
+        self._turns_before: list[int] = []
+        here, heading, beyond = self.start, first.approach, None
+        for visit in self.visits:
+            for corner in self._corners(here, visit):
+                if (corner - here) * heading < 0:
+                    self._turns.append(Turn(here, beyond))
+                    heading = Approach(-heading)
+                here, beyond = corner, None if corner == visit.position else visit.position
+            self._turns_before.append(len(self._turns))
+        self._times = list(
+            accumulate(visit.travelled / (settings.feed or inf) + settings.stay for visit in self.visits)
+        )
+        self._at: dict[tuple[int, Approach], list[int]] = defaultdict(list)
+        for index, visit in enumerate(self.visits):
+            self._at[visit.target, visit.approach].append(index)
+
+    def _corners(self, here: float, visit: ListedVisit) -> Iterator[float]:
+        """Yield where the way to a visit leads: over the place where it turns round, if it does."""
+        beyond = (visit.travelled - abs(visit.position - here)) / 2
+        if beyond > 1e-9 * max(visit.travelled, abs(visit.position)):
+            yield visit.position - visit.approach * beyond
+        yield visit.position
+
+    def at(self, target: int, approach: Approach | None) -> Sequence[int]:
+        """Return the indices of the visits of a target from a side, or from both."""
+        if approach is not None:
+            return self._at[target, approach]
+        return sorted(self._at[target, Approach.POSITIVE] + self._at[target, Approach.NEGATIVE])
+
+    def turns(self, here: int, there: int) -> Sequence[Turn]:
+        """Return the turning points from one visit to a later one; from the start for −1."""
+        return self._turns[self._turns_before[here] if here >= 0 else 0 : self._turns_before[there]]
+
+    def seconds(self, here: int, there: int) -> float:
+        """Return the time from one visit to a later one, s."""
+        return self._times[there] - (self._times[here] if here >= 0 else 0.0)
+
+    def begins_part(self, index: int) -> bool:
+        """Tell whether a part of the test begins with a visit."""
+        return index == 0 or self.visits[index - 1].part != self.visits[index].part
+
+
+@dataclass(frozen=True, slots=True)
+class _Guess:
+    """One explanation of all that was seen.
+
+    Attributes
+    ----------
+    place
+        Index of the visit that the program made last; −1 before its first.
+    weight
+        Logarithm of its probability.
+    time
+        When it was there, s; None if that is not known.
+    turns, breaks
+        How many turning points and breaks had been seen then.
+    is_told
+        Whether the operator begins the program after `place`, from wherever the axis is.
+    files
+        Which visit each of the stops is that are not decided yet; None for none. At last the stop before.
+    """
+
+    place: int
+    weight: float
+    time: float | None
+    turns: int
+    breaks: int
+    is_told: bool
+    files: tuple[int | None, ...] = (None,)
+
+
+class Place:
+    """Follows the program by its stops.
+
+    Attributes
+    ----------
+    undecided
+        The stops of which it is not clear which visit they are, first come first.
+
+    Parameters
+    ----------
+    programme
+        The motion of the plan.
+    settings
+        When a reading is taken.
+    taken
+        How many visits are taken or missed for good: the operator begins after them.
+    last
+        When the last of them was, s, by the clock of the readings; None if the program cannot have run on
+        since then.
+    """
+
+    def __init__(
+        self, programme: Programme, settings: Settings, taken: int, last: float | None = None
+    ) -> None:
+        self.undecided: list[Stop] = []
+        self._programme = programme
+        self._settings = settings
+        self._close = 2 * settings.tolerance
+        self._paces: deque[float] = deque(maxlen=_STEPS)
+        self._before: tuple[Stop, int, int] | None = None
+        self._sure: tuple[int, float] | None = None
+        self._guesses = [_Guess(taken - 1, 0.0, None, 0, 0, is_told=True)]
+        if taken and last is not None:
+            self._guesses.append(_Guess(taken - 1, _RAN_ON, last, 0, -1, is_told=False))
+
+    def add(self, stop: Stop, route: Route) -> None:
+        """Take the next stop in."""
+        before, self._before = self._before, (stop, len(route.turns), route.breaks)
+        self.undecided.append(stop)
+        if before is not None and before[1:] == self._before[1:] and self._is_same(before[0], stop):
+            self._guesses = [replace(each, files=(*each.files, each.files[-1])) for each in self._guesses]
+            return
+        found: dict[tuple[int, bool, tuple[int | None, ...]], list[_Guess]] = defaultdict(list)
+        for guess in self._guesses:
+            for after in self._explained(guess, stop, route):
+                found[after.place, after.is_told, after.files].append(after)
+        merged = [_merged(alike) for alike in found.values()]
+        best = max(each.weight for each in merged)
+        self._guesses = [
+            replace(each, weight=each.weight - best) for each in merged if each.weight > best + _HOPELESS
+        ]
+
+    def _is_same(self, before: Stop, stop: Stop) -> bool:
+        """Tell whether the axis only went on a little, on its way to the same target."""
+        return before.target == stop.target and abs(before.position - stop.position) <= self._close
+
+    def decided(self) -> Iterator[tuple[Stop, int | None]]:
+        """Yield the stops that are clear by now, with the index of their visit; None for no visit."""
+        while self.undecided:
+            odds = self.odds()
+            best = max(odds, key=odds.__getitem__)
+            if 1 - odds[best] > (_DOUBT_OF_NONE if best is None else _DOUBT):
+                return
+            self._settle(best, is_sure=best is not None)
+            stop = self.undecided.pop(0)
+            if best is not None:
+                self._keep_pace(best, stop)
+            yield stop, best
+
+    def odds(self) -> dict[int | None, float]:
+        """Return how probable it is which visit the first undecided stop is; None for none."""
+        odds: dict[int | None, float] = defaultdict(float)
+        at = -len(self.undecided)
+        for guess in self._guesses:
+            odds[guess.files[at]] += exp(guess.weight)
+        total = sum(odds.values())
+        return {index: each / total for index, each in odds.items()}
+
+    def told(self, index: int | None) -> Stop:
+        """Take the operator's word which visit the first undecided stop is; return that stop."""
+        at = -len(self.undecided)
+        if not any(guess.files[at] == index for guess in self._guesses) and index is not None:
+            stop, turns, breaks = self._before or (self.undecided[0], 0, 0)
+            files = (index, *[None] * (len(self.undecided) - 1))
+            self._guesses = [_Guess(index, 0.0, stop.mean.time, turns, breaks, is_told=False, files=files)]
+        self._settle(index, is_sure=True)
+        return self.undecided.pop(0)
+
+    def _settle(self, index: int | None, *, is_sure: bool) -> None:
+        """Keep the explanations that agree; where it is no visit, the others too, for later stops."""
+        at = -len(self.undecided)
+        self._guesses = [
+            replace(each, files=each.files[at:])
+            for each in self._guesses
+            if each.files[at] == index or not is_sure
+        ]
+
+    def _explained(self, guess: _Guess, stop: Stop, route: Route) -> Iterator[_Guess]:
+        """Yield the explanations that one becomes by a stop."""
+        candidates = self._programme.at(stop.target, stop.heading)
+        for index in candidates:
+            weight = guess.weight + self._weight(guess, index, stop, route, len(candidates))
+            if weight > -inf:
+                yield _Guess(
+                    index,
+                    weight,
+                    stop.mean.time,
+                    len(route.turns),
+                    route.breaks,
+                    is_told=False,
+                    files=(*guess.files, None if stop.heading is None else index),
+                )
+        is_on_its_way = guess.is_told and any(
+            self._left_the_start(route.turns[guess.turns :], index, route) for index in candidates
+        )
+        stray = guess.weight + (_STRAY if is_on_its_way else self._stray(guess, stop))
+        yield replace(guess, weight=stray, files=(*guess.files, None))
+
+    def _stray(self, guess: _Guess, stop: Stop) -> float:
+        """Return how probable it is that a stop is none of the program's."""
+        visits, following = self._programme.visits, guess.place + 1
+        if guess.is_told and following < len(visits):
+            is_next = (visits[following].target, visits[following].approach) == (stop.target, stop.heading)
+            return _STRAY if is_next else _BEFORE
+        near = [visits[index] for index in (following, guess.place) if 0 <= index < len(visits)]
+        sides = [visit.approach for visit in near if visit.target == stop.target]
+        is_wrong = sides and stop.heading is not None and stop.heading not in sides
+        return _WRONG_SIDE if is_wrong else _STRAY
+
+    def _weight(self, guess: _Guess, index: int, stop: Stop, route: Route, candidates: int) -> float:
+        """Return how probable it is that the program, where a guess has it, comes to stop at a visit."""
+        programme, here = self._programme, guess.place
+        turns = route.turns[guess.turns :]
+        is_seen = route.breaks == guess.breaks
+        jump = (_BEGUN_ANEW if programme.begins_part(index) else _ANYWHERE) - log(candidates)
+        if guess.is_told:
+            return max(jump, self._from_rest(here, index, turns, route))
+        if not is_seen:
+            jump += _ANY_TIME
+        elif programme.begins_part(index):  # which begins with a way of the program's own
+            jump += _TURN * min(len(turns), _TURNS_TO_BEGIN)
+        if index == here:
+            return max(jump, _REPEATED + (0.0 if is_seen else _ANY_TIME))
+        if index < here:
+            return jump
+        unseen = index - here - 1
+        if not is_seen:
+            skipped = _UNSEEN + _EACH_UNSEEN * unseen if unseen else 0.0
+            return max(jump, skipped + self._in_time(guess, index, stop))
+        went_back = unseen < _NEAR and len(turns) > len(programme.turns(here, index))
+        detour = _DETOUR + _EACH_SKIPPED * unseen if went_back else -inf
+        return max(jump, detour, self._by_route(here, index, turns))
+
+    def _from_rest(self, here: int, index: int, turns: Sequence[float], route: Route) -> float:
+        """Return how probable a first visit is, after which the operator was told to begin."""
+        unseen = index - here - 1
+        if unseen < 0:
+            return -inf
+        if not unseen:
+            return 0.0
+        visits = self._programme.visits
+        visit = visits[index]
+        if any((each.target, each.approach) == (visit.target, visit.approach) for each in visits[here + 1 : index]):
+            return -inf
+        if here < 0 and self._left_the_start(turns, index, route):
+            return _SKIPPED + _EACH_SKIPPED * unseen
+        return _NOT_FIRST + _EACH_SKIPPED * unseen
+
+    def _left_the_start(self, turns: Sequence[float], index: int, route: Route) -> bool:
+        """Tell whether the axis came from the start of the program, as the program does."""
+        expected = self._programme.turns(-1, index)
+        before = turns[: max(0, len(turns) - len(expected))]
+        came_from = before[-1] if before else route.first if not route.breaks else None
+        if came_from is None or abs(came_from - self._programme.start) > self._close:
+            return False
+        return self._likeness(turns[len(before) :], expected) == _TURN * len(expected)
+
+    def _by_route(self, here: int, index: int, turns: Sequence[float]) -> float:
+        """Return how probable it is that the program went on to a visit, by where the axis turned round."""
+        unseen = index - here - 1
+        skipped = _SKIPPED + _EACH_SKIPPED * unseen if unseen else 0.0
+        return skipped + self._likeness(turns, self._programme.turns(here, index))
+
+    def _likeness(self, turns: Sequence[float], expected: Sequence[Turn]) -> float:
+        """Return how well turning points are those of a program, whose overrun may be another one."""
+        if len(turns) != len(expected):
+            return -inf
+        matches = 0
+        for seen, planned in zip(turns, expected, strict=True):
+            if abs(seen - planned.position) <= self._close:
+                matches += 1
+            elif planned.beyond is None or not self._is_beyond(seen, planned.position, planned.beyond):
+                return -inf
+        return _TURN * matches + _OTHER_TURN * (len(turns) > matches)
+
+    def _is_beyond(self, seen: float, planned: float, target: float) -> bool:
+        return abs(seen - target) > self._settings.tolerance and (seen > target) == (planned > target)
+
+    def _in_time(self, guess: _Guess, index: int, stop: Stop) -> float:
+        """Return how probable the time is that the program took to a visit while nobody saw it."""
+        expected = self._programme.seconds(guess.place, index)
+        if guess.time is None or not self._settings.feed:
+            return _ANY_TIME
+        off = log(max(stop.mean.time - guess.time, 1e-3) / expected) - self._pace
+        spread = self._spread
+        if stop.heading is None:  # it may have arrived at any time of its rest
+            spread = hypot(spread, self._settings.stay / expected)
+        steady = exp(-((off / spread) ** 2) / 2) / (spread * sqrt(2 * pi))
+        held = exp(_HELD - off) if off > 0 else 0.0
+        return max(log(steady + held + 1e-300), _TOO_FAST)
+
+    def _keep_pace(self, index: int, stop: Stop) -> None:
+        """Learn from a step to the next visit how long the program takes, beside the plan."""
+        before, self._sure = self._sure, (index, stop.mean.time)
+        if before is None or index != before[0] + 1:
+            return
+        seconds = stop.mean.time - before[1]
+        if seconds > 0:
+            self._paces.append(log(seconds / self._programme.seconds(before[0], index)))
+
+    @property
+    def _pace(self) -> float:
+        return median(self._paces) if self._paces else 0.0
+
+    @property
+    def _spread(self) -> float:
+        if len(self._paces) < _NEAR:
+            return _UNKNOWN_PACE
+        pace = self._pace
+        return max(_STEADY_PACE, 1.5 * median(abs(each - pace) for each in self._paces))
+
+
+def _merged(alike: Sequence[_Guess]) -> _Guess:
+    """Return the best of explanations that end alike, with the weight of all."""
+    best = max(alike, key=lambda each: each.weight)
+    return replace(best, weight=best.weight + log(sum(exp(each.weight - best.weight) for each in alike)))
