@@ -98,7 +98,11 @@ def kinds(events: Iterable[Event]) -> list[str]:
 
 
 def following(
-    visits: tuple[ListedVisit, ...], datum: float | None = None, settings: Settings = SETTINGS
+    visits: tuple[ListedVisit, ...],
+    datum: float | None = None,
+    settings: Settings = SETTINGS,
+    *,
+    is_watched: bool = False,
 ) -> Follower:
     """Return a follower at the begin of a test."""
-    return Follower(Progress.begin(visits, datum), settings)
+    return Follower(Progress.begin(visits, datum), settings, is_watched=is_watched)

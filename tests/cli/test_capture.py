@@ -17,6 +17,7 @@ import pytest
 from cli.commands import Run
 from environments import ROOT
 from processes import PATIENCE, ZLMREPORT, group
+from zlmreport.capture.events import Recorded
 from zlmreport.capture.history import read_history
 from zlmreport.cli import main
 
@@ -199,12 +200,50 @@ def test_readings_that_come_too_seldom_are_refused_with_what_helps(bench: Bench)
     assert "let the instrument send more often (its key rate)" in done.messages
 
 
-def test_a_long_silence_ends_the_capture(bench: Bench) -> None:
+def test_a_long_silence_is_named_and_the_capture_goes_on(bench: Bench) -> None:
     bench.job("0 silent")
     done = bench.run("capture", "job.yaml")
+    assert "SILENT   no sound reading came for 100.0 s; visits may have gone unseen\n" in done.output
+
+
+def test_a_lost_place_is_asked_for_and_files_nothing_without_a_terminal(bench: Bench) -> None:
+    bench.job("0 20 t-5 0", ("runs: 1", "runs: 2"))
+    done = bench.run("capture", "job.yaml", "--json")
     assert done.code == 3
-    assert "no sound reading came for 100.0 s" in done.messages
-    assert "let the axis come once more to 0.000 mm from below, to check the datum, then" in done.messages
+    question = json.loads(done.output.splitlines()[-1])
+    assert question["record"] == "unclear"
+    assert {visit for visit, share in question["candidates"] if share > 0.1} == {1, 5}
+    assert "state --answer with the number of the visit, or none" in done.messages
+    assert bench.taken() == 2
+
+
+def test_the_answer_files_the_reading_that_was_asked_about(bench: Bench) -> None:
+    bench.job("0 20 t-5 0", ("runs: 1", "runs: 2"))
+    bench.run("capture", "job.yaml")
+    bench.job("t15 20 t25 20 0", ("runs: 1", "runs: 2"))
+    bench.run("capture", "job.yaml", "--resume", "--answer", "5")
+    history = read_history(bench.journal)
+    assert history is not None
+    taken = [entry.event.visit.number for entry in history.entries if isinstance(entry.event, Recorded)]
+    assert taken[:3] == [1, 2, 5]
+
+
+@pytest.mark.parametrize(
+    ("answer", "message"),
+    [("2", "is at another target"), ("9", "'9' is no visit: state a number from 1 to 8, or none")],
+)
+def test_an_answer_that_cannot_be_is_refused(answer: str, message: str, bench: Bench) -> None:
+    bench.job("0 20 t-5 0", ("runs: 1", "runs: 2"))
+    bench.run("capture", "job.yaml")
+    done = bench.run("capture", "job.yaml", "--resume", "--answer", answer)
+    assert (done.code, message in done.messages) == (2, True)
+
+
+def test_an_answer_without_a_question_is_refused(bench: Bench) -> None:
+    bench.job("0 20")
+    bench.run("capture", "job.yaml")
+    done = bench.run("capture", "job.yaml", "--resume", "--answer", "1")
+    assert (done.code, "no question is open" in done.messages) == (2, True)
 
 
 def test_a_capture_that_is_closed_has_missing_readings(bench: Bench) -> None:

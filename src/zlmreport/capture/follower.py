@@ -34,16 +34,12 @@ from zlmreport.capture.events import (
 from zlmreport.capture.pace import Pace
 from zlmreport.capture.place import Place, Programme, Route, Stop
 from zlmreport.capture.progress import Progress
-from zlmreport.capture.settings import Settings
+from zlmreport.capture.settings import FASTEST, Settings
 from zlmreport.capture.track import Track
 from zlmreport.capture.visit_list import ListedVisit
 from zlmreport.capture.window import Window
 from zlmreport.live.reading import Fault, LiveReading
 from zlmreport.measurement.approach import Approach
-
-
-#: What an operator may make of the feed, by the override of the control.
-_FASTEST = 1.5
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,6 +105,10 @@ class Follower:
         self._settings = settings
         self._window = Window(settings.stability, settings.dwell)
         self._track = Track(settings.motion)
+        if progress.question is not None:
+            asked = progress.question
+            stop = Stop(asked.target, asked.approach, asked.approach, asked.position, asked.mean)
+            self._place.undecided.append(stop)
         by_position = {visit.position: visit.target for visit in progress.visits}
         self._positions = sorted(by_position)
         self._targets = [by_position[position] for position in self._positions]
@@ -131,9 +131,17 @@ class Follower:
         """Return what happens with a reading, in order; mostly nothing."""
         return self._lived_through(() if self.is_halted else self._seen(reading))
 
-    def told(self, visit: ListedVisit | None) -> list[Event]:
-        """Return what happens when the operator says which visit an unclear stop is; None for none."""
-        return self._lived_through(self._answered(visit))
+    def told(self, visit: ListedVisit | None, late: float | None = None) -> list[Event]:
+        """Return what happens when the operator says which visit an unclear stop is; None for none.
+
+        Parameters
+        ----------
+        visit
+            The visit, or None.
+        late
+            How long ago the stop was, s; without it, it was seen by this follower.
+        """
+        return self._lived_through(self._answered(visit, late))
 
     def _lived_through(self, happening: Iterable[Event]) -> list[Event]:
         events: list[Event] = []
@@ -174,7 +182,7 @@ class Follower:
         """Follow where the axis turns round: of readings that come seldom each counts that can be true."""
         if before is None or self._track.position is None:
             return
-        reach = _FASTEST * self._settings.feed * (reading.time - before.time) + self._settings.motion
+        reach = FASTEST * self._settings.feed * (reading.time - before.time) + self._settings.motion
         can_be = abs(reading.value - before.value) <= reach
         self._route.add(reading.value + zero if can_be else self._track.position)
 
@@ -315,18 +323,18 @@ class Follower:
                 yield Placed(None if index is None else self.progress.visits[index])
             yield from self._filed(stop, index)
 
-    def _filed(self, stop: Stop, index: int | None) -> Iterator[Event]:
+    def _filed(self, stop: Stop, index: int | None, late: float | None = None) -> Iterator[Event]:
         if index is None:
             yield self._out_of_turn(stop)
         elif stop.approach is not self.progress.visits[index].approach:
             yield WrongDirection(self.progress.visits[index], stop.approach)
         else:
-            yield from self._taken(index, stop)
+            yield from self._taken(index, stop, late)
 
-    def _answered(self, visit: ListedVisit | None) -> Iterator[Event]:
+    def _answered(self, visit: ListedVisit | None, late: float | None) -> Iterator[Event]:
         index = None if visit is None else visit.number - 1
         yield Placed(visit)
-        yield from self._filed(self._place.told(index), index)
+        yield from self._filed(self._place.told(index), index, late)
         yield from self._decided()
         if self._place.undecided:
             yield self._question()
@@ -336,9 +344,7 @@ class Follower:
         odds = sorted(self._place.odds().items(), key=lambda each: -each[1])
         visits = self.progress.visits
         candidates = tuple((None if index is None else visits[index], share) for index, share in odds)
-        return Unclear(
-            stop.target, stop.heading or visits[0].approach, candidates, stop.position, stop.mean
-        )
+        return Unclear(stop.target, stop.heading or visits[0].approach, candidates, stop.position, stop.mean)
 
     def _is_next(self, target: int, approach: Approach) -> bool:
         visit = self.progress.next
@@ -354,7 +360,7 @@ class Follower:
             return DatumMoved(earlier.visit, difference, self.progress.rest_of_part)
         return DatumHolds(earlier.visit, difference)
 
-    def _taken(self, index: int, stop: Stop) -> Iterator[Event]:
+    def _taken(self, index: int, stop: Stop, late: float | None) -> Iterator[Event]:
         progress = self.progress
         self._passed = 0
         self._look_ahead()
@@ -365,7 +371,8 @@ class Follower:
         for missed in progress.visits[progress.taken : index]:
             if missed.number not in progress.filed:
                 yield Missed(missed, progress.attempts.get(missed.part, 1))
-        late = self._latest.time - stop.mean.time if self._latest else 0.0
+        if late is None:
+            late = self._latest.time - stop.mean.time if self._latest else 0.0
         yield Recorded(visit, progress.attempts.get(visit.part, 1), stop.position, stop.mean, late)
 
     def _at_the_end(self, reading: LiveReading, zero: float) -> Iterator[Event]:

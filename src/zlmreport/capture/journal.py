@@ -9,7 +9,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import Self
 
-from zlmreport.capture.events import Event
+from zlmreport.capture.events import Event, Recorded, Unclear
 from zlmreport.capture.header import Header
 from zlmreport.capture.history import History, read_history, sealed
 from zlmreport.capture.progress import Progress
@@ -31,12 +31,17 @@ class Journal:
         How far the capture has come, by what is in it.
     elapsed
         Of its last record, s from the start of the capture.
+    visited
+        When the last reading was, s from the start of the capture; None before.
+    asked
+        When the question that is open was asked, s from the start of the capture.
     """
 
     def __init__(self, path: Path, handle: int, header: Header, last_sum: str) -> None:
         self.header = header
         self.progress = Progress.begin(header.visits, header.datum)
-        self.elapsed = 0.0
+        self.elapsed = self.asked = 0.0
+        self.visited: float | None = None
         self._path = path
         self._handle = handle
         self._sum = last_sum
@@ -82,7 +87,8 @@ class Journal:
             os.fsync(handle)
             journal = cls(path, handle, history.header, history.last_sum)
             journal.progress = history.progress
-            journal.elapsed = history.entries[-1].elapsed if history.entries else 0.0
+            for entry in history.entries:
+                journal._remember(entry.event, entry.elapsed)
             return journal
 
     def __enter__(self) -> Self:
@@ -112,7 +118,15 @@ class Journal:
         """
         self.elapsed = max(self.elapsed, elapsed)
         self._write({"elapsed": round(self.elapsed, 4), **to_record(event)})
+        self._remember(event, self.elapsed)
         self.progress = self.progress.after(event)
+
+    def _remember(self, event: Event, elapsed: float) -> None:
+        self.elapsed = elapsed
+        if isinstance(event, Recorded):
+            self.visited = elapsed - event.late
+        elif isinstance(event, Unclear):
+            self.asked = elapsed
 
     def _write(self, record: Record) -> None:
         line, self._sum = sealed(record, self._sum)

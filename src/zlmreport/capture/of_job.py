@@ -11,7 +11,7 @@ from zlmreport import __version__
 from zlmreport.capture.header import Header
 from zlmreport.capture.history import History
 from zlmreport.capture.options import CaptureOptions
-from zlmreport.capture.settings import SHARE_OF_INTERVAL, SHARE_OF_OVERRUN, Settings
+from zlmreport.capture.settings import FASTEST, SHARE_OF_INTERVAL, SHARE_OF_OVERRUN, Settings
 from zlmreport.capture.visit_list import ListedVisit, start_of, visit_list
 from zlmreport.errors import AccessError, InputError, Place, Problem
 from zlmreport.job.choices import InstrumentChoice
@@ -20,8 +20,6 @@ from zlmreport.measurement.axis import Axis
 from zlmreport.planning.plan import Plan
 
 _SOURCE = "measurement.source"
-#: What an operator may make of the feed, by the override of the control.
-_FASTEST = 1.5
 #: mm or °.
 _USUAL_TOLERANCE = 1.0
 
@@ -164,7 +162,7 @@ def _settings(options: CaptureOptions, plan: Plan, axis: Axis) -> Settings:
         else min(largest, unit.to_si(_USUAL_TOLERANCE)),
         stability=axis.deviation_unit.to_si(options.stability),
         dwell=options.dwell,
-        turn=2 * plan.overrun / (_FASTEST * plan.feed),
+        turn=2 * plan.overrun / (FASTEST * plan.feed),
         stay=plan.dwell,
         feed=plan.feed,
     )

@@ -18,7 +18,7 @@ from statistics import median
 from typing import NamedTuple
 
 from zlmreport.capture.events import Mean
-from zlmreport.capture.settings import Settings
+from zlmreport.capture.settings import FASTEST, Settings
 from zlmreport.capture.visit_list import ListedVisit
 from zlmreport.measurement.approach import Approach
 
@@ -27,7 +27,7 @@ from zlmreport.measurement.approach import Approach
 _DOUBT, _DOUBT_OF_NONE = 1e-3, 0.1
 #: Explanations that are less probable than this beside the best are dropped.
 _HOPELESS = -18.0
-# The rest are logarithms of how often such a thing happens, at a stop. They are judgement: how an operator works.
+# The rest are logarithms of how often such a thing happens at a stop: judgement of how operators work.
 #: A visit that went unseen on the way, and each further one; in a silence, where they are to be expected.
 _SKIPPED, _EACH_SKIPPED = -1.0, -0.7
 _UNSEEN, _EACH_UNSEEN = -0.5, -0.05
@@ -41,14 +41,17 @@ _BEGUN_ANEW, _ANYWHERE = -8.0, -13.0
 _WRONG_SIDE, _BEFORE, _STRAY = -5.0, -5.0, -13.0
 #: Before the program: not its first visit although nobody saw where the axis came from.
 _NOT_FIRST = -6.0
+#: The axis moved elsewhere before it came to the start of the program.
+_WAY_TO_START = -3.0
 #: A program that the operator was to begin at a visit ran on while nobody watched.
 _RAN_ON = -7.0
 #: What a turning point weighs that is where the program has it: an arbitrary one would lie anywhere.
 _TURN, _OTHER_TURN = 3.0, -3.0
 #: How often the axis turns round on its way to where a program begins anew.
 _TURNS_TO_BEGIN = 2
-#: A silence in which the axis also stood on hold; how improbable a time is that nothing holds to.
-_HELD, _ANY_TIME = log(0.02), -2.3
+#: A silence in which the axis also stood on hold; in which it hurried on, and each rest that it left out; how
+#: improbable any time is.
+_HELD, _HURRIED, _EACH_REST, _ANY_TIME = log(0.02), -3.0, -1.5, -2.3
 _TOO_FAST = -20.0
 #: How far the time of a program is off, as a logarithm: before it was measured, and at least.
 _UNKNOWN_PACE, _STEADY_PACE = 0.3, 0.05
@@ -210,6 +213,8 @@ class _Guess:
         When it was there, s; None if that is not known.
     turns, breaks
         How many turning points and breaks had been seen then.
+    is_heading_known
+        Whether it was seen how the axis came there.
     is_told
         Whether the operator begins the program after `place`, from wherever the axis is.
     files
@@ -221,7 +226,8 @@ class _Guess:
     time: float | None
     turns: int
     breaks: int
-    is_told: bool
+    is_heading_known: bool = True
+    is_told: bool = False
     files: tuple[int | None, ...] = (None,)
 
 
@@ -258,14 +264,14 @@ class Place:
         self._sure: tuple[int, float] | None = None
         self._guesses = [_Guess(taken - 1, 0.0, None, 0, 0, is_told=True)]
         if taken and last is not None:
-            self._guesses.append(_Guess(taken - 1, _RAN_ON, last, 0, -1, is_told=False))
+            self._guesses.append(_Guess(taken - 1, _RAN_ON, last, 0, -1))
 
     def add(self, stop: Stop, route: Route) -> None:
         """Take the next stop in."""
         before, self._before = self._before, (stop, len(route.turns), route.breaks)
         self.undecided.append(stop)
         if before is not None and before[1:] == self._before[1:] and self._is_same(before[0], stop):
-            self._guesses = [replace(each, files=(*each.files, each.files[-1])) for each in self._guesses]
+            self._guesses = [self._gone_on(each, before[0], stop) for each in self._guesses]
             return
         found: dict[tuple[int, bool, tuple[int | None, ...]], list[_Guess]] = defaultdict(list)
         for guess in self._guesses:
@@ -280,6 +286,15 @@ class Place:
     def _is_same(self, before: Stop, stop: Stop) -> bool:
         """Tell whether the axis only went on a little, on its way to the same target."""
         return before.target == stop.target and abs(before.position - stop.position) <= self._close
+
+    def _gone_on(self, guess: _Guess, before: Stop, stop: Stop) -> _Guess:
+        """Return an explanation after the axis went on a little; now it may be seen how it came."""
+        if before.heading is not None or stop.heading is None or guess.place < 0:
+            return replace(guess, files=(*guess.files, guess.files[-1]))
+        visit = self._programme.visits[guess.place]
+        if (visit.target, visit.approach) == (stop.target, stop.heading):
+            return replace(guess, files=(*guess.files, guess.place))
+        return replace(guess, weight=guess.weight + _STRAY, files=(*guess.files, None))
 
     def decided(self) -> Iterator[tuple[Stop, int | None]]:
         """Yield the stops that are clear by now, with the index of their visit; None for no visit."""
@@ -309,7 +324,7 @@ class Place:
         if not any(guess.files[at] == index for guess in self._guesses) and index is not None:
             stop, turns, breaks = self._before or (self.undecided[0], 0, 0)
             files = (index, *[None] * (len(self.undecided) - 1))
-            self._guesses = [_Guess(index, 0.0, stop.mean.time, turns, breaks, is_told=False, files=files)]
+            self._guesses = [_Guess(index, 0.0, stop.mean.time, turns, breaks, files=files)]
         self._settle(index, is_sure=True)
         return self.undecided.pop(0)
 
@@ -334,7 +349,7 @@ class Place:
                     stop.mean.time,
                     len(route.turns),
                     route.breaks,
-                    is_told=False,
+                    is_heading_known=stop.heading is not None,
                     files=(*guess.files, None if stop.heading is None else index),
                 )
         is_on_its_way = guess.is_told and any(
@@ -376,22 +391,25 @@ class Place:
             return max(jump, skipped + self._in_time(guess, index, stop))
         went_back = unseen < _NEAR and len(turns) > len(programme.turns(here, index))
         detour = _DETOUR + _EACH_SKIPPED * unseen if went_back else -inf
-        return max(jump, detour, self._by_route(here, index, turns))
+        return max(jump, detour, self._by_route(guess, index, turns))
 
     def _from_rest(self, here: int, index: int, turns: Sequence[float], route: Route) -> float:
         """Return how probable a first visit is, after which the operator was told to begin."""
-        unseen = index - here - 1
+        visits, unseen = self._programme.visits, index - here - 1
         if unseen < 0:
             return -inf
-        if not unseen:
-            return 0.0
-        visits = self._programme.visits
-        visit = visits[index]
-        if any((each.target, each.approach) == (visit.target, visit.approach) for each in visits[here + 1 : index]):
-            return -inf
+        skipped = _SKIPPED + _EACH_SKIPPED * unseen if unseen else 0.0
         if here < 0 and self._left_the_start(turns, index, route):
-            return _SKIPPED + _EACH_SKIPPED * unseen
-        return _NOT_FIRST + _EACH_SKIPPED * unseen
+            expected = len(self._programme.turns(-1, index))
+            return skipped + _TURN * expected + (_WAY_TO_START if len(turns) > expected else 0.0)
+        first = next(
+            each
+            for each in range(here + 1, len(visits))
+            if (visits[each].target, visits[each].approach) == (visits[index].target, visits[index].approach)
+        )
+        if index > first:
+            return -inf
+        return skipped + _NOT_FIRST if unseen else 0.0
 
     def _left_the_start(self, turns: Sequence[float], index: int, route: Route) -> bool:
         """Tell whether the axis came from the start of the program, as the program does."""
@@ -402,11 +420,15 @@ class Place:
             return False
         return self._likeness(turns[len(before) :], expected) == _TURN * len(expected)
 
-    def _by_route(self, here: int, index: int, turns: Sequence[float]) -> float:
+    def _by_route(self, guess: _Guess, index: int, turns: Sequence[float]) -> float:
         """Return how probable it is that the program went on to a visit, by where the axis turned round."""
+        here = guess.place
         unseen = index - here - 1
         skipped = _SKIPPED + _EACH_SKIPPED * unseen if unseen else 0.0
-        return skipped + self._likeness(turns, self._programme.turns(here, index))
+        expected = self._programme.turns(here, index)
+        if not guess.is_heading_known and expected[:1] == [Turn(self._programme.visits[here].position, None)]:
+            expected = expected[1:]  # whether it turned round where it stood nobody could see
+        return skipped + self._likeness(turns, expected)
 
     def _likeness(self, turns: Sequence[float], expected: Sequence[Turn]) -> float:
         """Return how well turning points are those of a program, whose overrun may be another one."""
@@ -428,13 +450,21 @@ class Place:
         expected = self._programme.seconds(guess.place, index)
         if guess.time is None or not self._settings.feed:
             return _ANY_TIME
-        off = log(max(stop.mean.time - guess.time, 1e-3) / expected) - self._pace
+        seconds = max(stop.mean.time - guess.time, 1e-3)
+        off = log(seconds / expected) - self._pace
         spread = self._spread
         if stop.heading is None:  # it may have arrived at any time of its rest
             spread = hypot(spread, self._settings.stay / expected)
         steady = exp(-((off / spread) ** 2) / 2) / (spread * sqrt(2 * pi))
         held = exp(_HELD - off) if off > 0 else 0.0
-        return max(log(steady + held + 1e-300), _TOO_FAST)
+        return max(log(steady + held + self._hurried(guess.place, index, seconds) + 1e-300), _TOO_FAST)
+
+    def _hurried(self, here: int, there: int, seconds: float) -> float:
+        """Return how probable it is that the program left out rests on its way to a visit."""
+        stay, planned = self._settings.stay, self._programme.seconds(here, there)
+        if seconds < (planned - (there - here) * stay) / FASTEST:
+            return 0.0
+        return exp(_HURRIED + _EACH_REST * max(1.0, (planned - seconds) / stay))
 
     def _keep_pace(self, index: int, stop: Stop) -> None:
         """Learn from a step to the next visit how long the program takes, beside the plan."""

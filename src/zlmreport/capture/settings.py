@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+#: What an operator may make of the feed, by the override of the control.
+FASTEST = 1.5
 #: After a reading the axis must move by so many times the stability range before the next one is taken; by
 #: less, no motion is told from noise, and no datum from another.
 _MOTION = 10

@@ -27,6 +27,8 @@ def run(options: Namespace) -> int:
         raise InputError.at(
             Place("zlmreport capture"), "--resume goes on and --end closes the capture: take one of them"
         )
+    if options.answer and not options.resume:
+        raise InputError.at(Place("zlmreport capture"), "--answer belongs to --resume: state both")
     registry = find_plugins(files=options.plugin)
     job = load(options.job, registry)
     live = live_probing(job)
@@ -39,7 +41,8 @@ def run(options: Namespace) -> int:
         _close(job, asked, options.job)
         return 0
     shown = JsonLines if options.json else LiveDisplay if is_watched() else PlainLines
-    capture(job, asked, registry, shown(job, asked), options.job, resume=options.resume)
+    display = shown(job, asked)
+    capture(job, asked, registry, display, options.job, resume=options.resume, answer=options.answer)
     if not options.json:
         print(f"next: zlmreport {shown_path(options.job)}")
     return 0

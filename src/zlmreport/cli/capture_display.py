@@ -9,22 +9,25 @@ import sys
 import textwrap
 from typing import Protocol
 
-from zlmreport.capture.events import Event, Recorded, TooSlow
+from zlmreport.capture.events import Event, Recorded, TooSlow, Unclear
 from zlmreport.capture.follower import Follower
 from zlmreport.capture.of_job import Assignment
 from zlmreport.capture.progress import Progress
 from zlmreport.capture.records import MOMENTARY, to_record
+from zlmreport.capture.visit_list import ListedVisit
 from zlmreport.cli.capture_lines import Scribe, duration, halted, line_on, what_to_do
 from zlmreport.cli.capture_panel import panel
 from zlmreport.cli.messages import visible
 from zlmreport.cli.terminal import Colour
-from zlmreport.errors import AccessError, Place
+from zlmreport.errors import AccessError, InputError, Place
 from zlmreport.job.job import Job
 from zlmreport.live.reading import LiveReading
 
 #: How often the present moment is shown, s: nobody reads it more often.
 _BEAT = 0.1
 _BELL = "\a"
+#: An answer: the stop is no visit.
+_NO_VISIT = "none"
 _CLEAR_BELOW, _UP = "\x1b[J", "\x1b[{}A"
 
 
@@ -46,8 +49,25 @@ class Display(Protocol):
     def see_to(self, event: Event | None, progress: Progress) -> None:
         """Let the operator see to what has happened; raise `AccessError` if there is none."""
 
+    def ask(self, question: Unclear, progress: Progress) -> ListedVisit | None:
+        """Let the operator say which visit a stop is, None for none; raise `AccessError` if there is none."""
+
     def leave(self, message: str) -> None:
         """Say at last how the capture goes on."""
+
+
+def visit_named(text: str, progress: Progress, place: Place) -> ListedVisit | None:
+    """Return the visit that a question is answered with, None for none; raise `InputError` for no answer."""
+    if text == _NO_VISIT:
+        return None
+    if text.isdecimal() and 1 <= int(text) <= len(progress.visits):
+        visit = progress.visits[int(text) - 1]
+        if progress.question is None or visit.target == progress.question.target:
+            return visit
+        raise InputError.at(place, f"visit {text} is at another target than the one at which the axis stood")
+    raise InputError.at(
+        place, f"{text!r} is no visit: state a number from 1 to {len(progress.visits)}, or none"
+    )
 
 
 def is_watched() -> bool:
@@ -88,6 +108,14 @@ class PlainLines:
         """Raise `AccessError` with what is to be seen to."""
         steps = ", then ".join(what_to_do(progress, self._scribe, event))
         raise AccessError.at(Place("zlmreport capture"), f"{halted(event, self._scribe)}; {steps}")
+
+    def ask(self, question: Unclear, progress: Progress) -> ListedVisit | None:  # noqa: ARG002
+        """Raise `AccessError` with what may be answered."""
+        raise AccessError.at(
+            Place("zlmreport capture"),
+            f"{halted(question, self._scribe)}; nothing is filed: stop the program, look where it is, and "
+            "state --answer with the number of the visit, or none",
+        )
 
     def leave(self, message: str) -> None:
         """Print how the capture goes on."""
@@ -143,19 +171,39 @@ class LiveDisplay(PlainLines):
         """Print what is wrong, and what to do, and wait until the operator has done it."""
         if isinstance(event, TooSlow):  # nothing that is done at the machine helps
             super().see_to(event, progress)
-        width = shutil.get_terminal_size().columns - 1
-        for line in textwrap.wrap(visible(halted(event, self._scribe)), width):
-            self._line(Colour.RED.of(line))
+        self._say(halted(event, self._scribe))
         self._line(f"First {what_to_do(progress, self._scribe, event)[0]}.")
         try:
             input("Press Enter when that is done, Ctrl-C to stop: ")
         except EOFError as error:
             raise KeyboardInterrupt from error
 
+    def ask(self, question: Unclear, progress: Progress) -> ListedVisit | None:
+        """Ring, and ask which visit a stop is until there is an answer."""
+        print(_BELL, end="", flush=True)
+        self._say(halted(question, self._scribe))
+        self._line("Stop the program and look where it is.")
+        while True:
+            try:
+                return visit_named(
+                    input("Number of the visit at which it stood, or none: ").strip(),
+                    progress,
+                    Place("answer"),
+                )
+            except InputError as error:
+                self._say(error.problems[0].message)
+            except EOFError as error:
+                raise KeyboardInterrupt from error
+
     def _line(self, line: str) -> None:
         print(self._back() + line, flush=True)
         self._shown = 0
         self._due = 0.0
+
+    def _say(self, message: str) -> None:
+        """Print a message that is to be heeded."""
+        for line in textwrap.wrap(visible(message), shutil.get_terminal_size().columns - 1):
+            self._line(Colour.RED.of(line))
 
     def _back(self) -> str:
         """Return what takes the cursor to where the present moment is shown, and wipes that away."""

@@ -16,10 +16,12 @@ from zlmreport.capture.events import (
     NotChecked,
     NotNext,
     Passed,
+    Placed,
     Recorded,
     Repeated,
     TooSlow,
     TrackLost,
+    Unclear,
     WrongDirection,
     ZeroLost,
 )
@@ -31,6 +33,8 @@ from zlmreport.quantities.formatting import MINUS, fixed_number
 
 #: Where an axis comes from, by its direction.
 SIDES = {Approach.POSITIVE: "from below", Approach.NEGATIVE: "from above"}
+#: The least probability of an explanation that is named.
+_WORTH_NAMING = 0.005
 _SECONDS_A_MINUTE, _MINUTES_AN_HOUR = 60, 60
 
 
@@ -85,12 +89,18 @@ def _out_of_order(event: Event, scribe: Scribe) -> str:
         case Missed(visit=visit):
             line = f"MISSED   {scribe.visit(visit)}: the axis stands at a later one"
         case Repeated(visit=visit):
-            line = f"again    {scribe.visit(visit)}: its reading stays as it is"
+            line = f"again    {scribe.visit(visit)}: its earlier reading is nearer to the target, and stays"
         case WrongDirection(visit=visit, approach=approach):
             came = f"it came {SIDES[approach]}" if approach else "no motion towards it was seen"
             line = f"WRONG    {scribe.visit(visit)}: {came}; let it come {SIDES[visit.approach]}"
         case NotNext(target=target, approach=approach, visit=visit):
             line = f"OTHER    target {target} {approach.arrow} is not next; next is {scribe.visit(visit)}"
+        case TrackLost(silence=silence):
+            line = f"SILENT   no sound reading came for {silence:.1f} s; visits may have gone unseen"
+        case Unclear(target=target, approach=approach):
+            line = f"WHERE?   target {target} {approach.arrow}: {candidates(event)}"
+        case Placed(visit=visit):
+            line = f"placed   {scribe.visit(visit) if visit else 'no visit'}"
         case Elsewhere(position=position):
             line = f"no target at {scribe.position(position)}, where it stands; is the datum right?"
     return line
@@ -111,10 +121,10 @@ def halted(event: Event | None, scribe: Scribe) -> str:
                 f"the datum has moved by {scribe.deviation(difference)} since visit {visit.number} was read"
             )
             return f"{moved}. {_void(void, scribe)}"
-        case TrackLost(silence=silence):
+        case Unclear(target=target, approach=approach, position=position):
             return (
-                f"no sound reading came for {silence:.1f} s, and a visit may have gone unseen: look at the "
-                "instrument and its line"
+                f"the axis stands at target {target} {approach.arrow}, {scribe.position(position)}, and what "
+                f"it did before leaves open which visit that is: {candidates(event)}"
             )
         case TooSlow(spacing=spacing, largest=largest):
             return (
@@ -124,6 +134,15 @@ def halted(event: Event | None, scribe: Scribe) -> str:
             )
         case _:
             return "the readings ended"
+
+
+def candidates(event: Unclear) -> str:
+    """Write what an unclear stop may be: ``visit 12 (run 2) 60 %, visit 2 (run 1) 39 %, no visit 1 %``."""
+    return ", ".join(
+        f"{f'visit {visit.number} (run {visit.run})' if visit else 'no visit'} {share:.0%}".replace("%", " %")
+        for visit, share in event.candidates
+        if share >= _WORTH_NAMING
+    )
 
 
 def _void(void: Sequence[ListedVisit], scribe: Scribe) -> str:

@@ -9,15 +9,15 @@ from functools import partial
 from itertools import chain
 from pathlib import Path
 
-from zlmreport.capture.events import Event, Interrupted, Resumed
+from zlmreport.capture.events import Event, Interrupted, Resumed, Unclear
 from zlmreport.capture.follower import Follower
 from zlmreport.capture.history import read_history
 from zlmreport.capture.journal import Journal, demand_nothing_captured
 from zlmreport.capture.of_job import Assignment, demand_same_test, header_of, instrument_of
 from zlmreport.capture.session import captured
-from zlmreport.cli.capture_display import Display
+from zlmreport.cli.capture_display import Display, visit_named
 from zlmreport.cli.terminal import shown_path
-from zlmreport.errors import AccessError, Place
+from zlmreport.errors import AccessError, InputError, Place
 from zlmreport.job.job import Job
 from zlmreport.live.reading import LiveReading
 from zlmreport.plugin.protocols import Connection
@@ -25,7 +25,14 @@ from zlmreport.plugins import Registry
 
 
 def capture(  # noqa: PLR0913 - whom, what, with what, shown where, and how to go on
-    job: Job, assignment: Assignment, registry: Registry, display: Display, path: Path, *, resume: bool
+    job: Job,
+    assignment: Assignment,
+    registry: Registry,
+    display: Display,
+    path: Path,
+    *,
+    resume: bool,
+    answer: str = "",
 ) -> None:
     """Capture the test of a job to its end.
 
@@ -43,6 +50,9 @@ def capture(  # noqa: PLR0913 - whom, what, with what, shown where, and how to g
         The job file, for the command that goes on.
     resume
         Whether to go on with a journal.
+    answer
+        What the question was answered with that its last sitting ended with: the number of a visit, or
+        ``none``; empty for no answer.
 
     Raises
     ------
@@ -52,6 +62,7 @@ def capture(  # noqa: PLR0913 - whom, what, with what, shown where, and how to g
     """
     if resume:
         demand_own_journal(job, assignment)
+        demand_answer(assignment, answer)
     else:
         demand_nothing_captured(assignment.options.journal)
     choice = instrument_of(job)
@@ -60,7 +71,7 @@ def capture(  # noqa: PLR0913 - whom, what, with what, shown where, and how to g
         readings = connection.readings()
         readings = chain([next(readings)], readings)  # an instrument that is not there leaves no journal
         go_on = f"zlmreport capture {shown_path(path)} --resume"
-        with _journal(job, assignment, resume=resume) as journal:
+        with _journal(job, assignment, resume=resume, answer=answer) as journal:
             try:
                 _sittings(readings, connection, assignment, journal, display)
             except KeyboardInterrupt:
@@ -84,11 +95,26 @@ def demand_own_journal(job: Job, assignment: Assignment) -> None:
         raise AccessError.at(Place(str(path)), "the capture is finished: there is nothing to go on with")
 
 
-def _journal(job: Job, assignment: Assignment, *, resume: bool) -> Journal:
+def demand_answer(assignment: Assignment, answer: str) -> None:
+    """Refuse an answer where there is no question, or that names no visit."""
+    if not answer:
+        return
+    history = read_history(assignment.options.journal)
+    if history is None or history.progress.question is None:
+        raise InputError.at(Place("--answer"), "no question is open; leave it out")
+    visit_named(answer, history.progress, Place("--answer"))
+
+
+def _journal(job: Job, assignment: Assignment, *, resume: bool, answer: str) -> Journal:
     path = assignment.options.journal
     if not resume:
         return Journal.begun(path, header_of(job, assignment, dt.datetime.now(dt.UTC)))
     journal = Journal.continued(path)
+    if answer:
+        visit = visit_named(answer, journal.progress, Place("--answer"))
+        now = _elapsed_now(journal)
+        for event in Follower(journal.progress, assignment.settings).told(visit, now - journal.asked):
+            journal.append(event, now)
     journal.append(Resumed(), _elapsed_now(journal))
     return journal
 
@@ -102,17 +128,30 @@ def _sittings(
 ) -> None:
     """Follow the axis until the test is over; between two sittings the operator sees to what went wrong."""
     while not journal.progress.is_over:
-        follower = Follower(journal.progress, assignment.settings)
+        clock = _clock(journal)
+        follower = Follower(journal.progress, assignment.settings, last=_last_visit(journal, clock))
         display.begin(follower)
         show = partial(display.show, follower)
         event: Event | None = None
-        for event in captured(readings, follower, journal, _clock(journal), show=show):
+        for event in captured(readings, follower, journal, clock, show=show):
             display.tell(event)
         if journal.progress.is_over:
             return
-        display.see_to(event, journal.progress.after(Resumed()))
+        if isinstance(event, Unclear):
+            for each in follower.told(display.ask(event, journal.progress)):
+                journal.append(each, _elapsed_now(journal))
+                display.tell(each)
+        else:
+            display.see_to(event, journal.progress.after(Resumed()))
         journal.append(Resumed(), _elapsed_now(journal))
         readings = connection.readings()
+
+
+def _last_visit(journal: Journal, clock: Callable[[float], float]) -> float | None:
+    """Return when the last visit was, by the clock of the readings: the program may have run on since."""
+    if journal.visited is None or journal.progress.zero is None:
+        return None
+    return journal.visited - clock(0.0)
 
 
 def _clock(journal: Journal) -> Callable[[float], float]:

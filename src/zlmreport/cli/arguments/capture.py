@@ -17,11 +17,19 @@ def capture(command: str) -> CommandParser:
         "that the key names, along its path; the same command again probes what is missing.",
         "examples:\n  zlmreport capture x-axis.yaml\n"
         "  zlmreport capture x-axis.yaml --resume\n"
+        "  zlmreport capture x-axis.yaml --resume --answer 17\n"
         "  zlmreport capture x-axis.yaml --end && zlmreport x-axis.yaml",
     )
     parser.add_argument("job", metavar="JOB.yaml", type=Path, help="job file")
     parser.add_argument(
         "--resume", action="store_true", help="go on with a capture that was interrupted, from its journal"
+    )
+    parser.add_argument(
+        "--answer",
+        metavar="VISIT",
+        default="",
+        help="with --resume: the visit at which the axis stood when the capture asked and ended, by its\n"
+        "number, or none",
     )
     parser.add_argument(
         "--end",
