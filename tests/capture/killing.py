@@ -28,6 +28,8 @@ from zlmreport.simulation.files import description_of
 _KILLED_EARLY, _BEGINNING = 0.25, 1.0
 #: The longest time that one follows the axis, s, and how often it is looked at.
 _LONGEST, _LOOK = 0.5, 0.01
+#: After so long without a record the operator brings the axis to its target once more, s.
+_UNSEEN = 5.0
 
 _SIMULATION = """\
 schema: zlmreport/simulation/1
@@ -155,8 +157,16 @@ def _run_program(
     """Let the axis go on to the next visit whenever the journal says that one is read."""
     until = time.monotonic() + lasts
     done.axis.go_to(visit, now())
+    records, seen = len(done.history.entries), time.monotonic()
     while capture.poll() is None and time.monotonic() < until:
-        progress = done.history.progress
+        history = done.history
+        progress = history.progress
+        if len(history.entries) > records:
+            records, seen = len(history.entries), time.monotonic()
+        elif time.monotonic() - seen > _UNSEEN:  # a busy computer did not see the axis arrive
+            time.sleep(max(0.0, done.axis.go_back(visit, now()) - now()))
+            done.axis.go_to(visit, now())
+            seen = time.monotonic()
         if progress.taken > visit and not progress.must_check and visit + 1 < len(progress.visits):
             visit += 1
             done.axis.go_to(visit, now())
