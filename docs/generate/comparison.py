@@ -6,11 +6,11 @@ from pathlib import Path
 
 from markdown import symbol, table
 
-from zlmreport.certificate.scribe import Scribe
 from zlmreport.job.loading import load
 from zlmreport.language import Language
 from zlmreport.pipeline import compose
 from zlmreport.plugins import find_plugins
+from zlmreport.presenting.writer import Writer
 
 _JOB = Path(__file__).parents[2] / "configs" / "linear-axis" / "certificate.yaml"
 
@@ -19,14 +19,14 @@ def text() -> str:
     """Return the parameters of the example by each standard that its job names, in micrometres."""
     registry = find_plugins()
     certificate = compose(load(_JOB, registry), registry)
-    scribe = Scribe.of(certificate.measurements, Language.ENGLISH)
+    writer = Writer.of(certificate.measurements, Language.ENGLISH)
     return table(
-        ("By", f"Parameters, {scribe.deviation_unit.symbol}"),
+        ("By", f"Parameters, {writer.deviation_unit.symbol}"),
         (
             (
                 evaluation.designation,
                 ", ".join(
-                    f"{symbol(parameter.quantity.notation)} = {scribe.deviation(parameter.printed_value)}"
+                    f"{symbol(parameter.quantity.notation)} = {writer.deviation(parameter.printed_value)}"
                     for parameter in evaluation.parameters
                 ),
             )

@@ -10,8 +10,8 @@ from certificate.documents import COMPLETE, certificate, text_of
 from zlmreport.certificate import results
 from zlmreport.certificate.document import Table
 from zlmreport.certificate.results import Evaluated
-from zlmreport.certificate.scribe import Scribe
 from zlmreport.language import Language, same
+from zlmreport.presenting.writer import Writer
 from zlmreport.uncertainty.budget import NoBudget
 
 GOLDEN = Path(__file__).with_name("golden")
@@ -78,11 +78,11 @@ def test_single_readings_behind_the_graphs_can_be_left_out(tmp_path):
 
 def test_a_standard_that_asks_for_nothing_has_no_table_of_requirements(tmp_path):
     evaluation = certificate(tmp_path).evaluations[0]
-    scribe = Scribe.of(evaluation.measurements, Language.ENGLISH)
+    writer = Writer.of(evaluation.measurements, Language.ENGLISH)
     captions = [
         [
             block.caption
-            for block in results.section(Evaluated(each, (), NoBudget(same(""))), scribe).blocks
+            for block in results.section(Evaluated(each, (), NoBudget(same(""))), writer).blocks
             if isinstance(block, Table)
         ]
         for each in (evaluation, replace(evaluation, findings=()))

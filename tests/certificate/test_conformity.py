@@ -11,12 +11,12 @@ import pytest
 from certificate.documents import COMPLETE, certificate, lines_of
 from zlmreport.certificate import conformity
 from zlmreport.certificate.document import Graph, Table
-from zlmreport.certificate.rounding import written
-from zlmreport.certificate.scribe import Scribe
 from zlmreport.evaluation.decision import decided, decision_rule
 from zlmreport.evaluation.evaluation import Evaluation
 from zlmreport.job.evaluation_keys import DecisionRuleKeys
 from zlmreport.language import Language
+from zlmreport.presenting.amounts import written
+from zlmreport.presenting.writer import Writer
 
 
 @pytest.fixture(scope="module")
@@ -30,15 +30,15 @@ def evaluation(tmp_path_factory) -> Evaluation:
 
 
 def rows(evaluation: Evaluation, rule: str, language: Language = Language.ENGLISH) -> list[str]:
-    scribe = Scribe.of(evaluation.measurements, language)
-    _, table = conformity.blocks(decided(evaluation, decision_rule(rule)), scribe)
+    writer = Writer.of(evaluation.measurements, language)
+    _, table = conformity.blocks(decided(evaluation, decision_rule(rule)), writer)
     assert isinstance(table, Table)
     return [line.strip() for line in lines_of(table)[2:]]
 
 
 def paragraph(evaluation: Evaluation, keys: Mapping[str, Any], language: Language = Language.ENGLISH) -> str:
-    scribe = Scribe.of(evaluation.measurements, language)
-    (found,) = conformity.rule_paragraph(DecisionRuleKeys.model_validate(keys), [evaluation], scribe)
+    writer = Writer.of(evaluation.measurements, language)
+    (found,) = conformity.rule_paragraph(DecisionRuleKeys.model_validate(keys), [evaluation], writer)
     return found.text
 
 
@@ -50,18 +50,18 @@ def test_a_guarded_limit_is_printed_with_the_limit_up_to_which_it_is_accepted(ev
 
 
 def test_an_amount_has_the_digits_that_it_has_in_the_table_of_results(evaluation):
-    scribe = Scribe.of(evaluation.measurements, Language.ENGLISH)
+    writer = Writer.of(evaluation.measurements, Language.ENGLISH)
     found = evaluation.parameter("A")
     assert found is not None
 
-    assert rows(evaluation, "guard-band")[0].split(" | ")[1] == written(found, scribe)[0]
+    assert rows(evaluation, "guard-band")[0].split(" | ")[1] == written(found, writer)[0]
 
 
 def test_an_acceptance_limit_is_explained_where_one_is_drawn(evaluation):
-    scribe = Scribe.of(evaluation.measurements, Language.ENGLISH)
+    writer = Writer.of(evaluation.measurements, Language.ENGLISH)
     captions = {}
     for rule in ("simple", "guard-band"):
-        graph, _ = conformity.blocks(decided(evaluation, decision_rule(rule)), scribe)
+        graph, _ = conformity.blocks(decided(evaluation, decision_rule(rule)), writer)
         assert isinstance(graph, Graph)
         captions[rule] = graph.figure.title.in_language(Language.ENGLISH)
 
@@ -92,10 +92,10 @@ def test_a_risk_that_rounds_to_nothing_is_small_and_not_none(evaluation):
 
 def test_an_evaluation_without_limits_states_nothing(evaluation):
     bare = replace(evaluation, parameters=tuple(replace(each, limit=None) for each in evaluation.parameters))
-    scribe = Scribe.of(evaluation.measurements, Language.ENGLISH)
+    writer = Writer.of(evaluation.measurements, Language.ENGLISH)
 
-    assert list(conformity.blocks(bare, scribe)) == []
-    assert list(conformity.rule_paragraph(DecisionRuleKeys(), [bare], scribe)) == []
+    assert list(conformity.blocks(bare, writer)) == []
+    assert list(conformity.rule_paragraph(DecisionRuleKeys(), [bare], writer)) == []
 
 
 @pytest.mark.parametrize(
@@ -128,8 +128,8 @@ def test_a_rule_without_the_uncertainty_that_it_needs_says_so(evaluation):
 
 
 def test_the_graph_shows_amount_uncertainty_and_acceptance_in_percent_of_the_limit(evaluation):
-    scribe = Scribe.of(evaluation.measurements, Language.ENGLISH)
-    graph, _ = conformity.blocks(decided(evaluation, decision_rule("guard-band")), scribe)
+    writer = Writer.of(evaluation.measurements, Language.ENGLISH)
+    graph, _ = conformity.blocks(decided(evaluation, decision_rule("guard-band")), writer)
     assert isinstance(graph, Graph)
     bar = graph.figure.panels[0].bars[0]
     value = evaluation.value("A")
@@ -143,16 +143,16 @@ def test_the_graph_shows_amount_uncertainty_and_acceptance_in_percent_of_the_lim
 
 def test_without_any_uncertainty_there_is_a_graph_and_no_table_of_risks(evaluation):
     bare = tuple(replace(each, expanded_uncertainty=None) for each in evaluation.parameters)
-    scribe = Scribe.of(evaluation.measurements, Language.ENGLISH)
-    (graph,) = conformity.blocks(replace(evaluation, parameters=bare), scribe)
+    writer = Writer.of(evaluation.measurements, Language.ENGLISH)
+    (graph,) = conformity.blocks(replace(evaluation, parameters=bare), writer)
 
     assert isinstance(graph, Graph)
     assert "±" not in graph.figure.title.in_language(Language.ENGLISH)
 
 
 def test_the_graph_is_told_to_those_who_cannot_see_it(evaluation):
-    scribe = Scribe.of(evaluation.measurements, Language.ENGLISH)
-    graph, _ = conformity.blocks(decided(evaluation, decision_rule("guard-band")), scribe)
+    writer = Writer.of(evaluation.measurements, Language.ENGLISH)
+    graph, _ = conformity.blocks(decided(evaluation, decision_rule("guard-band")), writer)
     assert isinstance(graph, Graph)
 
     told = graph.figure.alternative.in_language(Language.ENGLISH)

@@ -16,11 +16,11 @@ from zlmreport import pipeline
 from zlmreport.certificate import model_annex
 from zlmreport.certificate.document import Certificate, Graph, Section
 from zlmreport.certificate.model_annex import Modelled
-from zlmreport.certificate.scribe import Scribe
 from zlmreport.job.job import Job
 from zlmreport.language import Language, same
 from zlmreport.model.diagnosis import Diagnosis, Verdict
 from zlmreport.model.residuals import Failure, ResidualTest
+from zlmreport.presenting.writer import Writer
 
 GOLDEN = Path(__file__).with_name("golden")
 #: Numbers are held by the tests of what computes them.
@@ -36,7 +36,7 @@ def modelled(path: Path = CONFIG / "job.yaml") -> Modelled:
 
 def section(of: Modelled, language: Language = Language.ENGLISH) -> Section:
     loaded = job(CONFIG / "job.yaml")
-    return model_annex.section(of, Scribe.of(pipeline.read(loaded, registry()), language))
+    return model_annex.section(of, Writer.of(pipeline.read(loaded, registry()), language))
 
 
 def text(of: Modelled, language: Language = Language.ENGLISH) -> str:
@@ -57,7 +57,8 @@ def figures(of: Modelled) -> list[str]:
 
 
 def failure(test: ResidualTest, where: str = "somewhere") -> Failure:
-    return Failure(test, 0.001, same(where), same("the residual does something"))
+    condition = where if test is ResidualTest.CONDITION else ""
+    return Failure(test, 0.001, same(where), same("the residual does something"), condition=condition)
 
 
 def composed(loaded: Job) -> Certificate:

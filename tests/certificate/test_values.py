@@ -7,18 +7,18 @@ from dataclasses import replace
 import pytest
 
 from plugins.standards.installed import STANDARDS
-from zlmreport.certificate.rounding import written, written_uncertainty
-from zlmreport.certificate.scribe import Scribe
 from zlmreport.certificate.values import Values, coverage_factor
 from zlmreport.evaluation.evaluate import evaluate
 from zlmreport.evaluation.evaluation import Evaluation, Parameter
 from zlmreport.job.types import Options
 from zlmreport.language import Language
+from zlmreport.presenting.amounts import written, written_uncertainty
+from zlmreport.presenting.writer import Writer
 from zlmreport.quantities.units import MICROMETRE, MILLIMETRE
 from zlmreport.testing import simulated_test
 
 #: Of readings with two decimals.
-SCRIBE = Scribe(Language.ENGLISH, MILLIMETRE, MICROMETRE, 0, 2)
+SCRIBE = Writer(Language.ENGLISH, MILLIMETRE, MICROMETRE, 0, 2)
 
 
 def parameter(value: float, expanded: float | None, factor: float = 2.0) -> Parameter:

@@ -13,7 +13,7 @@ import pytest
 from cli.commands import Run, Shop
 from cli.model_jobs import change, keep, opened
 from model.hidden_effect import LAST, example_diagnosis
-from zlmreport.cli import main, model_fall
+from zlmreport.cli import main, model_lines
 from zlmreport.model.study import Study
 
 GOLDEN = Path(__file__).with_name("golden")
@@ -191,10 +191,10 @@ def test_a_check_says_that_an_adequate_model_is_one(shop: Shop) -> None:
 
 
 def test_a_bar_is_drawn_in_signs_that_the_terminal_has(monkeypatch: pytest.MonkeyPatch) -> None:
-    assert set(model_fall.bar(0.5)) == {"█"}
-    monkeypatch.setattr(model_fall, "_can_print", lambda _: False)
-    assert set(model_fall.bar(0.5)) == {"#"}
-    assert model_fall.bar(0.0) == ""
+    assert set(model_lines._bar(0.5)) == {"█"}
+    monkeypatch.setattr(model_lines, "_can_print", lambda _: False)
+    assert set(model_lines._bar(0.5)) == {"#"}
+    assert model_lines._bar(0.0) == ""
 
 
 def test_help_tells_every_action(capsys: pytest.CaptureFixture[str]) -> None:

@@ -10,7 +10,7 @@ import pytest
 
 from cli.commands import Shop
 from zlmreport import __version__
-from zlmreport.cli.summary import print_json
+from zlmreport.cli.terminal import print_json
 
 
 def test_done_job(shop: Shop) -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import math
 import time
 from dataclasses import replace
 from pathlib import Path
@@ -15,14 +14,13 @@ from starlette.testclient import TestClient
 
 from web.jobs import EXAMPLE, registry
 from zlmreport import pipeline
-from zlmreport.certificate.linked_failures import chance
 from zlmreport.job.loading import load
 from zlmreport.language import Language, same
 from zlmreport.model.residuals import Failure, ResidualTest
 from zlmreport.model.study import Study
 from zlmreport.testing.designs import full_designs
 from zlmreport.web.app import Workbench
-from zlmreport.web.diagnosed import diagnosed, percent
+from zlmreport.web.diagnosed import diagnosed
 from zlmreport.web.effect_page import sketch
 from zlmreport.web.texts import TEXTS, texts
 from zlmreport.web.view import view
@@ -82,7 +80,7 @@ def test_the_page_is_plain_values(page: dict[str, Any]) -> None:
 def test_the_page_is_told_of_in_german(workbench: Workbench) -> None:
     german = view(workbench.bench, workbench.bench.loaded(), Language.GERMAN)
     assert german["subject"] == "Achse X"
-    assert german["error"][1] == {"name": "Grundrauschen", "value": "0,48 µm"}
+    assert german["error"][1] == {"name": "Grundrauschen", "value": "0,480 µm"}
 
 
 @pytest.mark.parametrize("language", Language)
@@ -143,24 +141,6 @@ def test_any_file_behind_the_job_changes_the_stamp(job: Path, browser: TestClien
     assert browser.get("/api/stamp").json()["stamp"] != before
 
 
-@pytest.mark.parametrize(
-    ("value", "text"),
-    [(1e-9, "p < 10⁻⁶"), (2.34e-5, "p = 2,3·10⁻⁵"), (0.0123, "p = 0,012"), (0.4, "p = 0,400")],
-)
-def test_a_chance_is_written_as_far_as_it_is_known(value: float, text: str) -> None:
-    assert chance(value, Language.GERMAN).replace("\xa0", " ") == text
-
-
-def test_an_extrapolated_chance_is_about_so_much() -> None:
-    assert chance(2.34e-5, Language.ENGLISH, is_extrapolated=True).replace("\xa0", " ") == "p ≈ 2·10⁻⁵"
-
-
-@pytest.mark.parametrize(("share", "text"), [(0.0, "0 %"), (0.001, "< 1 %"), (0.976, "98 %"), (1.0, "100 %")])
-def test_a_probability_is_written_in_whole_per_cent(share: float, text: str) -> None:
-    assert percent(share) == text
-    assert math.isfinite(share)
-
-
 def test_the_language_is_that_of_the_address_then_of_the_browser_then_of_the_job(browser: TestClient) -> None:
     assert 'lang="de"' in browser.get("/?lang=de", headers={"Accept-Language": "en"}).text
     assert 'lang="de"' in browser.get("/", headers={"Accept-Language": "fr, de;q=0.8, en"}).text
@@ -170,7 +150,8 @@ def test_the_language_is_that_of_the_address_then_of_the_browser_then_of_the_job
 def test_a_condition_that_the_residuals_follow_is_named_and_is_their_axis(study: Study) -> None:
     """The name is that of pages, the axis that of the logged column."""
     diagnosis = study.diagnosis(registry().effects)
-    follows = Failure(ResidualTest.CONDITION, 1e-9, same("screw_temperature"), same("they follow"))
+    name = "screw_temperature"
+    follows = Failure(ResidualTest.CONDITION, 1e-9, same(name), same("they follow"), condition=name)
     found = diagnosed(replace(diagnosis, failures=(follows,)), study, registry().effects, Language.ENGLISH)
     (failure,) = found["failures"]
     assert failure["axis"] == "screw_temperature"

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from zlmreport.certificate.document import Notice
-from zlmreport.certificate.scribe import Scribe
 from zlmreport.job.document_keys import CertificateKeys
 from zlmreport.language import Words
+from zlmreport.presenting.writer import Writer
 
 TITLES = {
     "certificate": Words(en="Calibration Certificate", de="Kalibrierschein"),
@@ -52,16 +52,16 @@ def running_title(keys: CertificateKeys) -> Words:
     return Words("{title} {number}", "{title} {number}").given(title=TITLES[keys.kind], number=keys.number)
 
 
-def notice(keys: CertificateKeys, scribe: Scribe) -> Iterator[Notice]:
+def notice(keys: CertificateKeys, writer: Writer) -> Iterator[Notice]:
     """Yield what is said of the earlier document: which it is, what is changed, and why."""
     amends = keys.amends
     if amends is None:
         return
     heading = _AMENDS if amends.kind == "amendment" else _REPLACES
     yield Notice(
-        scribe.say(heading.given(number=amends.number)),
+        writer.say(heading.given(number=amends.number)),
         (
-            scribe.say(_REASON.given(reason=amends.reason)),
-            *(scribe.say(_CHANGE.given(change=change)) for change in amends.changes),
+            writer.say(_REASON.given(reason=amends.reason)),
+            *(writer.say(_CHANGE.given(change=change)) for change in amends.changes),
         ),
     )

@@ -21,12 +21,12 @@ from zlmreport.certificate.document import (
 )
 from zlmreport.certificate.facts import Fact, stated
 from zlmreport.certificate.results import Evaluated
-from zlmreport.certificate.scribe import Scribe
 from zlmreport.figures.figure import Figure
 from zlmreport.figures.prescribed import comparison_graph
 from zlmreport.job.measurement_keys import AsFound
 from zlmreport.language import Words
 from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.presenting.writer import Writer
 
 #: What the two measurements are called, by the work between them.
 NAMES = {
@@ -73,10 +73,10 @@ _OTHER_RUNS = Words(
 _LABELLED = Words(en="{title} ({state})", de="{title} ({state})")
 
 
-def on_cover(keys: AsFound | None, scribe: Scribe) -> Iterator[Paragraph]:
+def on_cover(keys: AsFound | None, writer: Writer) -> Iterator[Paragraph]:
     """Yield which of the two measurements the first page shows."""
     if keys:
-        yield Paragraph(scribe.say(_ON_COVER[keys.work]))
+        yield Paragraph(writer.say(_ON_COVER[keys.work]))
 
 
 def beside_as_found(
@@ -84,7 +84,7 @@ def beside_as_found(
     as_left: Iterable[Section],
     before: Sequence[Evaluated],
     after: Sequence[Evaluated],
-    scribe: Scribe,
+    writer: Writer,
 ) -> Iterator[Section]:
     """Yield the comparison, the results as left, and those as found; each says which it is.
 
@@ -96,70 +96,70 @@ def beside_as_found(
         The sections of results as left.
     before, after
         Evaluations of the two measurements, by the same standards in the same order.
-    scribe
+    writer
         Of the document.
     """
     state_before, state_after = NAMES[keys.work]
-    yield _comparison(keys, before, after, scribe)
-    yield from (_labelled(section, state_after, scribe) for section in as_left)
-    own = _scribe_of(before, scribe)
+    yield _comparison(keys, before, after, writer)
+    yield from (_labelled(section, state_after, writer) for section in as_left)
+    own = _scribe_of(before, writer)
     yield from (_results(each, state_before, own) for each in before)
 
 
-def readings_as_found(keys: AsFound, before: Sequence[Evaluated], scribe: Scribe) -> Section:
+def readings_as_found(keys: AsFound, before: Sequence[Evaluated], writer: Writer) -> Section:
     """Return the section of the readings as found."""
     measurements = before[0].evaluation.measurements
-    section = readings.section(measurements, _scribe_of(before, scribe), "as_found.measurement.source")
-    return _labelled(replace(section, key="as-found-readings"), NAMES[keys.work][0], scribe)
+    section = readings.section(measurements, _scribe_of(before, writer), "as_found.measurement.source")
+    return _labelled(replace(section, key="as-found-readings"), NAMES[keys.work][0], writer)
 
 
 def uncertainty_beside_as_found(
-    keys: AsFound, before: Sequence[Evaluated], after: Sequence[Evaluated], scribe: Scribe
+    keys: AsFound, before: Sequence[Evaluated], after: Sequence[Evaluated], writer: Writer
 ) -> Iterator[Section]:
     """Yield the section on the uncertainty: one for both measurements, or two where their budgets differ."""
     axis = after[0].evaluation.measurements.axis
-    as_left = uncertainty.section(after[0].budget, axis, scribe)
+    as_left = uncertainty.section(after[0].budget, axis, writer)
     if before[0].budget == after[0].budget:
         yield as_left
         return
-    as_found = uncertainty.section(before[0].budget, axis, scribe)
+    as_found = uncertainty.section(before[0].budget, axis, writer)
     state_before, state_after = NAMES[keys.work]
-    yield _labelled(as_left, state_after, scribe)
-    yield _labelled(replace(as_found, key="as-found-uncertainty"), state_before, scribe)
+    yield _labelled(as_left, state_after, writer)
+    yield _labelled(replace(as_found, key="as-found-uncertainty"), state_before, writer)
 
 
-def _scribe_of(before: Sequence[Evaluated], scribe: Scribe) -> Scribe:
-    """Return a scribe for readings that may have other decimals than those as left."""
-    return Scribe.of(before[0].evaluation.measurements, scribe.language, scribe.marks)
+def _scribe_of(before: Sequence[Evaluated], writer: Writer) -> Writer:
+    """Return a writer for readings that may have other decimals than those as left."""
+    return Writer.of(before[0].evaluation.measurements, writer.language, writer.marks)
 
 
 def _comparison(
-    keys: AsFound, before: Sequence[Evaluated], after: Sequence[Evaluated], scribe: Scribe
+    keys: AsFound, before: Sequence[Evaluated], after: Sequence[Evaluated], writer: Writer
 ) -> Section:
     first, last = before[0].evaluation, after[0].evaluation
     pairs = [(one.evaluation, other.evaluation) for one, other in zip(before, after, strict=True)]
     blocks: list[Block] = [
-        *_circumstances(keys, first.measurements, scribe),
-        *corrections.blocks(first.measurements, scribe),
-        *_differences(first.measurements, last.measurements, scribe),
+        *_circumstances(keys, first.measurements, writer),
+        *corrections.blocks(first.measurements, writer),
+        *_differences(first.measurements, last.measurements, writer),
         Graph(comparison_graph(first, last, NAMES[keys.work])),
-        changes(pairs, scribe),
-        *limits(pairs, scribe),
+        changes(pairs, writer),
+        *limits(pairs, writer),
     ]
-    return Section("as-found-as-left", scribe.say(_TITLE), tuple(blocks), new_page=True)
+    return Section("as-found-as-left", writer.say(_TITLE), tuple(blocks), new_page=True)
 
 
-def _results(evaluated: Evaluated, state: Words, scribe: Scribe) -> Section:
+def _results(evaluated: Evaluated, state: Words, writer: Writer) -> Section:
     """Return the results as found by a standard, whose definitions stand with the results as left."""
     figures = tuple(_named(figure, state) for figure in evaluated.figures)
-    section = results.section(replace(evaluated, figures=figures), scribe)
+    section = results.section(replace(evaluated, figures=figures), writer)
     blocks = tuple(block for block in section.blocks if not isinstance(block, Formulas))
-    return _labelled(replace(section, key=f"as-found-{section.key}", blocks=blocks), state, scribe)
+    return _labelled(replace(section, key=f"as-found-{section.key}", blocks=blocks), state, writer)
 
 
-def _labelled(section: Section, state: Words, scribe: Scribe) -> Section:
+def _labelled(section: Section, state: Words, writer: Writer) -> Section:
     """Return a section whose title says to which of the two measurements it belongs."""
-    return replace(section, title=scribe.say(_LABELLED.given(title=section.title, state=state)))
+    return replace(section, title=writer.say(_LABELLED.given(title=section.title, state=state)))
 
 
 def _named(figure: Figure, state: Words) -> Figure:
@@ -167,13 +167,13 @@ def _named(figure: Figure, state: Words) -> Figure:
     return replace(figure, key=f"as-found-{figure.key}", title=title)
 
 
-def _circumstances(keys: AsFound, measurements: MeasurementSet, scribe: Scribe) -> Iterator[Facts]:
+def _circumstances(keys: AsFound, measurements: MeasurementSet, writer: Writer) -> Iterator[Facts]:
     within = "as_found.measurement"
-    environment = environment_facts(keys.environment, measurements, scribe, "as_found.environment")
+    environment = environment_facts(keys.environment, measurements, writer, "as_found.environment")
     groups = (
         (
             Words(en="Measurement as found", de="Messung im vorgefundenen Zustand"),
-            measurement_facts(keys.measurement, measurements, scribe, within),
+            measurement_facts(keys.measurement, measurements, writer, within),
         ),
         (Words(en="Environment as found", de="Umgebung dabei"), environment),
         (
@@ -182,12 +182,12 @@ def _circumstances(keys: AsFound, measurements: MeasurementSet, scribe: Scribe) 
         ),
     )
     for heading, facts in groups:
-        pairs = stated(facts, scribe)
+        pairs = stated(facts, writer)
         if pairs:
-            yield Facts(pairs, scribe.say(heading))
+            yield Facts(pairs, writer.say(heading))
 
 
-def _differences(before: MeasurementSet, after: MeasurementSet, scribe: Scribe) -> Iterator[Notice]:
+def _differences(before: MeasurementSet, after: MeasurementSet, writer: Writer) -> Iterator[Notice]:
     """Yield what hinders a comparison of like with like."""
     found = []
     if not np.array_equal(before.target_positions, after.target_positions):
@@ -197,4 +197,4 @@ def _differences(before: MeasurementSet, after: MeasurementSet, scribe: Scribe) 
     if len(before.runs) != len(after.runs):
         found.append(_OTHER_RUNS.given(before=len(before.runs), after=len(after.runs)))
     if found:
-        yield Notice(scribe.say(_NOT_ALIKE), tuple(map(scribe.say, found)))
+        yield Notice(writer.say(_NOT_ALIKE), tuple(map(writer.say, found)))

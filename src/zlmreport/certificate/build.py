@@ -23,15 +23,15 @@ from zlmreport.certificate.document import Certificate, Letterhead, PageWords, P
 from zlmreport.certificate.identity import lines
 from zlmreport.certificate.linked import Linked
 from zlmreport.certificate.logo import Logo, read_logo
-from zlmreport.certificate.marks import Marks
 from zlmreport.certificate.model_annex import Modelled
 from zlmreport.certificate.results import Evaluated
-from zlmreport.certificate.scribe import Scribe
 from zlmreport.figures.figure import Figure
 from zlmreport.job.document_keys import Laboratory
 from zlmreport.job.job import Job
 from zlmreport.language import Words
 from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.presenting.marks import Marks
+from zlmreport.presenting.writer import Writer
 
 GENERATOR = f"zlmreport {__version__}"
 
@@ -66,7 +66,7 @@ def build(
     """
     certificate = job.keys.certificate
     measurements = evaluated[0].evaluation.measurements
-    scribe = Scribe.of(measurements, certificate.language, Marks.of(job.keys))
+    writer = Writer.of(measurements, certificate.language, Marks.of(job.keys))
     if not certificate.readings_on_graphs:
         evaluated, as_found = map(_without_readings, (evaluated, as_found))
     designations = tuple(each.evaluation.designation for each in evaluated)
@@ -76,31 +76,31 @@ def build(
     made_from = sources(job, files, logo.file if logo else None)
     return Certificate(
         number=certificate.number,
-        title=scribe.say(amendment.title(certificate)),
-        subtitle=scribe.say(_SUBTITLE.given(axis=job.axis.name)),
+        title=writer.say(amendment.title(certificate)),
+        subtitle=writer.say(_SUBTITLE.given(axis=job.axis.name)),
         language=certificate.language,
         issued=certificate.issued,
         paper=certificate.paper,
         letterhead=_letterhead(job.keys.laboratory, logo),
-        cover=cover.blocks(job, measurements, evaluated, scribe),
+        cover=cover.blocks(job, measurements, evaluated, writer),
         sections=(
-            conditions.section(job, measurements, scribe),
-            *_results(job, evaluated, as_found, scribe),
-            *_uncertainty(job, evaluated, as_found, scribe),
-            *_readings(job, measurements, as_found, scribe),
-            origin.section(made_from, read, GENERATOR, plugins, scribe),
-            *opinions.section(job.keys, scribe),
-            *([model_annex.section(modelled, scribe)] if modelled else []),
+            conditions.section(job, measurements, writer),
+            *_results(job, evaluated, as_found, writer),
+            *_uncertainty(job, evaluated, as_found, writer),
+            *_readings(job, measurements, as_found, writer),
+            origin.section(made_from, read, GENERATOR, plugins, writer),
+            *opinions.section(job.keys, writer),
+            *([model_annex.section(modelled, writer)] if modelled else []),
         ),
         page_words=PageWords(
-            number=scribe.say(amendment.running_title(certificate)),
-            page=scribe.say(Words(en="page", de="Seite")),
-            of=scribe.say(Words(en="of", de="von")),
-            end=scribe.say(Words(en="End of document", de="Ende des Dokuments")),
-            figure=scribe.say(Words(en="Figure", de="Bild")),
-            table=scribe.say(Words(en="Table", de="Tabelle")),
+            number=writer.say(amendment.running_title(certificate)),
+            page=writer.say(Words(en="page", de="Seite")),
+            of=writer.say(Words(en="of", de="von")),
+            end=writer.say(Words(en="End of document", de="Ende des Dokuments")),
+            figure=writer.say(Words(en="Figure", de="Bild")),
+            table=writer.say(Words(en="Table", de="Tabelle")),
         ),
-        description=scribe.say(_DESCRIPTION.given(axis=job.axis.name, standards=", ".join(designations))),
+        description=writer.say(_DESCRIPTION.given(axis=job.axis.name, standards=", ".join(designations))),
         measurements=measurements,
         evaluations=tuple(each.evaluation for each in evaluated),
         evaluations_as_found=tuple(each.evaluation for each in as_found),
@@ -108,7 +108,7 @@ def build(
         keywords=designations,
         plugins=plugins,
         diagnosis=modelled.diagnosis if modelled else None,
-        linked=_linked(job, modelled, scribe),
+        linked=_linked(job, modelled, writer),
         budget=evaluated[0].budget,
         job=job,
         sources=made_from,
@@ -116,39 +116,39 @@ def build(
 
 
 def _results(
-    job: Job, evaluated: tuple[Evaluated, ...], as_found: tuple[Evaluated, ...], scribe: Scribe
+    job: Job, evaluated: tuple[Evaluated, ...], as_found: tuple[Evaluated, ...], writer: Writer
 ) -> Iterator[Section]:
     """Yield the results by each standard; of an axis that was adjusted, those before, after, and compared."""
-    sections = (results.section(each, scribe) for each in evaluated)
+    sections = (results.section(each, writer) for each in evaluated)
     keys = job.keys.as_found
-    return beside_as_found(keys, sections, as_found, evaluated, scribe) if keys else sections
+    return beside_as_found(keys, sections, as_found, evaluated, writer) if keys else sections
 
 
 def _uncertainty(
-    job: Job, evaluated: tuple[Evaluated, ...], as_found: tuple[Evaluated, ...], scribe: Scribe
+    job: Job, evaluated: tuple[Evaluated, ...], as_found: tuple[Evaluated, ...], writer: Writer
 ) -> Iterator[Section]:
     """Yield the uncertainty budget; of an axis that was adjusted, that of both measurements."""
     if job.keys.as_found:
-        return uncertainty_beside_as_found(job.keys.as_found, as_found, evaluated, scribe)
-    return iter([uncertainty.section(evaluated[0].budget, job.axis, scribe)])
+        return uncertainty_beside_as_found(job.keys.as_found, as_found, evaluated, writer)
+    return iter([uncertainty.section(evaluated[0].budget, job.axis, writer)])
 
 
-def _linked(job: Job, modelled: Modelled | None, scribe: Scribe) -> Linked | None:
+def _linked(job: Job, modelled: Modelled | None, writer: Writer) -> Linked | None:
     """Return the readings beside the model, one by one; nothing where single readings are not to be shown."""
     if modelled is None or job.keys.agreement.simplified or not job.keys.certificate.readings_on_graphs:
         return None
-    return model_annex.linked_graphs(modelled, scribe)
+    return model_annex.linked_graphs(modelled, writer)
 
 
 def _readings(
-    job: Job, measurements: MeasurementSet, as_found: tuple[Evaluated, ...], scribe: Scribe
+    job: Job, measurements: MeasurementSet, as_found: tuple[Evaluated, ...], writer: Writer
 ) -> Iterator[Section]:
     """Yield the readings, unless the customer agreed to a document without them."""
     if job.keys.agreement.simplified:
         return
-    yield readings.section(measurements, scribe)
+    yield readings.section(measurements, writer)
     if job.keys.as_found:
-        yield readings_as_found(job.keys.as_found, as_found, scribe)
+        yield readings_as_found(job.keys.as_found, as_found, writer)
 
 
 def _without_readings(evaluated: tuple[Evaluated, ...]) -> tuple[Evaluated, ...]:

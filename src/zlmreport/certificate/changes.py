@@ -8,11 +8,11 @@ from typing import TypeAlias, cast
 
 from zlmreport.certificate import conformity
 from zlmreport.certificate.document import Align, Cell, Column, RowGroup, Symbol, Table
-from zlmreport.certificate.rounding import written
-from zlmreport.certificate.scribe import NOTHING, Scribe
 from zlmreport.certificate.values import limit
 from zlmreport.evaluation.evaluation import Evaluation, Parameter
 from zlmreport.language import Words
+from zlmreport.presenting.amounts import written
+from zlmreport.presenting.writer import NOTHING, Writer
 
 #: Evaluations of both measurements by one standard: as found, as left.
 Pair: TypeAlias = tuple[Evaluation, Evaluation]
@@ -26,63 +26,63 @@ _CHANGES = Words(
 _LIMITS = Words(en="Limits as found and as left", de="Grenzwerte vorher und nachher")
 
 
-def changes(pairs: Sequence[Pair], scribe: Scribe) -> Table:
+def changes(pairs: Sequence[Pair], writer: Writer) -> Table:
     """Return the table of parameters before and after, with their uncertainties where these are known."""
-    unit = scribe.deviation_unit.symbol
+    unit = writer.deviation_unit.symbol
     known = any(
         each.expanded_uncertainty is not None for pair in pairs for one in pair for each in one.parameters
     )
     uncertainty = [Column(Symbol("U"), unit, Align.RIGHT)] if known else []
     columns = (
-        Column(scribe.say(Words(en="Symbol", de="Zeichen"))),
-        Column(scribe.say(Words(en="Parameter", de="Kenngröße"))),
-        Column(scribe.say(_BEFORE), unit, Align.RIGHT),
+        Column(writer.say(Words(en="Symbol", de="Zeichen"))),
+        Column(writer.say(Words(en="Parameter", de="Kenngröße"))),
+        Column(writer.say(_BEFORE), unit, Align.RIGHT),
         *uncertainty,
-        Column(scribe.say(_AFTER), unit, Align.RIGHT),
+        Column(writer.say(_AFTER), unit, Align.RIGHT),
         *uncertainty,
-        Column(scribe.say(Words(en="Change", de="Änderung")), unit, Align.RIGHT),
+        Column(writer.say(Words(en="Change", de="Änderung")), unit, Align.RIGHT),
     )
     groups = tuple(
         RowGroup(
-            tuple(_change(*each, scribe, with_uncertainty=known) for each in _parameters(*pair)),
+            tuple(_change(*each, writer, with_uncertainty=known) for each in _parameters(*pair)),
             pair[1].designation,
         )
         for pair in pairs
     )
-    return Table(scribe.say(_CHANGES), columns, groups)
+    return Table(writer.say(_CHANGES), columns, groups)
 
 
 def _change(
-    before: Parameter | None, after: Parameter | None, scribe: Scribe, *, with_uncertainty: bool
+    before: Parameter | None, after: Parameter | None, writer: Writer, *, with_uncertainty: bool
 ) -> tuple[Cell, ...]:
     quantity = _either(before, after).quantity
     change = after.printed_value - before.printed_value if before and after else math.nan
     parts = 2 if with_uncertainty else 1
     return (
         Symbol(quantity.notation),
-        scribe.say(quantity.name),
-        *(written(before, scribe) if before else (NOTHING, NOTHING))[:parts],
-        *(written(after, scribe) if after else (NOTHING, NOTHING))[:parts],
-        scribe.deviation(change),
+        writer.say(quantity.name),
+        *(written(before, writer) if before else (NOTHING, NOTHING))[:parts],
+        *(written(after, writer) if after else (NOTHING, NOTHING))[:parts],
+        writer.deviation(change),
     )
 
 
-def limits(pairs: Sequence[Pair], scribe: Scribe) -> Iterator[Table]:
+def limits(pairs: Sequence[Pair], writer: Writer) -> Iterator[Table]:
     """Yield the table of what is stated of the limits before and after, where the job states any."""
     columns = (
-        Column(scribe.say(Words(en="Symbol", de="Zeichen"))),
+        Column(writer.say(Words(en="Symbol", de="Zeichen"))),
         Column(
-            scribe.say(Words(en="Limit", de="Grenzwert")) + scribe.marks.after("evaluate.tolerances"),
-            scribe.deviation_unit.symbol,
+            writer.say(Words(en="Limit", de="Grenzwert")) + writer.marks.after("evaluate.tolerances"),
+            writer.deviation_unit.symbol,
             Align.RIGHT,
         ),
-        Column(scribe.say(_BEFORE)),
-        Column(scribe.say(_AFTER)),
+        Column(writer.say(_BEFORE)),
+        Column(writer.say(_AFTER)),
     )
     groups = tuple(
         RowGroup(
             tuple(
-                _verdicts(before, after, scribe)
+                _verdicts(before, after, writer)
                 for before, after in _parameters(*pair)
                 if _either(before, after).limit is not None
             ),
@@ -92,16 +92,16 @@ def limits(pairs: Sequence[Pair], scribe: Scribe) -> Iterator[Table]:
     )
     limited = tuple(group for group in groups if group.rows)
     if limited:
-        yield Table(scribe.say(_LIMITS), columns, limited)
+        yield Table(writer.say(_LIMITS), columns, limited)
 
 
-def _verdicts(before: Parameter | None, after: Parameter | None, scribe: Scribe) -> tuple[Cell, ...]:
+def _verdicts(before: Parameter | None, after: Parameter | None, writer: Writer) -> tuple[Cell, ...]:
     either = _either(before, after)
     return (
         Symbol(either.quantity.notation),
-        limit(either, scribe),
-        conformity.verdict(before, scribe) if before else NOTHING,
-        conformity.verdict(after, scribe) if after else NOTHING,
+        limit(either, writer),
+        conformity.verdict(before, writer) if before else NOTHING,
+        conformity.verdict(after, writer) if after else NOTHING,
     )
 
 

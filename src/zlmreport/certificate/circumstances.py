@@ -8,10 +8,10 @@ from collections.abc import Iterator
 import numpy as np
 
 from zlmreport.certificate.facts import Fact
-from zlmreport.certificate.scribe import Scribe
 from zlmreport.job.measurement_keys import Environment, Measurement
 from zlmreport.language import Words
 from zlmreport.measurement.measurement_set import CONDITION_NAMES, CONDITIONS, MeasurementSet
+from zlmreport.presenting.writer import Writer
 from zlmreport.quantities.arrays import FloatArray
 
 _METHODS = {
@@ -25,48 +25,48 @@ _PASCAL_PER_HECTOPASCAL = 100.0
 _PERCENT = 100.0
 
 
-def days(measurement: Measurement, scribe: Scribe) -> str | None:
+def days(measurement: Measurement, writer: Writer) -> str | None:
     """Write the day of a measurement, or its first and last day."""
     first, last = measurement.date, measurement.end
     if first is None:
         return None
     if last is None or last == first:
-        return scribe.date(first)
-    return scribe.say(_DAYS.given(first=scribe.date(first), last=scribe.date(last)))
+        return writer.date(first)
+    return writer.say(_DAYS.given(first=writer.date(first), last=writer.date(last)))
 
 
-def date(day: dt.date | None, scribe: Scribe) -> str | None:
+def date(day: dt.date | None, writer: Writer) -> str | None:
     """Write a day that may not be stated."""
-    return None if day is None else scribe.date(day)
+    return None if day is None else writer.date(day)
 
 
 def measurement_facts(
-    measurement: Measurement, measurements: MeasurementSet, scribe: Scribe, within: str
+    measurement: Measurement, measurements: MeasurementSet, writer: Writer, within: str
 ) -> Iterator[Fact]:
     """Yield how readings were taken; `within` is the dotted key of the job's group."""
 
     def fact(en: str, de: str, value: str | None, *names: str) -> Fact:
         return Fact(Words(en, de), value, tuple(f"{within}.{name}" for name in names))
 
-    unit = scribe.position_unit.symbol
+    unit = writer.position_unit.symbol
     method, plane = measurement.method, measurement.plane
-    yield fact("Date", "Datum", days(measurement, scribe), "date", "end")
+    yield fact("Date", "Datum", days(measurement, writer), "date", "end")
     yield fact(
         "Positioning method",
         "Positionierverfahren",
-        scribe.say(_METHODS[method]) if method else None,
+        writer.say(_METHODS[method]) if method else None,
         "method",
     )
-    yield fact("Target positions", "Sollpositionen", scribe.say(_targets(measurements, scribe)), "source")
+    yield fact("Target positions", "Sollpositionen", writer.say(_targets(measurements, writer)), "source")
     yield fact(
         "Approaches and runs",
         "Anfahrrichtungen und Durchläufe",
-        scribe.say(_runs(measurements)),
+        writer.say(_runs(measurements)),
         "source",
     )
-    yield fact("Feed", "Vorschub", with_unit(measurement.feed, f"{unit}/min", scribe), "feed")
+    yield fact("Feed", "Vorschub", with_unit(measurement.feed, f"{unit}/min", writer), "feed")
     yield fact(
-        "Rest at each target", "Verweilzeit je Position", with_unit(measurement.dwell, "s", scribe), "dwell"
+        "Rest at each target", "Verweilzeit je Position", with_unit(measurement.dwell, "s", writer), "dwell"
     )
     yield fact("Warm-up", "Warmlauf", measurement.warm_up, "warm_up")
     yield fact("Compensation", "Kompensation", measurement.compensation, "compensation")
@@ -74,7 +74,7 @@ def measurement_facts(
     yield fact(
         "Position of the second axis",
         "Stellung der zweiten Achse",
-        f"{plane.axis} = {scribe.number(plane.at)} {unit}" if plane else None,
+        f"{plane.axis} = {writer.number(plane.at)} {unit}" if plane else None,
         "plane",
     )
     yield fact(
@@ -88,15 +88,15 @@ def measurement_facts(
 
 
 def environment_facts(
-    environment: Environment | None, measurements: MeasurementSet, scribe: Scribe, within: str
+    environment: Environment | None, measurements: MeasurementSet, writer: Writer, within: str
 ) -> Iterator[Fact]:
     """Yield the conditions that the job states, and those that were logged beside the readings."""
     for name, key, unit, logged in _CONDITIONS:
         from_job = getattr(environment, key, None)
         if from_job is not None:
-            yield Fact(name, with_unit(from_job, unit, scribe), (f"{within}.{key}",))
+            yield Fact(name, with_unit(from_job, unit, writer), (f"{within}.{key}",))
         elif logged:
-            yield Fact(name, _logged(measurements.conditions.get(key), unit, scribe))
+            yield Fact(name, _logged(measurements.conditions.get(key), unit, writer))
     if environment is not None:
         yield Fact(Words(en="Remarks", de="Bemerkungen"), environment.remarks, (f"{within}.remarks",))
 
@@ -123,22 +123,22 @@ _CONDITIONS = (
 )
 
 
-def with_unit(value: str | float | None, unit: str, scribe: Scribe) -> str | None:
+def with_unit(value: str | float | None, unit: str, writer: Writer) -> str | None:
     """Write a number with its unit; what the job states in words stays as it is."""
     if value is None or isinstance(value, str):
         return value
-    return f"{scribe.number(value)} {unit}"
+    return f"{writer.number(value)} {unit}"
 
 
-def _targets(measurements: MeasurementSet, scribe: Scribe) -> Words:
+def _targets(measurements: MeasurementSet, writer: Writer) -> Words:
     first, last = measurements.target_positions[0], measurements.target_positions[-1]
     return Words(
         en="{count}, from {first} to {last} {unit}", de="{count}, von {first} bis {last} {unit}"
     ).given(
         count=len(measurements.target_positions),
-        first=scribe.position(float(first)),
-        last=scribe.position(float(last)),
-        unit=scribe.position_unit.symbol,
+        first=writer.position(float(first)),
+        last=writer.position(float(last)),
+        unit=writer.position_unit.symbol,
     )
 
 
@@ -154,12 +154,12 @@ def _runs(measurements: MeasurementSet) -> Words:
     ).given(arrow=measurements.approaches[0].arrow, count=count)
 
 
-def _logged(values: FloatArray | None, unit: str, scribe: Scribe) -> str | None:
+def _logged(values: FloatArray | None, unit: str, writer: Writer) -> str | None:
     """Write the range of a logged condition in the unit that is printed."""
     if values is None or not np.any(np.isfinite(values)):
         return None
     if unit == "°C":
-        return scribe.celsius_span(values)
+        return writer.celsius_span(values)
     if unit == "hPa":
-        return f"{scribe.span(values / _PASCAL_PER_HECTOPASCAL, 1)} hPa"
-    return f"{scribe.span(values * _PERCENT, 1)} %"
+        return f"{writer.span(values / _PASCAL_PER_HECTOPASCAL, 1)} hPa"
+    return f"{writer.span(values * _PERCENT, 1)} %"

@@ -9,13 +9,13 @@ from zlmreport.certificate import corrections, step_gauge
 from zlmreport.certificate.circumstances import date, environment_facts, measurement_facts, with_unit
 from zlmreport.certificate.document import Block, Facts, Paragraph, Section
 from zlmreport.certificate.facts import Fact, stated
-from zlmreport.certificate.scribe import Scribe
 from zlmreport.job.job import Job
 from zlmreport.job.keys import JobKeys
 from zlmreport.job.measurement_keys import Instrument
 from zlmreport.language import Words
 from zlmreport.measurement.axis import AxisKind
 from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.presenting.writer import Writer
 
 _TITLE = Words(en="Item, method and conditions", de="Gegenstand, Verfahren und Bedingungen")
 
@@ -35,37 +35,37 @@ _NO_INFLUENCE = Words(
 )
 
 
-def section(job: Job, measurements: MeasurementSet, scribe: Scribe) -> Section:
+def section(job: Job, measurements: MeasurementSet, writer: Writer) -> Section:
     """Return the section on the item, the method, the instrument and the environment."""
     keys = job.keys
-    environment = tuple(environment_facts(keys.environment, measurements, scribe, "environment"))
+    environment = tuple(environment_facts(keys.environment, measurements, writer, "environment"))
     groups = (
-        (Words(en="Machine", de="Maschine"), _machine(keys, scribe)),
-        (Words(en="Axis", de="Achse"), _axis(job, scribe)),
-        (Words(en="Measurement", de="Messung"), _measurement(keys, measurements, scribe)),
-        (Words(en="Measuring instrument", de="Messgerät"), _instrument(keys.instrument, scribe)),
-        (Words(en="Step gauge", de="Stufenendmaß"), step_gauge.facts(job, scribe)),
+        (Words(en="Machine", de="Maschine"), _machine(keys, writer)),
+        (Words(en="Axis", de="Achse"), _axis(job, writer)),
+        (Words(en="Measurement", de="Messung"), _measurement(keys, measurements, writer)),
+        (Words(en="Measuring instrument", de="Messgerät"), _instrument(keys.instrument, writer)),
+        (Words(en="Step gauge", de="Stufenendmaß"), step_gauge.facts(job, writer)),
         (Words(en="Environment", de="Umgebung"), environment),
     )
     blocks: list[Block] = [
-        Facts(pairs, scribe.say(heading)) for heading, facts in groups if (pairs := stated(facts, scribe))
+        Facts(pairs, writer.say(heading)) for heading, facts in groups if (pairs := stated(facts, writer))
     ]
-    if keys.certificate.kind == "certificate" and not stated(environment, scribe):
-        blocks.append(Paragraph(scribe.say(_NO_INFLUENCE)))
-    blocks.extend(corrections.blocks(measurements, scribe))
+    if keys.certificate.kind == "certificate" and not stated(environment, writer):
+        blocks.append(Paragraph(writer.say(_NO_INFLUENCE)))
+    blocks.extend(corrections.blocks(measurements, writer))
     blocks.extend(step_gauge.graph(job))
-    return Section("conditions", scribe.say(_TITLE), tuple(blocks))
+    return Section("conditions", writer.say(_TITLE), tuple(blocks))
 
 
-def axis_in_words(job: Job, scribe: Scribe) -> str:
+def axis_in_words(job: Job, writer: Writer) -> str:
     """Write the axis's name and kind."""
     words = Words("{name} ({kind})", "{name} ({kind})")
-    return scribe.say(words.given(name=job.axis.name, kind=AXIS_KINDS[job.axis.kind]))
+    return writer.say(words.given(name=job.axis.name, kind=AXIS_KINDS[job.axis.kind]))
 
 
-def _machine(keys: JobKeys, scribe: Scribe) -> Iterator[Fact]:
+def _machine(keys: JobKeys, writer: Writer) -> Iterator[Fact]:
     machine = keys.machine
-    kind = scribe.say(MACHINE_KINDS[machine.kind])
+    kind = writer.say(MACHINE_KINDS[machine.kind])
     yield Fact(Words(en="Manufacturer", de="Hersteller"), machine.manufacturer, ("machine.manufacturer",))
     yield Fact(Words(en="Model", de="Typ"), machine.model, ("machine.model",))
     yield Fact(Words(en="Serial number", de="Seriennummer"), machine.serial, ("machine.serial",))
@@ -74,12 +74,12 @@ def _machine(keys: JobKeys, scribe: Scribe) -> Iterator[Fact]:
     yield Fact(Words(en="Condition", de="Zustand"), machine.condition, ("machine.condition",))
 
 
-def _axis(job: Job, scribe: Scribe) -> Iterator[Fact]:
+def _axis(job: Job, writer: Writer) -> Iterator[Fact]:
     axis, keys = job.axis, job.keys.axis
-    yield Fact(Words(en="Axis", de="Achse"), axis_in_words(job, scribe), ("axis.name", "axis.kind"))
+    yield Fact(Words(en="Axis", de="Achse"), axis_in_words(job, writer), ("axis.name", "axis.kind"))
     if axis.travel is not None:
-        first, last = (scribe.number(scribe.position_unit.from_si(end)) for end in axis.travel)
-        travel = f"{first} … {last} {scribe.position_unit.symbol}"
+        first, last = (writer.number(writer.position_unit.from_si(end)) for end in axis.travel)
+        travel = f"{first} … {last} {writer.position_unit.symbol}"
         yield Fact(Words(en="Travel", de="Verfahrweg"), travel, ("axis.travel",))
     for name, length, key in (
         (
@@ -98,7 +98,7 @@ def _axis(job: Job, scribe: Scribe) -> Iterator[Fact]:
             "scale_element",
         ),
     ):
-        yield Fact(name, None if length is None else scribe.length(length), (f"axis.{key}",))
+        yield Fact(name, None if length is None else writer.length(length), (f"axis.{key}",))
     yield Fact(
         Words(en="Compensation table", de="Kompensationstabelle"),
         _file_name(keys.compensation_table),
@@ -111,7 +111,7 @@ def _axis(job: Job, scribe: Scribe) -> Iterator[Fact]:
     )
     yield Fact(
         Words(en="Distance of the measuring line from the scale", de="Abstand der Messlinie vom Maßstab"),
-        with_unit(keys.abbe_offset, "mm", scribe),
+        with_unit(keys.abbe_offset, "mm", writer),
         ("axis.abbe_offset",),
     )
 
@@ -120,18 +120,18 @@ def _file_name(path: Path | None) -> str | None:
     return path.name if path else None
 
 
-def _measurement(keys: JobKeys, measurements: MeasurementSet, scribe: Scribe) -> Iterator[Fact]:
-    yield from measurement_facts(keys.measurement, measurements, scribe, "measurement")
+def _measurement(keys: JobKeys, measurements: MeasurementSet, writer: Writer) -> Iterator[Fact]:
+    yield from measurement_facts(keys.measurement, measurements, writer, "measurement")
     yield Fact(Words(en="Procedure", de="Arbeitsanweisung"), keys.procedure)
     yield Fact(Words(en="Sampling", de="Probenahme"), keys.sampling, ("sampling",))
     yield Fact(
         Words(en="Date of sampling", de="Datum der Probenahme"),
-        date(keys.dates.sampled, scribe),
+        date(keys.dates.sampled, writer),
         ("dates.sampled",),
     )
 
 
-def _instrument(instrument: Instrument | None, scribe: Scribe) -> Iterator[Fact]:
+def _instrument(instrument: Instrument | None, writer: Writer) -> Iterator[Fact]:
     if instrument is None:
         return
     for name, value, key in (
@@ -139,28 +139,28 @@ def _instrument(instrument: Instrument | None, scribe: Scribe) -> Iterator[Fact]
         (Words(en="Manufacturer", de="Hersteller"), instrument.manufacturer, "manufacturer"),
         (Words(en="Serial number", de="Seriennummer"), instrument.serial, "serial"),
         (Words(en="Calibration certificate", de="Kalibrierschein"), instrument.certificate, "certificate"),
-        (Words(en="Calibrated", de="Kalibriert am"), date(instrument.calibrated, scribe), "calibrated"),
+        (Words(en="Calibrated", de="Kalibriert am"), date(instrument.calibrated, writer), "calibrated"),
     ):
         yield Fact(name, value, (f"instrument.{key}",))
     yield Fact(
         Words(en="Expanded uncertainty", de="Erweiterte Messunsicherheit"),
-        _uncertainty(instrument, scribe),
+        _uncertainty(instrument, writer),
         ("instrument.expanded_uncertainty", "instrument.expanded_uncertainty_per_metre"),
     )
     yield Fact(
         Words(en="Expansion coefficient of the instrument", de="Längenausdehnung des Messgeräts"),
-        with_unit(instrument.expansion_coefficient, "µm/(m·K)", scribe),
+        with_unit(instrument.expansion_coefficient, "µm/(m·K)", writer),
         ("instrument.expansion_coefficient",),
     )
 
 
-def _uncertainty(instrument: Instrument, scribe: Scribe) -> str | None:
+def _uncertainty(instrument: Instrument, writer: Writer) -> str | None:
     """Write the instrument's expanded uncertainty, with its part that grows with the length."""
     fixed, per_metre = instrument.expanded_uncertainty, instrument.expanded_uncertainty_per_metre
-    unit = scribe.deviation_unit.symbol
-    parts = [with_unit(fixed, unit, scribe)] if fixed is not None else []
+    unit = writer.deviation_unit.symbol
+    parts = [with_unit(fixed, unit, writer)] if fixed is not None else []
     if per_metre is not None:
-        parts.append(f"{scribe.number(per_metre)} {unit}/m · L")
+        parts.append(f"{writer.number(per_metre)} {unit}/m · L")
     written = " + ".join(filter(None, parts))
     if not written or isinstance(fixed, str):
         return written or None

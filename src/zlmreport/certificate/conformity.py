@@ -18,15 +18,17 @@ from zlmreport.certificate.document import (
     Table,
     Verdict,
 )
-from zlmreport.certificate.rounding import with_uncertainty
-from zlmreport.certificate.scribe import NOTHING, Scribe
 from zlmreport.evaluation.conformity import Conformity
 from zlmreport.evaluation.evaluation import Evaluation, Parameter
 from zlmreport.figures.bars import conformity_graph
 from zlmreport.job.evaluation_keys import DecisionRuleKeys
 from zlmreport.language import Words
-from zlmreport.quantities.formatting import fixed_number
+from zlmreport.presenting.amounts import with_uncertainty
+from zlmreport.presenting.writer import NOTHING, Writer
+from zlmreport.quantities.formatting import fixed_number, percentage
 
+#: Of a risk that no double holds: it is small, and not none.
+_UNDERFLOW = 1e-300
 #: What each statement looks like, and its words.
 STATEMENTS = {
     Conformity.MET: (Mark.MET, Words(en="conforms", de="eingehalten")),
@@ -90,28 +92,28 @@ _CAPTION = Words(
 )
 
 
-def verdict(parameter: Parameter, scribe: Scribe) -> Cell:
+def verdict(parameter: Parameter, writer: Writer) -> Cell:
     """Return what is stated of a parameter's limit; nothing where it has none."""
     if parameter.limit is None or parameter.decision is None:
         return NOTHING
     mark, words = STATEMENTS[parameter.decision.conformity]
-    return Verdict(mark, scribe.say(words))
+    return Verdict(mark, writer.say(words))
 
 
 def rule_paragraph(
-    keys: DecisionRuleKeys, evaluations: Iterable[Evaluation], scribe: Scribe
+    keys: DecisionRuleKeys, evaluations: Iterable[Evaluation], writer: Writer
 ) -> Iterator[Paragraph]:
     """Yield the decision rule with its risk, where any limit is stated."""
     limited = [each for evaluation in evaluations for each in evaluation.parameters if each.limit is not None]
     if not limited:
         return
-    words = _rule(keys, min((each.coverage_factor or 2.0) for each in limited), scribe)
+    words = _rule(keys, min((each.coverage_factor or 2.0) for each in limited), writer)
     if keys.rule != "simple" and any(each.expanded_uncertainty is None for each in limited):
         words = _WITHOUT_UNCERTAINTY.given(rule=words)
-    yield Paragraph(scribe.say(words))
+    yield Paragraph(writer.say(words))
 
 
-def blocks(evaluation: Evaluation, scribe: Scribe) -> Iterator[Block]:
+def blocks(evaluation: Evaluation, writer: Writer) -> Iterator[Block]:
     """Yield the graph of a standard's limits, and the table of what is stated of them.
 
     Nothing where the job states no limit; no table where no uncertainty is known: it would say no more than
@@ -124,71 +126,64 @@ def blocks(evaluation: Evaluation, scribe: Scribe) -> Iterator[Block]:
     yield Graph(graph)
     if all(each.expanded_uncertainty is None for each in limited):
         return
-    unit = scribe.deviation_unit.symbol
+    unit = writer.deviation_unit.symbol
     columns = (
-        Column(scribe.say(Words(en="Symbol", de="Zeichen"))),
-        Column(scribe.say(Words(en="Amount", de="Betrag")), unit, Align.RIGHT),
+        Column(writer.say(Words(en="Symbol", de="Zeichen"))),
+        Column(writer.say(Words(en="Amount", de="Betrag")), unit, Align.RIGHT),
         Column(
-            scribe.say(Words(en="Limit TL", de="Grenzwert TL")) + scribe.marks.after("evaluate.tolerances"),
+            writer.say(Words(en="Limit TL", de="Grenzwert TL")) + writer.marks.after("evaluate.tolerances"),
             unit,
             Align.RIGHT,
         ),
-        Column(scribe.say(Words(en="Accepted up to", de="Angenommen bis")), unit, Align.RIGHT),
-        Column(scribe.say(Words(en="Statement", de="Aussage"))),
-        Column(scribe.say(Words(en="Risk", de="Risiko")), "%", Align.RIGHT),
+        Column(writer.say(Words(en="Accepted up to", de="Angenommen bis")), unit, Align.RIGHT),
+        Column(writer.say(Words(en="Statement", de="Aussage"))),
+        Column(writer.say(Words(en="Risk", de="Risiko")), "%", Align.RIGHT),
     )
-    rows = tuple(_row(each, scribe) for each in limited)
-    yield Table(scribe.say(_CAPTION), columns, (RowGroup(rows),))
+    rows = tuple(_row(each, writer) for each in limited)
+    yield Table(writer.say(_CAPTION), columns, (RowGroup(rows),))
 
 
-def _row(parameter: Parameter, scribe: Scribe) -> tuple[Cell, ...]:
+def _row(parameter: Parameter, writer: Writer) -> tuple[Cell, ...]:
     decision = parameter.decision
     accepted = None if decision is None else decision.acceptance_limit
     risk = None if decision is None else decision.risk
     return (
         Symbol(parameter.quantity.notation),
-        _rounded(abs(parameter.value), parameter, scribe),
-        scribe.number(scribe.deviation_unit.from_si(parameter.limit or 0.0)),
-        NOTHING if accepted is None else _accepted(accepted, parameter, scribe),
-        verdict(parameter, scribe),
-        NOTHING if risk is None else _percent(risk, scribe),
+        _rounded(abs(parameter.value), parameter, writer),
+        writer.number(writer.deviation_unit.from_si(parameter.limit or 0.0)),
+        NOTHING if accepted is None else _accepted(accepted, parameter, writer),
+        verdict(parameter, writer),
+        NOTHING if risk is None else percentage(risk or _UNDERFLOW, writer.language.decimal_sign, 1),
     )
 
 
-def _accepted(limit: float, parameter: Parameter, scribe: Scribe) -> str:
+def _accepted(limit: float, parameter: Parameter, writer: Writer) -> str:
     if limit == parameter.limit:
-        return scribe.number(scribe.deviation_unit.from_si(limit))
-    return _rounded(limit, parameter, scribe) if limit >= 0 else scribe.say(Words(en="none", de="keine"))
+        return writer.number(writer.deviation_unit.from_si(limit))
+    return _rounded(limit, parameter, writer) if limit >= 0 else writer.say(Words(en="none", de="keine"))
 
 
-def _rounded(value: float, parameter: Parameter, scribe: Scribe) -> str:
+def _rounded(value: float, parameter: Parameter, writer: Writer) -> str:
     """Write a value (m or rad) with the decimals that the parameter has in every other table."""
     expanded = parameter.expanded_uncertainty
-    return with_uncertainty(value, expanded, scribe)[0] if expanded else scribe.deviation(value)
+    return with_uncertainty(value, expanded, writer)[0] if expanded else writer.deviation(value)
 
 
-def _percent(risk: float, scribe: Scribe) -> str:
-    """Write a risk; one that rounds to nothing is said to be small, not to be none."""
-    percent = 100.0 * risk
-    sign = scribe.language.decimal_sign
-    return f"< {fixed_number(0.1, 1, sign)}" if percent < 0.1 else fixed_number(percent, 1, sign)
-
-
-def _rule(keys: DecisionRuleKeys, coverage_factor: float, scribe: Scribe) -> Words:
+def _rule(keys: DecisionRuleKeys, coverage_factor: float, writer: Writer) -> Words:
     match keys.rule:
         case "guard-band":
             factor = keys.guard_band_factor
-            width = "U" if factor == 1 else f"{scribe.number(factor)}·U"
-            return _GUARD_BAND.given(width=width, risk=_tail(factor * coverage_factor, scribe))
+            width = "U" if factor == 1 else f"{writer.number(factor)}·U"
+            return _GUARD_BAND.given(width=width, risk=_tail(factor * coverage_factor, writer))
         case "iso14253-1":
             return _ISO_14253
         case "non-binary":
-            return _NON_BINARY.given(risk=_tail(coverage_factor, scribe))
+            return _NON_BINARY.given(risk=_tail(coverage_factor, writer))
         case _:
             return _SIMPLE
 
 
-def _tail(distance: float, scribe: Scribe) -> str:
+def _tail(distance: float, writer: Writer) -> str:
     """Return the percentage of a normal distribution beyond so many standard deviations, rounded up."""
     percent = 50.0 * math.erfc(distance / math.sqrt(2.0))
-    return fixed_number(math.ceil(10.0 * percent) / 10.0, 1, scribe.language.decimal_sign)
+    return fixed_number(math.ceil(10.0 * percent) / 10.0, 1, writer.language.decimal_sign)

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from zlmreport.certificate.document import Align, Block, Cell, Column, Paragraph, RowGroup, Table
-from zlmreport.certificate.scribe import Scribe
 from zlmreport.language import Words
 from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.presenting.writer import Writer
 
 _CAPTION = Words(en="Corrections applied to the readings", de="An den Messwerten angebrachte Korrektionen")
 _ALL_CORRECTED = Words(
@@ -18,25 +18,25 @@ _ALL_CORRECTED = Words(
 )
 
 
-def blocks(measurements: MeasurementSet, scribe: Scribe) -> Iterator[Block]:
+def blocks(measurements: MeasurementSet, writer: Writer) -> Iterator[Block]:
     """Yield what was corrected, in its order; nothing where the readings are as they were read."""
     corrections = measurements.provenance.corrections
     if not corrections:
         return
     columns = (
-        Column(scribe.say(Words(en="Correction", de="Korrektion"))),
-        Column(scribe.say(Words(en="By", de="Nach"))),
-        Column(scribe.say(Words(en="From", de="Aus")) + scribe.marks.after("environment", "corrections")),
-        Column(scribe.say(Words(en="Largest", de="Größte")), scribe.deviation_unit.symbol, Align.RIGHT),
+        Column(writer.say(Words(en="Correction", de="Korrektion"))),
+        Column(writer.say(Words(en="By", de="Nach"))),
+        Column(writer.say(Words(en="From", de="Aus")) + writer.marks.after("environment", "corrections")),
+        Column(writer.say(Words(en="Largest", de="Größte")), writer.deviation_unit.symbol, Align.RIGHT),
     )
     rows: tuple[tuple[Cell, ...], ...] = tuple(
         (
-            scribe.say(each.name),
-            scribe.say(each.method),
-            scribe.say(each.inputs),
-            scribe.deviation(each.largest),
+            writer.say(each.name),
+            writer.say(each.method),
+            writer.say(each.inputs),
+            writer.deviation(each.largest),
         )
         for each in corrections
     )
-    yield Table(scribe.say(_CAPTION), columns, (RowGroup(rows),))
-    yield Paragraph(scribe.say(_ALL_CORRECTED))
+    yield Table(writer.say(_CAPTION), columns, (RowGroup(rows),))
+    yield Paragraph(writer.say(_ALL_CORRECTED))

@@ -19,39 +19,39 @@ from zlmreport.certificate.facts import stated
 from zlmreport.certificate.identity import identity
 from zlmreport.certificate.readings import missing_readings
 from zlmreport.certificate.results import Evaluated, section_key
-from zlmreport.certificate.scribe import Scribe
 from zlmreport.certificate.values import Values
 from zlmreport.evaluation.evaluation import Evaluation, Parameter
 from zlmreport.evaluation.quantity import Group
 from zlmreport.job.job import Job
 from zlmreport.language import Words
 from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.presenting.writer import Writer
 
 
 def blocks(
-    job: Job, measurements: MeasurementSet, evaluated: tuple[Evaluated, ...], scribe: Scribe
+    job: Job, measurements: MeasurementSet, evaluated: tuple[Evaluated, ...], writer: Writer
 ) -> tuple[Block, ...]:
     """Return the blocks under the title."""
     evaluations = tuple(each.evaluation for each in evaluated)
     return (
-        *amendment.notice(job.keys.certificate, scribe),
-        Facts(stated(identity(job, evaluations, scribe), scribe)),
-        _results(evaluations, scribe),
-        uncertainty.statement(evaluated[0].budget, scribe),
-        *conformity.rule_paragraph(job.keys.decision_rule, evaluations, scribe),
-        *missing_readings(measurements, scribe),
-        *_shortfalls(evaluations, scribe),
-        *on_cover(job.keys.as_found, scribe),
-        *statements.notices(job.keys, scribe),
-        *statements.paragraphs(job.keys, scribe),
+        *amendment.notice(job.keys.certificate, writer),
+        Facts(stated(identity(job, evaluations, writer), writer)),
+        _results(evaluations, writer),
+        uncertainty.statement(evaluated[0].budget, writer),
+        *conformity.rule_paragraph(job.keys.decision_rule, evaluations, writer),
+        *missing_readings(measurements, writer),
+        *_shortfalls(evaluations, writer),
+        *on_cover(job.keys.as_found, writer),
+        *statements.notices(job.keys, writer),
+        *statements.paragraphs(job.keys, writer),
     )
 
 
-def _results(evaluations: tuple[Evaluation, ...], scribe: Scribe) -> Table:
-    values = Values.of(evaluations, scribe)
+def _results(evaluations: tuple[Evaluation, ...], writer: Writer) -> Table:
+    values = Values.of(evaluations, writer)
     columns = (
-        Column(scribe.say(Words(en="Symbol", de="Zeichen"))),
-        Column(scribe.say(Words(en="Parameter", de="Kenngröße"))),
+        Column(writer.say(Words(en="Symbol", de="Zeichen"))),
+        Column(writer.say(Words(en="Parameter", de="Kenngröße"))),
         *values.columns,
     )
     groups = tuple(
@@ -59,7 +59,7 @@ def _results(evaluations: tuple[Evaluation, ...], scribe: Scribe) -> Table:
             tuple(
                 (
                     Symbol(parameter.quantity.notation),
-                    scribe.say(parameter.quantity.name),
+                    writer.say(parameter.quantity.name),
                     *values.cells(parameter),
                 )
                 for parameter in _in_brief(evaluation)
@@ -69,7 +69,7 @@ def _results(evaluations: tuple[Evaluation, ...], scribe: Scribe) -> Table:
         )
         for evaluation in evaluations
     )
-    return Table(scribe.say(Words(en="Results in brief", de="Ergebnisse im Überblick")), columns, groups)
+    return Table(writer.say(Words(en="Results in brief", de="Ergebnisse im Überblick")), columns, groups)
 
 
 def _in_brief(evaluation: Evaluation) -> tuple[Parameter, ...]:
@@ -81,13 +81,13 @@ def _in_brief(evaluation: Evaluation) -> tuple[Parameter, ...]:
     return limited or composite or evaluation.parameters
 
 
-def _shortfalls(evaluations: tuple[Evaluation, ...], scribe: Scribe) -> Iterator[Notice]:
+def _shortfalls(evaluations: tuple[Evaluation, ...], writer: Writer) -> Iterator[Notice]:
     one = Words(
         en="{designation}: {count} not met; see its section",
         de="{designation}: {count} nicht erfüllt; siehe den Abschnitt dazu",
     )
     items = tuple(
-        scribe.say(one.given(designation=evaluation.designation, count=unmet))
+        writer.say(one.given(designation=evaluation.designation, count=unmet))
         for evaluation in evaluations
         if (unmet := sum(finding.met is False for finding in evaluation.findings))
     )
@@ -96,4 +96,4 @@ def _shortfalls(evaluations: tuple[Evaluation, ...], scribe: Scribe) -> Iterator
             en="Requirements of the standards that the test does not meet",
             de="Anforderungen der Normen, die die Messung nicht erfüllt",
         )
-        yield Notice(scribe.say(heading), items)
+        yield Notice(writer.say(heading), items)

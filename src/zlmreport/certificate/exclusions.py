@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from zlmreport.certificate.document import Notice
-from zlmreport.certificate.scribe import Scribe
 from zlmreport.job.keys import JobKeys
 from zlmreport.language import Words
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.measurement.provenance import Exclusion
+from zlmreport.presenting.writer import Writer
 
 _ONE = Words(
     en="{count} reading was set aside and did not enter the results",
@@ -42,14 +42,14 @@ _MORE = Words(
 )
 
 
-def notice(measurements: MeasurementSet, scribe: Scribe, key: str = _KEY) -> Iterator[Notice]:
+def notice(measurements: MeasurementSet, writer: Writer, key: str = _KEY) -> Iterator[Notice]:
     """Yield the notice that names every reading that was set aside, with its value and the reason.
 
     Parameters
     ----------
     measurements
         The readings.
-    scribe
+    writer
         Of the document.
     key
         The job key that names them: marked if that was the customer's decision.
@@ -57,21 +57,21 @@ def notice(measurements: MeasurementSet, scribe: Scribe, key: str = _KEY) -> Ite
     exclusions = measurements.provenance.exclusions
     if exclusions:
         heading = (_ONE if len(exclusions) == 1 else _SEVERAL).given(count=len(exclusions))
-        marked = scribe.say(heading) + scribe.marks.after(key)
-        yield Notice(marked, tuple(_item(each, scribe) for each in exclusions))
+        marked = writer.say(heading) + writer.marks.after(key)
+        yield Notice(marked, tuple(_item(each, writer) for each in exclusions))
 
 
-def stated(keys: JobKeys, scribe: Scribe) -> tuple[str, ...]:
+def stated(keys: JobKeys, writer: Writer) -> tuple[str, ...]:
     """Return what the first page says of readings that were set aside: they depart from the method."""
     found = [(_STATED, _KEY, each) for each in keys.measurement.excluded]
     if keys.as_found:
         found += [(_STATED_AS_FOUND, f"as_found.{_KEY}", each) for each in keys.as_found.measurement.excluded]
     items = [
-        scribe.say(
+        writer.say(
             words.given(
-                mark=scribe.marks.after(key),
+                mark=writer.marks.after(key),
                 target=each.target,
-                position_unit=scribe.position_unit.symbol,
+                position_unit=writer.position_unit.symbol,
                 arrow=_ARROWS[each.direction],
                 run=each.run,
                 reason=each.reason,
@@ -80,19 +80,19 @@ def stated(keys: JobKeys, scribe: Scribe) -> tuple[str, ...]:
         for words, key, each in found[:_MOST_NAMED]
     ]
     if len(found) > _MOST_NAMED:
-        items.append(scribe.say(_MORE.given(count=len(found) - _MOST_NAMED)))
+        items.append(writer.say(_MORE.given(count=len(found) - _MOST_NAMED)))
     return tuple(items)
 
 
-def _item(exclusion: Exclusion, scribe: Scribe) -> str:
-    return scribe.say(
+def _item(exclusion: Exclusion, writer: Writer) -> str:
+    return writer.say(
         _READING.given(
-            target=scribe.position(exclusion.target_position),
-            position_unit=scribe.position_unit.symbol,
+            target=writer.position(exclusion.target_position),
+            position_unit=writer.position_unit.symbol,
             arrow=exclusion.approach.arrow,
             run=exclusion.run,
-            deviation=scribe.deviation(exclusion.deviation),
-            unit=scribe.deviation_unit.symbol,
+            deviation=writer.deviation(exclusion.deviation),
+            unit=writer.deviation_unit.symbol,
             reason=exclusion.reason,
         )
     )

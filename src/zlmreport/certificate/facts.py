@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import NamedTuple
 
-from zlmreport.certificate.scribe import Scribe
 from zlmreport.language import Words
+from zlmreport.presenting.writer import Writer
 
 
 class Fact(NamedTuple):
@@ -27,8 +27,8 @@ class Fact(NamedTuple):
     keys: tuple[str, ...] = ()
 
 
-def stated(facts: Iterable[Fact], scribe: Scribe) -> tuple[tuple[str, str], ...]:
+def stated(facts: Iterable[Fact], writer: Writer) -> tuple[tuple[str, str], ...]:
     """Return the facts that have a value, named and marked in the document's language."""
     return tuple(
-        (scribe.say(fact.name) + scribe.marks.after(*fact.keys), fact.value) for fact in facts if fact.value
+        (writer.say(fact.name) + writer.marks.after(*fact.keys), fact.value) for fact in facts if fact.value
     )

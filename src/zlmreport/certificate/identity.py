@@ -9,13 +9,13 @@ from zlmreport.certificate.conditions import MACHINE_KINDS, axis_in_words
 from zlmreport.certificate.facts import Fact
 from zlmreport.certificate.opinions import in_a_line
 from zlmreport.certificate.place import place_of_work
-from zlmreport.certificate.scribe import Scribe
 from zlmreport.evaluation.evaluation import Evaluation
 from zlmreport.job.job import Job
 from zlmreport.language import Words
+from zlmreport.presenting.writer import Writer
 
 
-def identity(job: Job, evaluations: tuple[Evaluation, ...], scribe: Scribe) -> Iterator[Fact]:
+def identity(job: Job, evaluations: tuple[Evaluation, ...], writer: Writer) -> Iterator[Fact]:
     """Yield the facts, in the order of the page."""
     keys = job.keys
     machine, customer, person = keys.machine, keys.customer, keys.certificate.authorised_by
@@ -27,14 +27,14 @@ def identity(job: Job, evaluations: tuple[Evaluation, ...], scribe: Scribe) -> I
             ("customer.name", "customer.address"),
         )
     named = " ".join(filter(None, (machine.manufacturer, machine.model)))
-    kind = scribe.say(MACHINE_KINDS[machine.kind])
+    kind = writer.say(MACHINE_KINDS[machine.kind])
     yield Fact(
         Words(en="Item calibrated", de="Gegenstand"),
         f"{named} ({kind})" if named else kind,
         ("machine.manufacturer", "machine.model", "machine.kind"),
     )
     yield Fact(Words(en="Serial number", de="Seriennummer"), machine.serial, ("machine.serial",))
-    yield Fact(Words(en="Axis", de="Achse"), axis_in_words(job, scribe), ("axis.name", "axis.kind"))
+    yield Fact(Words(en="Axis", de="Achse"), axis_in_words(job, writer), ("axis.name", "axis.kind"))
     yield Fact(
         Words(en="Evaluated by", de="Ausgewertet nach"),
         ", ".join(evaluation.designation for evaluation in evaluations),
@@ -42,28 +42,28 @@ def identity(job: Job, evaluations: tuple[Evaluation, ...], scribe: Scribe) -> I
     )
     place = place_of_work(keys)
     if place:
-        yield Fact(Words(en="Place of the work", de="Ort der Arbeiten"), scribe.say(place.words), place.keys)
-    received = date(keys.dates.received, scribe)
+        yield Fact(Words(en="Place of the work", de="Ort der Arbeiten"), writer.say(place.words), place.keys)
+    received = date(keys.dates.received, writer)
     yield Fact(Words(en="Received", de="Eingang"), received, ("dates.received",))
     if keys.as_found:
         yield Fact(
             Words(en="Date of measurement as found", de="Datum der Messung vorher"),
-            days(keys.as_found.measurement, scribe),
+            days(keys.as_found.measurement, writer),
             ("as_found.measurement.date", "as_found.measurement.end"),
         )
     yield Fact(
         Words(en="Date of measurement", de="Datum der Messung"),
-        days(keys.measurement, scribe),
+        days(keys.measurement, writer),
         ("measurement.date", "measurement.end"),
     )
-    yield Fact(Words(en="Date of issue", de="Ausstellungsdatum"), date(keys.certificate.issued, scribe))
+    yield Fact(Words(en="Date of issue", de="Ausstellungsdatum"), date(keys.certificate.issued, writer))
     if keys.next_due:
         yield Fact(
             Words(
                 en="Next calibration due, as agreed with the customer",
                 de="Nächste Kalibrierung, wie mit dem Auftraggeber vereinbart",
             ),
-            scribe.date(keys.next_due.date),
+            writer.date(keys.next_due.date),
         )
     if person:
         yield Fact(Words(en="Authorised by", de="Freigegeben durch"), in_a_line(person))

@@ -2,16 +2,70 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import Any
 
-from zlmreport.certificate.linked_failures import failure
-from zlmreport.certificate.linked_graphs import graphs
-from zlmreport.certificate.linked_texts import GRAPH_TEXTS
-from zlmreport.language import Language
+import numpy as np
+
+from zlmreport.figures.model_diagram import SPREAD, ModelDiagram, estimate
+from zlmreport.figures.model_residuals import over_position
+from zlmreport.language import Language, Words, same
+from zlmreport.measurement.measurement_set import CONDITION_NAMES, CONDITIONS
 from zlmreport.model.diagnosis import Diagnosis
-from zlmreport.model.study import Fitted, Study
+from zlmreport.model.outliers import outliers
+from zlmreport.model.residuals import Failure, ResidualTest
+from zlmreport.model.study import Fitted, Study, corrected
+from zlmreport.presenting.diagnosis import FailureRow, failure_row
+from zlmreport.quantities.arrays import FloatArray
+
+_MINUTE = 60.0
+_LONG = 600.0
+#: Decimals of values that are drawn: finer than any screen.
+_DECIMALS = 6
+
+_POSITION = Words(en="Position", de="Position")
+_TIME = Words(en="Time", de="Zeit")
+_COUNTED = Words(en="Number of the reading", de="Nummer des Messwerts")
+_RUN = Words(en="Run", de="Durchlauf")
+_DIRECTION = Words(en="Direction", de="Richtung")
+_DEVIATION = Words(en="Deviation", de="Abweichung")
+_RESIDUAL = Words(en="Residual", de="Residuum")
+#: What the graphs say, on the workbench's page and in a certificate.
+GRAPH_TEXTS: Mapping[str, Words] = MappingProxyType(
+    {
+        "measured": Words(en="Measured against the model", de="Messung gegen Modell"),
+        "residuals": Words(en="Residuals", de="Residuen"),
+        "over": Words(en="over", de="über"),
+        "failures": Words(en="Where the model fails", de="Wo das Modell versagt"),
+        "noFailures": Words(
+            en="No test of the residuals fails.", de="Keine Prüfung der Residuen schlägt an."
+        ),
+        "show": Words(en="Show the readings", de="Messwerte zeigen"),
+        "reset": Words(en="Whole axis", de="Ganze Achse"),
+        "point": Words(
+            en="Point at a reading, or go from one to the next with the arrow keys.",
+            de="Zeigen Sie auf einen Messwert, oder gehen Sie mit den Pfeiltasten von einem zum nächsten.",
+        ),
+        "target": Words(en="Target", de="Sollposition"),
+        "run": Words(en="Run", de="Durchlauf"),
+        "deviation": Words(en="Deviation", de="Abweichung"),
+        "modelValue": Words(en="Model", de="Modell"),
+        "residual": Words(en="Residual", de="Residuum"),
+        "flagged": Words(en="stands off; not fitted", de="steht ab; nicht angepasst"),
+        "upwards": Words(en="upwards ↑", de="aufwärts ↑"),
+        "downwards": Words(en="downwards ↓", de="abwärts ↓"),
+        "modelUp": Words(en="model ↑ with U", de="Modell ↑ mit U"),
+        "modelDown": Words(en="model ↓ with U", de="Modell ↓ mit U"),
+        "noise": Words(en="± 2σ of single readings", de="± 2σ einzelner Messwerte"),
+        "zoom": Words(
+            en="Drag to look closer; double-click for the whole axis.",
+            de="Ziehen vergrößert; Doppelklick zeigt wieder die ganze Achse.",
+        ),
+    }
+)
+_IN_TIME = {ResidualTest.TIME_ORDER, ResidualTest.PERIOD_IN_TIME}
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,5 +110,122 @@ def linked(section: str, study: Study, whole: Fitted, diagnosis: Diagnosis, lang
         section,
         {name: words.in_language(language) for name, words in GRAPH_TEXTS.items()},
         graphs(study, whole, language),
-        tuple(failure(each, diagnosis, study, language) for each in diagnosis.failures),
+        tuple(failure_values(failure_row(each, language), diagnosis, study) for each in diagnosis.failures),
     )
+
+
+def failure_values(row: FailureRow, diagnosis: Diagnosis, study: Study) -> dict[str, Any]:
+    """Return a failure: what is said of it, and the axis and the readings that show it."""
+    failure = row.failure
+    axis = failure.condition or "position"
+    if failure.test is ResidualTest.RUNS:
+        axis = "run"
+    elif failure.test in _IN_TIME:
+        axis = "time"
+    return {
+        "statement": row.statement,
+        "where": row.where,
+        "p": row.p,
+        "axis": axis,
+        "readings": _readings(failure, diagnosis, study),
+    }
+
+
+def graphs(study: Study, whole: Fitted, language: Language) -> dict[str, Any]:
+    """Return what both graphs draw, in the units of the page.
+
+    Parameters
+    ----------
+    study
+        The readings, none set aside.
+    whole
+        The model fitted to them.
+    language
+        Of titles.
+    """
+    observed, axis = study.observed, study.job.axis
+    design = observed.design
+    diagram = ModelDiagram(whole.fit, whole.error)
+    left = corrected(study.measurements, observed, whole.fit).deviation[observed.reading]
+    aside = outliers(design, observed.deviation).readings
+    fitted = np.ones(len(observed.reading), dtype=np.bool_)
+    fitted[aside] = False
+    unit = axis.deviation_unit
+    return {
+        "axes": list(_axes(study, language)),
+        "unit": unit.symbol,
+        "deviation": _DEVIATION.in_language(language),
+        "residual": _RESIDUAL.in_language(language),
+        "readings": {
+            "place": observed.reading.tolist(),
+            "direction": np.where(design.direction > 0, 1, -1).tolist(),
+            "run": design.run.tolist(),
+            "deviation": _values(unit.from_si(observed.deviation)),
+            "residual": _values(unit.from_si(left)),
+            "fitted": fitted.tolist(),
+        },
+        "model": list(_model(diagram)),
+        "noise": unit.from_si(SPREAD * diagram.noise),
+        "alternative": over_position(diagram).alternative.in_language(language),
+    }
+
+
+def _model(diagram: ModelDiagram) -> Iterator[dict[str, Any]]:
+    """Yield the model with its expanded uncertainty, for each direction; nothing for a model of no effect."""
+    if not diagram.fit.model.terms:
+        return
+    (panel,) = estimate(diagram).panels
+    for approach, curve, band in zip(diagram.approaches, panel.curves, panel.bands, strict=True):
+        yield {
+            "direction": int(approach),
+            "x": _values(curve.x),
+            "y": _values(curve.y),
+            "low": _values(band.lower),
+            "high": _values(band.upper),
+        }
+
+
+def _axes(study: Study, language: Language) -> Iterator[dict[str, Any]]:
+    """Yield everything over which readings can be laid out; the first is the position."""
+    design, axis = study.observed.design, study.job.axis
+    yield _axis(
+        "position",
+        _POSITION.in_language(language),
+        axis.position_unit.symbol,
+        axis.position_unit.from_si(design.position),
+    )
+    if design.time_is_counted:
+        yield _axis("time", _COUNTED.in_language(language), "", 1.0 + design.time)
+    else:
+        in_minutes = design.duration > _LONG
+        values = design.time / _MINUTE if in_minutes else design.time
+        yield _axis("time", _TIME.in_language(language), "min" if in_minutes else "s", values)
+    yield _axis("run", _RUN.in_language(language), "", design.run.astype(np.float64))
+    if design.is_bidirectional:
+        yield _axis("direction", _DIRECTION.in_language(language), "", design.direction)
+    for name, log in study.measurements.conditions.items():
+        at = log[study.observed.reading]
+        if np.isnan(at).all():
+            continue
+        title, unit = CONDITION_NAMES.get(name, same(name)), ""
+        if name in CONDITIONS:
+            scale = CONDITIONS[name].unit
+            at, unit = scale.from_si(at), scale.symbol
+        yield _axis(name, title.in_language(language), unit, at)
+
+
+def _axis(key: str, title: str, unit: str, values: FloatArray) -> dict[str, Any]:
+    return {"key": key, "title": title, "unit": unit, "values": _values(values)}
+
+
+def _values(values: FloatArray) -> list[float | None]:
+    """Return values as JSON has them: NaN, which it has not, is nothing."""
+    return [None if value != value else value for value in np.round(values, _DECIMALS).tolist()]  # noqa: PLR0124 - NaN is what differs from itself
+
+
+def _readings(failure: Failure, diagnosis: Diagnosis, study: Study) -> list[int]:
+    """Return the places of the readings that show a failure, in the measurement set; none where all do."""
+    if failure.test is ResidualTest.OUTLIERS:
+        return [int(each) for each in diagnosis.outliers]
+    kept = study.observed.reading[~np.isin(study.observed.reading, diagnosis.outliers)]
+    return [int(each) for each in kept[failure.readings]]

@@ -5,7 +5,7 @@ An opinion, and marked as one (ISO/IEC 17025:2017, 7.8.7): it stands on pages of
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from zlmreport.certificate.document import Block, Facts, Graph, Notice, Paragraph, Section
@@ -13,16 +13,16 @@ from zlmreport.certificate.forecast import Forecast
 from zlmreport.certificate.linked import Linked, linked
 from zlmreport.certificate.model_tables import ModelTables
 from zlmreport.certificate.opinions import OPINION
-from zlmreport.certificate.scribe import Scribe
 from zlmreport.figures.figure import Figure
 from zlmreport.figures.model_diagram import ModelDiagram, estimate
 from zlmreport.figures.model_residuals import fall_chart, over_condition, over_position, over_run, over_time
-from zlmreport.language import Language, Words
-from zlmreport.model import wording
+from zlmreport.language import Words
 from zlmreport.model.diagnosis import Diagnosis, Verdict
-from zlmreport.model.report import verdict_statement
 from zlmreport.model.residuals import Failure, ResidualTest
-from zlmreport.model.study import Fitted, Study, moves_with_time
+from zlmreport.model.study import Fitted, Study
+from zlmreport.presenting.diagnosis import DiagnosisRows
+from zlmreport.presenting.model import ErrorRows, no_table_takes_away
+from zlmreport.presenting.writer import Writer
 
 _KEY = "model"
 _TITLE = Words(
@@ -41,14 +41,7 @@ _SYMBOLS = Words(
     de="P: Sollposition; d: +1 beim Anfahren in positiver, −1 in negativer Richtung; t: Zeit; s: Weg seit "
     "der letzten Umkehr; ΔT: Temperatur minus 20 °C; die übrigen Zeichen sind Parameter.",
 )
-_MOVES = Words(
-    en="{effects}: not fixed in position. A table of positions leaves it; it goes away only if the control "
-    "compensates it while the axis moves, or if its cause is removed.",
-    de="{effects}: nicht an die Position gebunden. Eine Positionstabelle lässt das stehen; es verschwindet "
-    "nur, wenn die Steuerung es während der Bewegung kompensiert oder die Ursache beseitigt wird.",
-)
 _FAILED = Words(en="Where the model fails", de="Wo das Modell versagt")
-_FAILURE = Words(en="{statement} ({where})", de="{statement} ({where})")
 _NO_FAILURE = Words(
     en="No test of the residuals fails: not that of the means against the repeats, nor those over direction, "
     "run, time and the logged conditions.",
@@ -86,87 +79,64 @@ class Modelled:
     study: Study
 
 
-def section(modelled: Modelled, scribe: Scribe) -> Section:
+def section(modelled: Modelled, writer: Writer) -> Section:
     """Return the annex."""
     diagnosis, whole = modelled.diagnosis, modelled.history[-1]
-    tables = ModelTables(scribe, whole.fit.design, modelled.titles)
+    rows = DiagnosisRows.of(diagnosis, writer.language, modelled.titles)
+    moving = no_table_takes_away(whole.fit, writer.language)
+    tables = ModelTables(writer, whole.fit.design, modelled.titles)
     diagram = ModelDiagram(whole.fit, whole.error)
     blocks: list[Block] = [
-        Notice(scribe.say(OPINION), (scribe.say(_BASIS),)),
-        Paragraph(scribe.say(verdict_statement(diagnosis))),
-        _error(whole, scribe),
+        Notice(writer.say(OPINION), (writer.say(_BASIS),)),
+        Paragraph(rows.statement),
+        _error(whole, writer),
         tables.equations(whole),
-        Paragraph(scribe.say(_SYMBOLS)),
+        Paragraph(writer.say(_SYMBOLS)),
         tables.parameters(whole),
         Graph(over_position(diagram)),
         Graph(estimate(diagram)),
         Graph(fall_chart(modelled.history)),
         tables.history(modelled.history, modelled.forecasts[0]),
         tables.compensation(modelled.forecasts),
-        *_moving(whole, scribe),
-        *_failures(diagnosis, diagram, scribe),
+        *([Paragraph(moving)] if moving else []),
+        *_failures(rows, diagram, writer),
     ]
     if diagnosis.verdict is not Verdict.ADEQUATE and diagnosis.candidates:
-        blocks.append(tables.candidates(diagnosis))
+        blocks.append(tables.candidates(rows.candidates))
     blocks.append(tables.visibility(diagnosis.visibility))
-    not_tried = tuple(tables.not_testable(diagnosis))
-    if not_tried:
-        blocks.append(Notice(scribe.say(_NOT_TRIED), not_tried))
-    if diagnosis.remarks:
-        blocks.append(Notice(scribe.say(_ASSUMED), tuple(map(scribe.say, diagnosis.remarks))))
-    return Section(_KEY, scribe.say(_TITLE), tuple(blocks), new_page=True)
+    if rows.not_tested:
+        not_tried = (f"{', '.join(each.effects)}: {each.reason}" for each in rows.not_tested)
+        blocks.append(Notice(writer.say(_NOT_TRIED), tuple(not_tried)))
+    if rows.remarks:
+        blocks.append(Notice(writer.say(_ASSUMED), rows.remarks))
+    return Section(_KEY, writer.say(_TITLE), tuple(blocks), new_page=True)
 
 
-def linked_graphs(modelled: Modelled, scribe: Scribe) -> Linked:
+def linked_graphs(modelled: Modelled, writer: Writer) -> Linked:
     """Return the annex's graphs as values, for documents in which readings can be pointed at."""
-    return linked(_KEY, modelled.study, modelled.history[-1], modelled.diagnosis, scribe.language)
+    return linked(_KEY, modelled.study, modelled.history[-1], modelled.diagnosis, writer.language)
 
 
-def _error(whole: Fitted, scribe: Scribe) -> Facts:
-    axis, error = whole.fit.design.axis, whole.error
-    pairs = [
-        (Words(en="Root mean square error", de="Quadratischer Mittelwert der Abweichungen"), error.rms),
-        (Words(en="Noise floor", de="Grundrauschen"), error.noise_rms),
-        (
-            Words(en="Runs predicted from the others", de="Durchläufe, aus den übrigen vorhergesagt"),
-            error.cross_validated_rms,
-        ),
-    ]
-    facts = [
-        (scribe.say(name), scribe.say(wording.deviation(axis, value)))
-        for name, value in pairs
-        if value is not None
-    ]
-    if error.chi2_per_dof is not None:
-        facts.append(("χ²/ν", scribe.say(wording.significant(error.chi2_per_dof))))
-    return Facts(tuple(facts), scribe.say(Words(en="Error of the model", de="Abweichung des Modells")))
+def _error(whole: Fitted, writer: Writer) -> Facts:
+    rows = ErrorRows.of(whole.error, whole.fit.design.axis, writer.language)
+    return Facts(rows.named, writer.say(Words(en="Error of the model", de="Abweichung des Modells")))
 
 
-def _moving(whole: Fitted, scribe: Scribe) -> Iterator[Paragraph]:
-    moving = moves_with_time(whole.fit)
-    if moving:
-        yield Paragraph(scribe.say(_MOVES.given(effects=", ".join(moving))))
-
-
-def _failures(diagnosis: Diagnosis, diagram: ModelDiagram, scribe: Scribe) -> Iterator[Block]:
+def _failures(rows: DiagnosisRows, diagram: ModelDiagram, writer: Writer) -> Iterator[Block]:
     """Yield what the residuals do, and the graphs that show it."""
-    if not diagnosis.failures:
-        yield Paragraph(scribe.say(_NO_FAILURE))
+    if not rows.failures:
+        yield Paragraph(writer.say(_NO_FAILURE))
         return
-    items = (
-        scribe.say(_FAILURE.given(where=each.where, statement=each.statement)) for each in diagnosis.failures
-    )
-    yield Notice(scribe.say(_FAILED), tuple(items))
-    yield from map(Graph, _graphs(diagnosis.failures, diagram))
+    items = (f"{each.statement} ({each.where})" for each in rows.failures)
+    yield Notice(writer.say(_FAILED), tuple(items))
+    yield from map(Graph, _graphs([each.failure for each in rows.failures], diagram))
 
 
-def _graphs(failures: tuple[Failure, ...], diagram: ModelDiagram) -> Iterator[Figure]:
+def _graphs(failures: Sequence[Failure], diagram: ModelDiagram) -> Iterator[Figure]:
     """Yield the residuals over whatever a failed test is about; those over the position stand above."""
     failed = {failure.test for failure in failures}
     if ResidualTest.RUNS in failed:
         yield over_run(diagram)
     if failed & {ResidualTest.TIME_ORDER, ResidualTest.PERIOD_IN_TIME}:
         yield over_time(diagram)
-    for failure in failures:
-        if failure.test is ResidualTest.CONDITION:
-            yield over_condition(diagram, failure.where.in_language(Language.ENGLISH))
+    yield from (over_condition(diagram, each.condition) for each in failures if each.condition)

@@ -2,36 +2,24 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from zlmreport.certificate.document import Align, Cell, Column, Explained, Formulas, RowGroup, Symbol, Table
 from zlmreport.certificate.forecast import Forecast
-from zlmreport.certificate.scribe import NOTHING, Scribe
-from zlmreport.language import Language, Words
+from zlmreport.language import Words
 from zlmreport.model import wording
 from zlmreport.model.design import Design
-from zlmreport.model.diagnosis import Diagnosis
-from zlmreport.model.effect import unit_of
-from zlmreport.model.estimate import Estimate, Plausibility
-from zlmreport.model.report import serious_candidates
-from zlmreport.model.study import Fitted, Wave, waves
+from zlmreport.model.estimate import Plausibility
+from zlmreport.model.study import Fitted
 from zlmreport.model.visibility import Visibility
-from zlmreport.quantities.formatting import fixed_number
-from zlmreport.quantities.uncertain import rounded_pair
-from zlmreport.quantities.units import Unit
+from zlmreport.presenting.diagnosis import CandidateRow
+from zlmreport.presenting.model import ParameterRow, deviation, parameter_rows, wave_rows
+from zlmreport.presenting.writer import NOTHING, Writer
+from zlmreport.quantities.formatting import percentage
 
 _EFFECT = Words(en="Effect", de="Einfluss")
-_PERCENT = 100.0
-_READINGS = Words(en="readings", de="Messwerte")
 _OF_GRID = Words(en="{half_width} (grid)", de="{half_width} (Raster)")
-_AMPLITUDE = Words(
-    en="Amplitude of harmonic {order}, from the above", de="Amplitude der {order}. Harmonischen, aus Obigem"
-)
-_PHASE = Words(
-    en="Phase of harmonic {order}, from the above", de="Phase der {order}. Harmonischen, aus Obigem"
-)
 _PLAUSIBILITY = {
     Plausibility.PLAUSIBLE: Words(en="yes", de="ja"),
     Plausibility.DOUBTFUL: Words(en="doubtful", de="zweifelhaft"),
@@ -46,7 +34,7 @@ class ModelTables:
 
     Attributes
     ----------
-    scribe
+    writer
         Of the document.
     design
         The test.
@@ -54,13 +42,9 @@ class ModelTables:
         What effects are called, by identifier.
     """
 
-    scribe: Scribe
+    writer: Writer
     design: Design
     titles: Mapping[str, Words]
-
-    def effect(self, identifier: str) -> Explained:
-        """Return an effect's identifier with its title."""
-        return Explained(identifier, self.scribe.say(self.titles[identifier]))
 
     def equations(self, fitted: Fitted) -> Formulas:
         """Return the model: the deviation as a sum of effects."""
@@ -69,12 +53,12 @@ class ModelTables:
             de="Das Modell: Die Abweichung x ist die Summe dieser Einflüsse",
         )
         return Formulas(
-            self.scribe.say(caption),
+            self.writer.say(caption),
             tuple(
                 (
                     Symbol(term.effect.identifier),
                     Symbol(term.effect.equation),
-                    self.scribe.say(term.effect.title),
+                    self.writer.say(term.effect.title),
                 )
                 for term in fitted.fit.model.terms
             ),
@@ -82,7 +66,7 @@ class ModelTables:
 
     def parameters(self, fitted: Fitted) -> Table:
         """Return the parameters of the model with their expanded uncertainties."""
-        say = self.scribe.say
+        say = self.writer.say
         caption = Words(
             en="Parameters of the model with expanded uncertainty U (coverage probability about 95 %). "
             "Grid: one of the values that were tried, with the half-width of the interval that holds it. "
@@ -99,13 +83,14 @@ class ModelTables:
             Column(say(Words(en="Unit", de="Einheit"))),
             Column(say(Words(en="Plausible", de="Plausibel"))),
         )
-        of_waves = waves(fitted.fit)
+        language = self.writer.language
+        rows = [
+            *parameter_rows(fitted.fit, language),
+            *(row for each in wave_rows(fitted.fit, language) for row in (each.amplitude, each.phase)),
+        ]
         groups = tuple(
             RowGroup(
-                (
-                    *(self._parameter(each) for each in fitted.fit.estimates if each.effect == identifier),
-                    *(row for each in of_waves if each.effect == identifier for row in self._wave(each)),
-                ),
+                tuple(self._parameter(each) for each in rows if each.effect == identifier),
                 f"{identifier}: {say(term.effect.title)}",
             )
             for term in fitted.fit.model.terms
@@ -115,7 +100,7 @@ class ModelTables:
 
     def history(self, history: Sequence[Fitted], forecast: Forecast) -> Table:
         """Return how the error fell, effect by effect, and what a standard would say after each."""
-        say, unit = self.scribe.say, self.scribe.deviation_unit.symbol
+        say, unit = self.writer.say, self.writer.deviation_unit.symbol
         caption = Words(
             en="How the error falls, effect by effect; the parameters of {designation} are predicted for an "
             "axis whose control corrects all effects down to the row",
@@ -136,7 +121,7 @@ class ModelTables:
                 self._deviation(each.error.rms),
                 self._number(each.error.chi2_per_dof),
                 self._deviation(each.error.cross_validated_rms),
-                *(self.scribe.deviation(float(value)) for value in forecast.by_step[index]),
+                *(self.writer.deviation(float(value)) for value in forecast.by_step[index]),
             )
             for index, (name, each) in enumerate(zip(names, history, strict=True))
         )
@@ -148,7 +133,7 @@ class ModelTables:
 
     def compensation(self, forecasts: Sequence[Forecast]) -> Table:
         """Return what a compensation would leave of the leading parameters of each standard."""
-        say, unit = self.scribe.say, self.scribe.deviation_unit.symbol
+        say, unit = self.writer.say, self.writer.deviation_unit.symbol
         caption = Words(
             en="What a compensation would leave, predicted from the readings of this document",
             de="Was eine Kompensation übrig ließe, vorhergesagt aus den Messwerten dieses Dokuments",
@@ -166,7 +151,7 @@ class ModelTables:
                     (
                         Symbol(quantity.notation),
                         say(quantity.name),
-                        *map(self.scribe.deviation, map(float, values)),
+                        *map(self.writer.deviation, map(float, values)),
                     )
                     for quantity, *values in zip(
                         forecast.quantities,
@@ -182,9 +167,9 @@ class ModelTables:
         )
         return Table(say(caption), columns, groups)
 
-    def candidates(self, diagnosis: Diagnosis) -> Table:
+    def candidates(self, candidates: Sequence[CandidateRow]) -> Table:
         """Return the effects that the model may lack, best first."""
-        say, unit = self.scribe.say, self.scribe.deviation_unit.symbol
+        say, unit = self.writer.say, self.writer.deviation_unit.symbol
         caption = Words(
             en="Effects that the model may lack, with their probabilities among all that were tried",
             de="Einflüsse, die dem Modell fehlen können, mit ihrer Wahrscheinlichkeit unter allen geprüften",
@@ -198,19 +183,20 @@ class ModelTables:
         )
         rows = tuple(
             (
-                self.effect(each.identifier),
-                self._percent(each.probability),
-                self._deviation(each.error.rms),
+                Explained(each.effect, each.title),
+                each.probability,
+                each.rms,
                 ", ".join(each.equals) or NOTHING,
-                say(each.discriminate_by) if each.discriminate_by else NOTHING,
+                each.tell_apart_by or NOTHING,
             )
-            for each in serious_candidates(diagnosis)
+            for each in candidates
+            if each.is_serious
         )
         return Table(say(caption), columns, (RowGroup(rows),))
 
     def visibility(self, visible: Sequence[Visibility]) -> Table:
         """Return how much of each effect the plan of the test can see, the best hidden first."""
-        say, unit = self.scribe.say, self.scribe.deviation_unit.symbol
+        say, unit = self.writer.say, self.writer.deviation_unit.symbol
         caption = Words(
             en="What the plan of this test can see of effects that are not in the model: the share that the "
             "model does not imitate, and the smallest effect that is found half of the time (root mean "
@@ -229,81 +215,27 @@ class ModelTables:
             (
                 each.effect,
                 say(self.titles[each.effect]),
-                self._percent(each.share),
+                percentage(each.share, self.writer.language.decimal_sign),
                 self._deviation(each.smallest_rms),
             )
             for each in sorted(visible, key=lambda each: (each.share, each.effect))
         )
         return Table(say(caption), columns, (RowGroup(rows),), dense=True)
 
-    def not_testable(self, diagnosis: Diagnosis) -> Iterator[str]:
-        """Yield what could not be tried, reason by reason."""
-        by_reason: dict[str, list[str]] = {}
-        for each in diagnosis.not_testable:
-            by_reason.setdefault(self.scribe.say(each.reason), []).append(each.effect)
-        for reason, effects in by_reason.items():
-            yield f"{', '.join(effects)}: {reason}"
-
-    def _parameter(self, estimate: Estimate) -> tuple[Cell, ...]:
-        parameter, kind = estimate.parameter, self.design.axis.kind
-        unit = unit_of(parameter.dimension, kind, time_is_counted=self.design.time_is_counted)
-        value, uncertainty = rounded_pair(
-            estimate.value * unit.per_si,
-            estimate.expanded_uncertainty * unit.per_si,
-            self.scribe.language.decimal_sign,
-        )
-        if estimate.is_given:
-            value = self.scribe.number(estimate.value * unit.per_si)
-            uncertainty = self.scribe.say(Words(en="given", de="vorgegeben"))
-        elif estimate.is_scanned:
-            uncertainty = self.scribe.say(_OF_GRID.given(half_width=uncertainty))
-        plausibility = estimate.plausibility(time_is_counted=self.design.time_is_counted)
-        return (
-            Symbol(parameter.notation),
-            self.scribe.say(parameter.description),
-            value,
-            uncertainty,
-            unit_symbol(unit, self.scribe.language),
-            self.scribe.say(_PLAUSIBILITY[plausibility]),
-        )
-
-    def _wave(self, wave: Wave) -> Iterator[tuple[Cell, ...]]:
-        """Yield amplitude and phase of a wave, which follow from its sine and cosine."""
-        harmonic, k, sign = wave.harmonic, wave.coverage_factor, self.scribe.language.decimal_sign
-        unit = self.scribe.deviation_unit
-        for notation, description, values, symbol in (
-            (
-                f"A_{{{harmonic.order}}}",
-                _AMPLITUDE,
-                (unit.from_si(harmonic.amplitude), k * unit.from_si(harmonic.amplitude_uncertainty)),
-                unit.symbol,
-            ),
-            (
-                f"φ_{{{harmonic.order}}}",
-                _PHASE,
-                (math.degrees(harmonic.phase), k * math.degrees(harmonic.phase_uncertainty)),
-                "°",
-            ),
-        ):
-            words = self.scribe.say(description.given(order=harmonic.order))
-            yield Symbol(notation), words, *rounded_pair(*values, sign), symbol, NOTHING
+    def _parameter(self, row: ParameterRow) -> tuple[Cell, ...]:
+        uncertainty = row.uncertainty
+        if row.is_given:
+            uncertainty = self.writer.say(Words(en="given", de="vorgegeben"))
+        elif row.is_on_grid:
+            uncertainty = self.writer.say(_OF_GRID.given(half_width=uncertainty))
+        plausible = self.writer.say(_PLAUSIBILITY[row.plausibility])
+        return Symbol(row.notation), row.description, row.value, uncertainty, row.unit, plausible
 
     def _deviation(self, value: float | None) -> str:
-        """Write a deviation with three significant digits."""
-        if value is None or not math.isfinite(value):
-            return NOTHING
-        return self.scribe.say(wording.significant(self.scribe.deviation_unit.from_si(value)))
+        return deviation(value, self.design.axis, self.writer.language)
 
     def _number(self, value: float | None) -> str:
-        return NOTHING if value is None else self.scribe.say(wording.significant(value))
-
-    def _percent(self, share: float) -> str:
-        return fixed_number(_PERCENT * share, 0, self.scribe.language.decimal_sign)
-
-
-def unit_symbol(unit: Unit, language: Language) -> str:
-    """Return a parameter's unit as it is printed: a number of readings is a word."""
-    return _READINGS.in_language(language) if unit.symbol == _READINGS.en else unit.symbol
+        return NOTHING if value is None else self.writer.say(wording.significant(value))
 
 
 def _identifiers(history: Sequence[Fitted]) -> list[str]:

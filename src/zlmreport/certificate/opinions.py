@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from zlmreport.certificate.document import Column, Notice, RowGroup, Section, Table
-from zlmreport.certificate.scribe import NOTHING, Scribe
 from zlmreport.job.document_keys import Person
 from zlmreport.job.keys import JobKeys
 from zlmreport.language import Words
+from zlmreport.presenting.writer import NOTHING, Writer
 
 #: Above every opinion of a document.
 OPINION = Words(
@@ -22,16 +22,16 @@ _RESTS = Words(
 )
 
 
-def section(keys: JobKeys, scribe: Scribe) -> Iterator[Section]:
+def section(keys: JobKeys, writer: Writer) -> Iterator[Section]:
     """Yield the section of a job's opinions, if it states any."""
     if keys.opinions:
-        apart = Notice(scribe.say(OPINION), (scribe.say(_RESTS),))
-        yield Section("opinions", scribe.say(_TITLE), (apart, _table(keys, scribe)), new_page=True)
+        apart = Notice(writer.say(OPINION), (writer.say(_RESTS),))
+        yield Section("opinions", writer.say(_TITLE), (apart, _table(keys, writer)), new_page=True)
 
 
-def _table(keys: JobKeys, scribe: Scribe) -> Table:
+def _table(keys: JobKeys, writer: Writer) -> Table:
     columns = tuple(
-        Column(scribe.say(heading))
+        Column(writer.say(heading))
         for heading in (
             Words(en="Opinion", de="Meinung"),
             Words(en="Basis", de="Grundlage"),
@@ -46,7 +46,7 @@ def _table(keys: JobKeys, scribe: Scribe) -> Table:
         )
         for opinion in keys.opinions
     )
-    return Table(scribe.say(_TITLE), columns, (RowGroup(rows),))
+    return Table(writer.say(_TITLE), columns, (RowGroup(rows),))
 
 
 def in_a_line(person: Person) -> str:

@@ -15,9 +15,9 @@ from zlmreport.certificate.document import (
     Section,
     Table,
 )
-from zlmreport.certificate.scribe import Scribe
 from zlmreport.language import Words
 from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.presenting.writer import Writer
 
 _TITLE = Words(en="Origin of the results", de="Herkunft der Ergebnisse")
 
@@ -27,7 +27,7 @@ def section(
     measurements: Sequence[MeasurementSet],
     generator: str,
     plugins: Mapping[str, str],
-    scribe: Scribe,
+    writer: Writer,
 ) -> Section:
     """Return the section that lets anyone evaluate again: files with digests, program and plugins.
 
@@ -41,23 +41,23 @@ def section(
         Name and version of this program.
     plugins
         Identifier and version of every plugin that took part.
-    scribe
+    writer
         Of the document.
     """
     programs = Facts(
         (
-            (scribe.say(Words(en="Program", de="Programm")), generator),
+            (writer.say(Words(en="Program", de="Programm")), generator),
             *((name, version) for name, version in sorted(plugins.items())),
         ),
-        scribe.say(Words(en="Evaluated with", de="Ausgewertet mit")),
+        writer.say(Words(en="Evaluated with", de="Ausgewertet mit")),
     )
-    blocks: list[Block] = [_files(sources, measurements, scribe), programs]
+    blocks: list[Block] = [_files(sources, measurements, writer), programs]
     remarks = tuple(remark for each in measurements for remark in each.provenance.remarks)
     if remarks:
-        blocks.append(_remarks(remarks, scribe))
+        blocks.append(_remarks(remarks, writer))
     deviation = _INDICATED if measurements[0].is_indication else _ACTUAL
-    blocks.extend(Paragraph(scribe.say(words)) for words in (_READING_AID, _SIGNS.given(deviation=deviation)))
-    return Section("origin", scribe.say(_TITLE), tuple(blocks))
+    blocks.extend(Paragraph(writer.say(words)) for words in (_READING_AID, _SIGNS.given(deviation=deviation)))
+    return Section("origin", writer.say(_TITLE), tuple(blocks))
 
 
 #: Above the files of each measurement: of the axis as left, and as found if it was adjusted.
@@ -87,18 +87,18 @@ _ACTUAL = Words(en="actual − target position", de="Istposition − Sollpositio
 _INDICATED = Words(en="indicated − calibrated position", de="angezeigte − kalibrierte Position")
 
 
-def _remarks(remarks: Iterable[Words], scribe: Scribe) -> Table:
+def _remarks(remarks: Iterable[Words], writer: Writer) -> Table:
     """Return what the reader of the files has to say of them."""
-    heading = scribe.say(
+    heading = writer.say(
         Words(en="How the readings were understood", de="Wie die Messwerte verstanden wurden")
     )
-    rows = tuple((said,) for said in dict.fromkeys(map(scribe.say, remarks)))
-    return Table(scribe.say(Words(en="Remarks", de="Bemerkungen")), (Column(heading),), (RowGroup(rows),))
+    rows = tuple((said,) for said in dict.fromkeys(map(writer.say, remarks)))
+    return Table(writer.say(Words(en="Remarks", de="Bemerkungen")), (Column(heading),), (RowGroup(rows),))
 
 
-def _files(sources: Sequence[Source], measurements: Sequence[MeasurementSet], scribe: Scribe) -> Table:
+def _files(sources: Sequence[Source], measurements: Sequence[MeasurementSet], writer: Writer) -> Table:
     columns = (
-        Column(scribe.say(Words(en="File", de="Datei"))),
+        Column(writer.say(Words(en="File", de="Datei"))),
         Column("Bytes", align=Align.RIGHT),
         Column("SHA-256"),
     )
@@ -106,14 +106,14 @@ def _files(sources: Sequence[Source], measurements: Sequence[MeasurementSet], sc
     groups = [
         RowGroup(
             tuple(_row(source) for source in readings if source.file in each.provenance.files),
-            scribe.say(heading.given(source=each.provenance.source)),
+            writer.say(heading.given(source=each.provenance.source)),
         )
         for heading, each in zip(_READINGS, measurements, strict=False)
     ]
     others = tuple(_row(source) for source in sources if source not in readings)
-    groups.append(RowGroup(others, scribe.say(Words(en="Job", de="Auftrag"))))
+    groups.append(RowGroup(others, writer.say(Words(en="Job", de="Auftrag"))))
     return Table(
-        scribe.say(Words(en="Files", de="Dateien")),
+        writer.say(Words(en="Files", de="Dateien")),
         columns,
         tuple(group for group in groups if group.rows),
         dense=True,

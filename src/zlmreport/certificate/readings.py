@@ -8,10 +8,10 @@ import numpy as np
 
 from zlmreport.certificate import exclusions
 from zlmreport.certificate.document import Align, Block, Column, Notice, RowGroup, Section, Symbol, Table
-from zlmreport.certificate.scribe import Scribe
 from zlmreport.language import Words
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.presenting.writer import Writer
 
 #: Columns of readings that stand beside each other on an upright page.
 _MOST_COLUMNS = 10
@@ -37,33 +37,33 @@ _INDICATION = Words(
 )
 
 
-def section(measurements: MeasurementSet, scribe: Scribe, key: str = "measurement.source") -> Section:
+def section(measurements: MeasurementSet, writer: Writer, key: str = "measurement.source") -> Section:
     """Return the section of raw readings: one row a target, runs as columns.
 
     Parameters
     ----------
     measurements
         The readings.
-    scribe
+    writer
         Of the document.
     key
         The job key that names their source: marked if the readings are the customer's.
     """
     blocks: list[Block] = [
-        *missing_readings(measurements, scribe),
-        *exclusions.notice(measurements, scribe, f"{key.removesuffix('source')}excluded"),
+        *missing_readings(measurements, writer),
+        *exclusions.notice(measurements, writer, f"{key.removesuffix('source')}excluded"),
     ]
     columns = [
         (approach, index) for approach in measurements.approaches for index in range(len(measurements.runs))
     ]
     fit = len(columns) <= _MOST_COLUMNS
     blocks.extend(
-        _table(measurements, chosen, scribe) for chosen in ([columns] if fit else _by_approach(columns))
+        _table(measurements, chosen, writer) for chosen in ([columns] if fit else _by_approach(columns))
     )
-    return Section("readings", scribe.say(_TITLE) + scribe.marks.after(key), tuple(blocks), new_page=True)
+    return Section("readings", writer.say(_TITLE) + writer.marks.after(key), tuple(blocks), new_page=True)
 
 
-def missing_readings(measurements: MeasurementSet, scribe: Scribe) -> Iterator[Notice]:
+def missing_readings(measurements: MeasurementSet, writer: Writer) -> Iterator[Notice]:
     """Yield the notice that names the missing readings, if there are any beside those that were set aside."""
     aside = {(each.target_position, each.approach, each.run) for each in measurements.provenance.exclusions}
     missing = [
@@ -82,10 +82,10 @@ def missing_readings(measurements: MeasurementSet, scribe: Scribe) -> Iterator[N
         de="Sollposition {target} {unit} {arrow}, Durchlauf {run}",
     )
     items = [
-        scribe.say(
+        writer.say(
             one.given(
-                target=scribe.position(reading.target_position),
-                unit=scribe.position_unit.symbol,
+                target=writer.position(reading.target_position),
+                unit=writer.position_unit.symbol,
                 arrow=reading.approach.arrow,
                 run=reading.run,
             )
@@ -97,8 +97,8 @@ def missing_readings(measurements: MeasurementSet, scribe: Scribe) -> Iterator[N
             en="and {count} more (see the table of readings)",
             de="und {count} weitere (siehe Tabelle der Messwerte)",
         )
-        items.append(scribe.say(more.given(count=len(missing) - _MOST_NAMED)))
-    yield Notice(scribe.say(heading), tuple(items))
+        items.append(writer.say(more.given(count=len(missing) - _MOST_NAMED)))
+    yield Notice(writer.say(heading), tuple(items))
 
 
 def _by_approach(columns: Sequence[tuple[Approach, int]]) -> Iterator[list[tuple[Approach, int]]]:
@@ -109,12 +109,12 @@ def _by_approach(columns: Sequence[tuple[Approach, int]]) -> Iterator[list[tuple
             yield of_approach[start : start + _MOST_COLUMNS]
 
 
-def _table(measurements: MeasurementSet, chosen: Sequence[tuple[Approach, int]], scribe: Scribe) -> Table:
+def _table(measurements: MeasurementSet, chosen: Sequence[tuple[Approach, int]], writer: Writer) -> Table:
     grid = measurements.deviations()
-    unit = scribe.deviation_unit.symbol
+    unit = writer.deviation_unit.symbol
     columns = [
         Column(Symbol("i"), align=Align.RIGHT),
-        Column(Symbol("P_{i}"), scribe.position_unit.symbol, Align.RIGHT),
+        Column(Symbol("P_{i}"), writer.position_unit.symbol, Align.RIGHT),
         *(
             Column(Symbol(f"x_{{i{measurements.runs[run]}}}{approach.arrow}"), unit, Align.RIGHT)
             for approach, run in chosen
@@ -123,10 +123,10 @@ def _table(measurements: MeasurementSet, chosen: Sequence[tuple[Approach, int]],
     rows = tuple(
         (
             str(position + 1),
-            scribe.position(float(target)),
-            *(scribe.deviation(float(grid[approach.index, position, run])) for approach, run in chosen),
+            writer.position(float(target)),
+            *(writer.deviation(float(grid[approach.index, position, run])) for approach, run in chosen),
         )
         for position, target in enumerate(measurements.target_positions)
     )
     caption = _INDICATION if measurements.is_indication else _CAPTION
-    return Table(scribe.say(caption), tuple(columns), (RowGroup(rows),), dense=True)
+    return Table(writer.say(caption), tuple(columns), (RowGroup(rows),), dense=True)

@@ -24,14 +24,14 @@ from zlmreport.certificate.document import (
     Table,
     Verdict,
 )
-from zlmreport.certificate.rounding import written_uncertainty
-from zlmreport.certificate.scribe import Scribe
 from zlmreport.certificate.values import Values
 from zlmreport.evaluation.evaluation import Evaluation
 from zlmreport.evaluation.quantity import Group
 from zlmreport.evaluation.requirements import Basis, Finding
 from zlmreport.figures.figure import Figure
 from zlmreport.language import Words
+from zlmreport.presenting.amounts import written_uncertainty
+from zlmreport.presenting.writer import Writer
 from zlmreport.quantities.arrays import FloatArray
 from zlmreport.uncertainty.budget import Budget, NoBudget
 
@@ -82,53 +82,53 @@ def section_key(evaluation: Evaluation) -> str:
     return evaluation.standard.replace(":", "-")
 
 
-def section(evaluated: Evaluated, scribe: Scribe) -> Section:
+def section(evaluated: Evaluated, writer: Writer) -> Section:
     """Return the section on the results by one standard."""
     evaluation = evaluated.evaluation
     title = Words(en="Results by {designation}", de="Ergebnisse nach {designation}")
     blocks: list[Block] = [
-        Paragraph(scribe.say(evaluation.title)),
-        *_shortfalls(evaluation, scribe),
-        _parameters(evaluation, scribe) if evaluation.parameters else Paragraph(scribe.say(_NO_PARAMETER)),
+        Paragraph(writer.say(evaluation.title)),
+        *_shortfalls(evaluation, writer),
+        _parameters(evaluation, writer) if evaluation.parameters else Paragraph(writer.say(_NO_PARAMETER)),
         *map(Graph, evaluated.figures),
-        *conformity.blocks(evaluation, scribe),
-        _positions(evaluation, scribe),
-        *([_requirements(evaluation, scribe)] if evaluation.findings else []),
-        *([_definitions(evaluation, scribe)] if evaluation.parameters else []),
-        *(Paragraph(scribe.say(note)) for note in evaluation.notes),
+        *conformity.blocks(evaluation, writer),
+        _positions(evaluation, writer),
+        *([_requirements(evaluation, writer)] if evaluation.findings else []),
+        *([_definitions(evaluation, writer)] if evaluation.parameters else []),
+        *(Paragraph(writer.say(note)) for note in evaluation.notes),
     ]
     return Section(
         key=section_key(evaluation),
-        title=scribe.say(title.given(designation=evaluation.designation)),
+        title=writer.say(title.given(designation=evaluation.designation)),
         blocks=tuple(blocks),
         new_page=True,
     )
 
 
-def _shortfalls(evaluation: Evaluation, scribe: Scribe) -> Iterator[Notice]:
+def _shortfalls(evaluation: Evaluation, writer: Writer) -> Iterator[Notice]:
     """Yield the notice of the requirements that the test does not meet, if there are any."""
     unmet = [finding for finding in evaluation.findings if finding.met is False]
     if unmet:
         statement = Words(en="{requirement}: {found}", de="{requirement}: {found}")
         yield Notice(
-            scribe.say(
+            writer.say(
                 Words(
                     en="The test deviates from {designation}",
                     de="Die Messung weicht von {designation} ab",
                 ).given(designation=evaluation.designation)
             ),
             tuple(
-                scribe.say(statement.given(requirement=_requirement(finding, scribe), found=finding.found))
+                writer.say(statement.given(requirement=_requirement(finding, writer), found=finding.found))
                 for finding in unmet
             ),
         )
 
 
-def _parameters(evaluation: Evaluation, scribe: Scribe) -> Table:
-    values = Values.of([evaluation], scribe)
+def _parameters(evaluation: Evaluation, writer: Writer) -> Table:
+    values = Values.of([evaluation], writer)
     columns = (
-        Column(scribe.say(Words(en="Symbol", de="Zeichen"))),
-        Column(scribe.say(Words(en="Parameter and what it means", de="Kenngröße und ihre Bedeutung"))),
+        Column(writer.say(Words(en="Symbol", de="Zeichen"))),
+        Column(writer.say(Words(en="Parameter and what it means", de="Kenngröße und ihre Bedeutung"))),
         *values.columns,
     )
     groups = []
@@ -136,37 +136,37 @@ def _parameters(evaluation: Evaluation, scribe: Scribe) -> Table:
         rows = tuple(
             (
                 Symbol(parameter.quantity.notation),
-                Explained(scribe.say(parameter.quantity.name), scribe.say(parameter.quantity.meaning)),
+                Explained(writer.say(parameter.quantity.name), writer.say(parameter.quantity.meaning)),
                 *values.cells(parameter),
             )
             for parameter in evaluation.parameters
             if parameter.quantity.group is group
         )
         if rows:
-            groups.append(RowGroup(rows, scribe.say(heading), scribe.say(note)))
+            groups.append(RowGroup(rows, writer.say(heading), writer.say(note)))
     return Table(
-        scribe.say(Words(en="Parameters of the axis", de="Kenngrößen der Achse")), columns, tuple(groups)
+        writer.say(Words(en="Parameters of the axis", de="Kenngrößen der Achse")), columns, tuple(groups)
     )
 
 
-def _positions(evaluation: Evaluation, scribe: Scribe) -> Table:
+def _positions(evaluation: Evaluation, writer: Writer) -> Table:
     """Return the table by position; it shows n where readings are missing somewhere."""
     statistics = evaluation.statistics
     measurements = evaluation.measurements
-    unit = scribe.deviation_unit.symbol
+    unit = writer.deviation_unit.symbol
     index = f"_{{{evaluation.position_index}}}"
     columns = [
         Column(Symbol(evaluation.position_index), align=Align.RIGHT),
-        Column(Symbol(f"P{index}"), scribe.position_unit.symbol, Align.RIGHT),
+        Column(Symbol(f"P{index}"), writer.position_unit.symbol, Align.RIGHT),
     ]
     cells: list[tuple[str, ...]] = [
         tuple(str(number) for number in range(1, len(measurements.target_positions) + 1)),
-        tuple(scribe.position(float(target)) for target in measurements.target_positions),
+        tuple(writer.position(float(target)) for target in measurements.target_positions),
     ]
 
     def add(notation: str, values: FloatArray) -> None:
         columns.append(Column(Symbol(notation), unit, Align.RIGHT))
-        cells.append(tuple(scribe.deviation(float(value)) for value in values))
+        cells.append(tuple(writer.deviation(float(value)) for value in values))
 
     for approach in measurements.approaches:
         if measurements.missing():
@@ -180,13 +180,13 @@ def _positions(evaluation: Evaluation, scribe: Scribe) -> Table:
         add(f"B{index}", statistics.reversal_value)
     for arrows, expanded in _mean_uncertainties(evaluation):
         columns.append(Column(Symbol(f"U(x̄{index}{arrows})"), unit, Align.RIGHT))
-        cells.append(tuple(written_uncertainty(float(value), scribe) for value in expanded))
+        cells.append(tuple(written_uncertainty(float(value), writer) for value in expanded))
     for column in evaluation.columns:
         if any(value == value for value in column.values.tolist()):  # noqa: PLR0124 - NaN is what differs from itself
             add(column.quantity.notation, column.values)
     caption = Words(en="Results by target position", de="Ergebnisse nach Sollposition")
     return Table(
-        scribe.say(caption), tuple(columns), (RowGroup(tuple(zip(*cells, strict=True))),), dense=True
+        writer.say(caption), tuple(columns), (RowGroup(tuple(zip(*cells, strict=True))),), dense=True
     )
 
 
@@ -204,14 +204,14 @@ def _mean_uncertainties(evaluation: Evaluation) -> Iterator[tuple[str, FloatArra
         yield approach.arrow, values
 
 
-def _requirements(evaluation: Evaluation, scribe: Scribe) -> Table:
+def _requirements(evaluation: Evaluation, writer: Writer) -> Table:
     columns = (
-        Column(scribe.say(Words(en="Requirement on the test", de="Anforderung an die Messung"))),
-        Column(scribe.say(Words(en="Found", de="Vorgefunden"))),
-        Column(scribe.say(Words(en="Result", de="Ergebnis"))),
+        Column(writer.say(Words(en="Requirement on the test", de="Anforderung an die Messung"))),
+        Column(writer.say(Words(en="Found", de="Vorgefunden"))),
+        Column(writer.say(Words(en="Result", de="Ergebnis"))),
     )
     rows = tuple(
-        (_requirement(finding, scribe), scribe.say(finding.found), _mark(finding, scribe))
+        (_requirement(finding, writer), writer.say(finding.found), _mark(finding, writer))
         for finding in evaluation.findings
     )
     caption = Words(
@@ -220,35 +220,35 @@ def _requirements(evaluation: Evaluation, scribe: Scribe) -> Table:
         de="Anforderungen an die Messung. Mit * bezeichnete werden nach dem Verständnis dieses Programms "
         "angewandt und nicht aus dem Wortlaut der Norm zitiert.",
     )
-    return Table(scribe.say(caption), columns, (RowGroup(rows),))
+    return Table(writer.say(caption), columns, (RowGroup(rows),))
 
 
-def _requirement(finding: Finding, scribe: Scribe) -> str:
-    words = scribe.say(finding.requirement)
+def _requirement(finding: Finding, writer: Writer) -> str:
+    words = writer.say(finding.requirement)
     return words if finding.basis is Basis.PUBLISHED else f"{words} *"
 
 
-def _mark(finding: Finding, scribe: Scribe) -> Verdict:
+def _mark(finding: Finding, writer: Writer) -> Verdict:
     if finding.met is None:
-        return Verdict(Mark.OPEN, scribe.say(_OPEN))
+        return Verdict(Mark.OPEN, writer.say(_OPEN))
     if finding.met:
-        return Verdict(Mark.MET, scribe.say(_MET))
-    return Verdict(Mark.NOT_MET, scribe.say(_NOT_MET))
+        return Verdict(Mark.MET, writer.say(_MET))
+    return Verdict(Mark.NOT_MET, writer.say(_NOT_MET))
 
 
-def _definitions(evaluation: Evaluation, scribe: Scribe) -> Formulas:
+def _definitions(evaluation: Evaluation, writer: Writer) -> Formulas:
     caption = Words(
         en="Definitions. Names describe the parameters; the formulas define what was computed.",
         de="Definitionen. Die Namen beschreiben die Kenngrößen; maßgebend für die Berechnung sind die "
         "Formeln.",
     )
     return Formulas(
-        scribe.say(caption),
+        writer.say(caption),
         tuple(
             (
                 Symbol(parameter.quantity.notation),
                 Symbol(parameter.quantity.formula),
-                scribe.say(parameter.quantity.name),
+                writer.say(parameter.quantity.name),
             )
             for parameter in evaluation.parameters
         ),

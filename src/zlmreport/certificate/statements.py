@@ -6,10 +6,10 @@ from collections.abc import Iterator
 
 from zlmreport.certificate import exclusions
 from zlmreport.certificate.document import Block, Notice, Paragraph
-from zlmreport.certificate.marks import BY_CUSTOMER, EXTERNAL
-from zlmreport.certificate.scribe import Scribe
 from zlmreport.job.keys import JobKeys
 from zlmreport.language import Words, same
+from zlmreport.presenting.marks import BY_CUSTOMER, EXTERNAL
+from zlmreport.presenting.writer import Writer
 
 ONLY_THIS_ITEM = Words(
     en="The results relate only to the item calibrated, in its condition at the time of the measurement.",
@@ -47,17 +47,17 @@ _FROM = Words(en="{results}: {provider}", de="{results}: {provider}")
 _FROM_REPORT = Words(en="{results}: {provider}, {reference}", de="{results}: {provider}, {reference}")
 
 
-def notices(keys: JobKeys, scribe: Scribe) -> Iterator[Notice]:
+def notices(keys: JobKeys, writer: Writer) -> Iterator[Notice]:
     """Yield what nobody may overlook: how the work departed from the method, and what others did."""
     deviations = keys.measurement.deviations_from_method
-    items = (*([deviations] if deviations else []), *exclusions.stated(keys, scribe))
+    items = (*([deviations] if deviations else []), *exclusions.stated(keys, writer))
     if items:
-        yield Notice(scribe.say(_DEVIATIONS), items)
+        yield Notice(writer.say(_DEVIATIONS), items)
     if keys.external:
         yield Notice(
-            scribe.say(_EXTERNAL.given(mark=EXTERNAL)),
+            writer.say(_EXTERNAL.given(mark=EXTERNAL)),
             tuple(
-                scribe.say(
+                writer.say(
                     (_FROM_REPORT if each.reference else _FROM).given(
                         results=each.results, provider=each.provider, reference=each.reference or ""
                     )
@@ -67,15 +67,15 @@ def notices(keys: JobKeys, scribe: Scribe) -> Iterator[Notice]:
         )
 
 
-def paragraphs(keys: JobKeys, scribe: Scribe) -> Iterator[Block]:
+def paragraphs(keys: JobKeys, writer: Writer) -> Iterator[Block]:
     """Yield the statements in running text."""
     if keys.provided_by_customer:
-        yield Paragraph(scribe.say(_SUPPLIED.given(mark=BY_CUSTOMER)))
+        yield Paragraph(writer.say(_SUPPLIED.given(mark=BY_CUSTOMER)))
     if keys.agreement.simplified:
         reference = keys.agreement.reference
-        yield Paragraph(scribe.say(_SIMPLIFIED.given(reference=same(f" ({reference})") if reference else "")))
+        yield Paragraph(writer.say(_SIMPLIFIED.given(reference=same(f" ({reference})") if reference else "")))
     if keys.instrument and keys.instrument.certificate:
-        yield Paragraph(scribe.say(_TRACEABLE.given(certificate=keys.instrument.certificate)))
-    yield Paragraph(scribe.say(ONLY_THIS_ITEM))
+        yield Paragraph(writer.say(_TRACEABLE.given(certificate=keys.instrument.certificate)))
+    yield Paragraph(writer.say(ONLY_THIS_ITEM))
     if keys.certificate.kind == "certificate":
-        yield Paragraph(scribe.say(_ONLY_IN_FULL))
+        yield Paragraph(writer.say(_ONLY_IN_FULL))

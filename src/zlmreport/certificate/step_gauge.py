@@ -6,10 +6,10 @@ from collections.abc import Iterator
 
 from zlmreport.certificate.document import Graph
 from zlmreport.certificate.facts import Fact
-from zlmreport.certificate.scribe import Scribe
 from zlmreport.figures.gauge_calibration import gauge_calibration
 from zlmreport.job.job import Job
 from zlmreport.language import Words
+from zlmreport.presenting.writer import Writer
 from zlmreport.quantities.formatting import fixed_number
 from zlmreport.quantities.units import MICRORADIAN, MILLIMETRE
 from zlmreport.step_gauge.location import Located
@@ -18,7 +18,7 @@ from zlmreport.step_gauge.set_up import gauge_set_up
 _SECTION = Words(en="blocks {first} to {last}", de="Blöcke {first} bis {last}")
 
 
-def facts(job: Job, scribe: Scribe) -> Iterator[Fact]:
+def facts(job: Job, writer: Writer) -> Iterator[Fact]:
     """Yield the section of the gauge that was used, and where it lay; nothing for another instrument."""
     set_up = gauge_set_up(job)
     if set_up is None:
@@ -26,11 +26,11 @@ def facts(job: Job, scribe: Scribe) -> Iterator[Fact]:
     numbers = set_up.gauge.blocks
     yield Fact(
         Words(en="Section used", de="Benutzter Abschnitt"),
-        scribe.say(_SECTION.given(first=numbers[0], last=numbers[-1])),
+        writer.say(_SECTION.given(first=numbers[0], last=numbers[-1])),
         ("step_gauge.first_block", "step_gauge.last_block"),
     )
     if set_up.located:
-        yield from _location(set_up.located, scribe)
+        yield from _location(set_up.located, writer)
 
 
 def graph(job: Job) -> Iterator[Graph]:
@@ -40,23 +40,23 @@ def graph(job: Job) -> Iterator[Graph]:
         yield Graph(gauge_calibration(set_up.gauge))
 
 
-def _location(located: Located, scribe: Scribe) -> Iterator[Fact]:
+def _location(located: Located, writer: Writer) -> Iterator[Fact]:
     key = ("step_gauge.initial_points",)
     location = located.location
-    yield Fact(Words(en="Begins at C1", de="Beginnt bei C1"), _point(location.begin, scribe), key)
-    yield Fact(Words(en="Ends at C2", de="Endet bei C2"), _point(location.end, scribe), key)
+    yield Fact(Words(en="Begins at C1", de="Beginnt bei C1"), _point(location.begin, writer), key)
+    yield Fact(Words(en="Ends at C2", de="Endet bei C2"), _point(location.end, writer), key)
     yield Fact(
         Words(en="Direction C1C2", de="Richtung C1C2"),
-        f"u = {_two_digits(MICRORADIAN.from_si(location.direction_uncertainty), scribe)} µrad",
+        f"u = {_two_digits(MICRORADIAN.from_si(location.direction_uncertainty), writer)} µrad",
         key,
     )
 
 
-def _point(coordinates: tuple[float, float, float], scribe: Scribe) -> str:
+def _point(coordinates: tuple[float, float, float], writer: Writer) -> str:
     """Write coordinates to a micrometre: x / y / z."""
-    sign = scribe.language.decimal_sign
+    sign = writer.language.decimal_sign
     return " / ".join(fixed_number(MILLIMETRE.from_si(each), 3, sign) for each in coordinates) + " mm"
 
 
-def _two_digits(value: float, scribe: Scribe) -> str:
-    return scribe.number(float(f"{value:.2g}"))
+def _two_digits(value: float, writer: Writer) -> str:
+    return writer.number(float(f"{value:.2g}"))

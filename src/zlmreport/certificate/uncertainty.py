@@ -18,11 +18,11 @@ from zlmreport.certificate.document import (
     Symbol,
     Table,
 )
-from zlmreport.certificate.scribe import Scribe
 from zlmreport.figures.bars import budget_bars
 from zlmreport.language import Words
 from zlmreport.measurement.axis import Axis
-from zlmreport.quantities.formatting import fixed_number
+from zlmreport.presenting.writer import Writer
+from zlmreport.quantities.formatting import percentage
 from zlmreport.quantities.uncertain import rounded_pair
 from zlmreport.uncertainty import wording
 from zlmreport.uncertainty.budget import Budget, NoBudget
@@ -77,83 +77,78 @@ _NO_BUDGET = Words(
     en="The uncertainty of the parameters is not evaluated: {reason}.",
     de="Die Messunsicherheit der Kenngrößen ist nicht ermittelt: {reason}.",
 )
-_PERCENT = 100.0
 
 
-def statement(budget: Budget | NoBudget, scribe: Scribe) -> Paragraph:
+def statement(budget: Budget | NoBudget, writer: Writer) -> Paragraph:
     """Return what U means, or why there is none: for the first page."""
     if isinstance(budget, NoBudget):
-        return Paragraph(scribe.say(_NO_BUDGET.given(reason=budget.reason)))
-    return Paragraph(scribe.say(_COVERAGE))
+        return Paragraph(writer.say(_NO_BUDGET.given(reason=budget.reason)))
+    return Paragraph(writer.say(_COVERAGE))
 
 
-def section(budget: Budget | NoBudget, axis: Axis, scribe: Scribe) -> Section:
+def section(budget: Budget | NoBudget, axis: Axis, writer: Writer) -> Section:
     """Return the section on the uncertainty of everything that the document states."""
-    return Section("uncertainty", scribe.say(_TITLE), tuple(_blocks(budget, axis, scribe)))
+    return Section("uncertainty", writer.say(_TITLE), tuple(_blocks(budget, axis, writer)))
 
 
-def _blocks(budget: Budget | NoBudget, axis: Axis, scribe: Scribe) -> Iterator[Block]:
-    yield statement(budget, scribe)
+def _blocks(budget: Budget | NoBudget, axis: Axis, writer: Writer) -> Iterator[Block]:
+    yield statement(budget, writer)
     if isinstance(budget, NoBudget):
         return
-    yield Paragraph(scribe.say(_METHOD.given(trials=TRIALS)))
-    yield Paragraph(scribe.say(_SCATTER))
-    yield _table(budget, scribe)
+    yield Paragraph(writer.say(_METHOD.given(trials=TRIALS)))
+    yield Paragraph(writer.say(_SCATTER))
+    yield _table(budget, writer)
     yield Graph(budget_bars(budget, axis))
     if budget.not_considered:
-        yield Notice(scribe.say(_NOT_CONSIDERED), tuple(map(scribe.say, budget.not_considered)))
+        yield Notice(writer.say(_NOT_CONSIDERED), tuple(map(writer.say, budget.not_considered)))
 
 
-def _table(budget: Budget, scribe: Scribe) -> Table:
+def _table(budget: Budget, writer: Writer) -> Table:
     columns = (
-        Column(scribe.say(Words(en="Symbol", de="Zeichen"))),
-        Column(scribe.say(Words(en="Contribution and its source", de="Beitrag und seine Quelle"))),
+        Column(writer.say(Words(en="Symbol", de="Zeichen"))),
+        Column(writer.say(Words(en="Contribution and its source", de="Beitrag und seine Quelle"))),
         Column(
-            scribe.say(Words(en="Stated", de="Angabe"))
-            + scribe.marks.after("instrument", "environment", "uncertainty")
+            writer.say(Words(en="Stated", de="Angabe"))
+            + writer.marks.after("instrument", "environment", "uncertainty")
         ),
-        Column(scribe.say(Words(en="Distribution", de="Verteilung"))),
-        Column(Symbol("u"), scribe.deviation_unit.symbol, Align.RIGHT),
-        Column(scribe.say(Words(en="Share", de="Anteil")), "%", Align.RIGHT),
+        Column(writer.say(Words(en="Distribution", de="Verteilung"))),
+        Column(Symbol("u"), writer.deviation_unit.symbol, Align.RIGHT),
+        Column(writer.say(Words(en="Share", de="Anteil")), "%", Align.RIGHT),
     )
     groups = [
-        RowGroup(rows, scribe.say(wording.ACTS[acts]))
+        RowGroup(rows, writer.say(wording.ACTS[acts]))
         for acts in Acts
-        if (rows := tuple(_rows(budget, acts, scribe)))
+        if (rows := tuple(_rows(budget, acts, writer)))
     ]
     total = (
         Symbol("u"),
-        scribe.say(_COMBINED_OF),
+        writer.say(_COMBINED_OF),
         "",
         "",
-        _size(budget.standard_uncertainty, scribe),
-        _percent(1.0, scribe),
+        _size(budget.standard_uncertainty, writer),
+        percentage(1.0, writer.language.decimal_sign, 1),
     )
-    return Table(scribe.say(_CAPTION), columns, (*groups, RowGroup((total,), scribe.say(_COMBINED))))
+    return Table(writer.say(_CAPTION), columns, (*groups, RowGroup((total,), writer.say(_COMBINED))))
 
 
-def _rows(budget: Budget, acts: Acts, scribe: Scribe) -> Iterator[tuple[Cell, ...]]:
+def _rows(budget: Budget, acts: Acts, writer: Writer) -> Iterator[tuple[Cell, ...]]:
     for number, each in enumerate(budget.contributions, 1):
         if each.acts is acts:
-            yield _row(number, each, budget.share(each), scribe)
+            yield _row(number, each, budget.share(each), writer)
 
 
-def _row(number: int, contribution: Contribution, share: float, scribe: Scribe) -> tuple[Cell, ...]:
+def _row(number: int, contribution: Contribution, share: float, writer: Writer) -> tuple[Cell, ...]:
     return (
         Symbol(f"u_{{{number}}}"),
-        Explained(scribe.say(contribution.name), scribe.say(contribution.source)),
-        scribe.say(contribution.stated),
-        scribe.say(wording.DISTRIBUTIONS[contribution.distribution]),
-        _size(contribution.standard_uncertainty, scribe),
-        _percent(share, scribe),
+        Explained(writer.say(contribution.name), writer.say(contribution.source)),
+        writer.say(contribution.stated),
+        writer.say(wording.DISTRIBUTIONS[contribution.distribution]),
+        _size(contribution.standard_uncertainty, writer),
+        percentage(share, writer.language.decimal_sign, 1),
     )
 
 
-def _size(value: float, scribe: Scribe) -> str:
+def _size(value: float, writer: Writer) -> str:
     """Write a standard uncertainty to two significant digits."""
-    printed = scribe.deviation_unit.from_si(value)
-    return rounded_pair(printed, printed, scribe.language.decimal_sign)[1] if value else "0"
-
-
-def _percent(share: float, scribe: Scribe) -> str:
-    return fixed_number(_PERCENT * share, 1, scribe.language.decimal_sign)
+    printed = writer.deviation_unit.from_si(value)
+    return rounded_pair(printed, printed, writer.language.decimal_sign)[1] if value else "0"

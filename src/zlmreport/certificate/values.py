@@ -7,10 +7,10 @@ from dataclasses import dataclass
 
 from zlmreport.certificate import conformity
 from zlmreport.certificate.document import Align, Cell, Column, Symbol
-from zlmreport.certificate.rounding import written
-from zlmreport.certificate.scribe import NOTHING, Scribe
 from zlmreport.evaluation.evaluation import Evaluation, Parameter
 from zlmreport.language import Words
+from zlmreport.presenting.amounts import written
+from zlmreport.presenting.writer import NOTHING, Writer
 from zlmreport.quantities.formatting import fixed_number
 
 _VALUE = Words(en="Value", de="Wert")
@@ -25,22 +25,22 @@ class Values:
 
     Attributes
     ----------
-    scribe
+    writer
         Writes them.
     has_uncertainty, has_limits
         Whether any parameter in the table has an uncertainty, or a limit: without one there is no column.
     """
 
-    scribe: Scribe
+    writer: Writer
     has_uncertainty: bool
     has_limits: bool
 
     @classmethod
-    def of(cls, evaluations: Iterable[Evaluation], scribe: Scribe) -> Values:
+    def of(cls, evaluations: Iterable[Evaluation], writer: Writer) -> Values:
         """Return the columns for the parameters of evaluations."""
         parameters = [parameter for each in evaluations for parameter in each.parameters]
         return cls(
-            scribe,
+            writer,
             any(parameter.expanded_uncertainty is not None for parameter in parameters),
             any(parameter.limit is not None for parameter in parameters),
         )
@@ -55,35 +55,35 @@ class Values:
         return tuple(self._cells(parameter))
 
     def _columns(self) -> Iterator[Column]:
-        say, unit = self.scribe.say, self.scribe.deviation_unit.symbol
+        say, unit = self.writer.say, self.writer.deviation_unit.symbol
         yield Column(say(_VALUE), unit, Align.RIGHT)
         if self.has_uncertainty:
             yield Column(Symbol("U"), unit, Align.RIGHT)
             yield Column(Symbol("k"), align=Align.RIGHT)
         if self.has_limits:
-            yield Column(say(_LIMIT) + self.scribe.marks.after("evaluate.tolerances"), unit, Align.RIGHT)
+            yield Column(say(_LIMIT) + self.writer.marks.after("evaluate.tolerances"), unit, Align.RIGHT)
             yield Column(say(_CONFORMITY))
 
     def _cells(self, parameter: Parameter) -> Iterator[Cell]:
-        value, uncertainty = written(parameter, self.scribe)
+        value, uncertainty = written(parameter, self.writer)
         yield value
         if self.has_uncertainty:
             yield uncertainty
-            yield coverage_factor(parameter, self.scribe)
+            yield coverage_factor(parameter, self.writer)
         if self.has_limits:
-            yield limit(parameter, self.scribe)
-            yield conformity.verdict(parameter, self.scribe)
+            yield limit(parameter, self.writer)
+            yield conformity.verdict(parameter, self.writer)
 
 
-def coverage_factor(parameter: Parameter, scribe: Scribe) -> str:
+def coverage_factor(parameter: Parameter, writer: Writer) -> str:
     """Write k; nothing where there is no uncertainty to cover."""
     if not parameter.expanded_uncertainty or parameter.coverage_factor is None:
         return NOTHING
-    return fixed_number(parameter.coverage_factor, _DECIMALS_OF_K, scribe.language.decimal_sign)
+    return fixed_number(parameter.coverage_factor, _DECIMALS_OF_K, writer.language.decimal_sign)
 
 
-def limit(parameter: Parameter, scribe: Scribe) -> str:
+def limit(parameter: Parameter, writer: Writer) -> str:
     """Write a parameter's limit as the job states it, with no digits added."""
     if parameter.limit is None:
         return NOTHING
-    return scribe.number(scribe.deviation_unit.from_si(parameter.limit))
+    return writer.number(writer.deviation_unit.from_si(parameter.limit))

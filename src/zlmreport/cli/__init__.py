@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from typing import TextIO
 
 from zlmreport.cli.arguments import parse
-from zlmreport.cli.messages import print_problems
+from zlmreport.cli.terminal import print_problems
 from zlmreport.errors import AccessError, Place, ZlmreportError
 
 #: What a shell sees of a program that these signals ended.

@@ -9,14 +9,15 @@ from zlmreport import pipeline
 from zlmreport.capture.history import History, read_history
 from zlmreport.capture.of_job import Assignment, assignment_of, instrument_of, options_of
 from zlmreport.certificate.clauses import demand_mandatory_items
-from zlmreport.certificate.scribe import Scribe
 from zlmreport.cli.capture_display import LiveDisplay, is_watched
 from zlmreport.cli.capture_sitting import capture
-from zlmreport.cli.terminal import Colour, requirements, shown_path
+from zlmreport.cli.job_lines import requirements
+from zlmreport.cli.terminal import Colour, shown_path
 from zlmreport.job.job import Job
 from zlmreport.language import Language
 from zlmreport.planning.plan import as_measured, propose
 from zlmreport.plugins import Registry
+from zlmreport.presenting.writer import Writer
 
 
 def assignment(job: Job, registry: Registry) -> Assignment:
@@ -43,10 +44,10 @@ def planned(path: Path, job: Job, registry: Registry) -> Iterator[str]:
     """Yield the lines on a job that awaits its capture: what its standards ask of the test as planned."""
     plan = assignment(job, registry).plan
     test = as_measured(job.axis, plan.method, plan.targets, plan.runs)
-    scribe = Scribe.of(test, Language.ENGLISH)
+    writer = Writer.of(test, Language.ENGLISH)
     yield f"{Colour.BOLD.of(str(path))}  the job is sound; its readings are still to be captured"
     for standard, options in pipeline.standards(job, registry):
-        yield from requirements(standard.designation, standard.requirements(test, options), scribe)
+        yield from requirements(standard.designation, standard.requirements(test, options), writer)
     yield f"  next: zlmreport capture {shown_path(path)}{' --resume' if _has_begun(job) else ''}"
 
 

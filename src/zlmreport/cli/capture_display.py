@@ -17,8 +17,7 @@ from zlmreport.capture.records import MOMENTARY, to_record
 from zlmreport.capture.visit_list import ListedVisit
 from zlmreport.cli.capture_lines import Scribe, duration, halted, line_on, what_to_do
 from zlmreport.cli.capture_panel import panel
-from zlmreport.cli.messages import visible
-from zlmreport.cli.terminal import Colour
+from zlmreport.cli.terminal import Colour, visible
 from zlmreport.errors import AccessError, InputError, Place
 from zlmreport.job.job import Job
 from zlmreport.live.reading import LiveReading

@@ -7,8 +7,7 @@ import sys
 from argparse import Namespace
 from typing import Any
 
-from zlmreport.cli.messages import visible
-from zlmreport.cli.terminal import Colour, shown_path
+from zlmreport.cli.terminal import Colour, shown_path, visible
 from zlmreport.errors import InputError, Place
 from zlmreport.probing.answers import MachineError
 from zlmreport.probing.run import LiveProbing, Watcher, run_probing

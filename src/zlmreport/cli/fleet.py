@@ -15,8 +15,7 @@ from typing import Any, Self
 from zlmreport import __version__
 from zlmreport.cli.fleet_log import JsonLog, TextLog, by_word, of_job
 from zlmreport.cli.fleet_progress import Progress
-from zlmreport.cli.messages import visible
-from zlmreport.cli.summary import print_json
+from zlmreport.cli.terminal import print_json, visible
 from zlmreport.errors import AccessError, InputError, Place
 from zlmreport.fleet.desk import Happened, What
 from zlmreport.fleet.night import foretell, spend

@@ -8,7 +8,7 @@ from collections import Counter
 from collections.abc import Iterator, Mapping
 from typing import Any, TextIO
 
-from zlmreport.cli.messages import visible
+from zlmreport.cli.terminal import visible
 from zlmreport.errors import Problem
 from zlmreport.fleet.desk import Happened, What
 

@@ -6,9 +6,9 @@ from argparse import Namespace
 from collections.abc import Callable, Iterable, Sequence
 from functools import partial
 
-from zlmreport.cli.messages import print_problems
 from zlmreport.cli.results import Result, attempt, refuse_shared_files
-from zlmreport.cli.summary import print_json, summary
+from zlmreport.cli.summary import summary
+from zlmreport.cli.terminal import print_json, print_problems
 from zlmreport.job.job import Job
 
 

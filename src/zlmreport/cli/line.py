@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 from types import FrameType
 from typing import NoReturn
 
-from zlmreport.cli.messages import visible
+from zlmreport.cli.terminal import visible
 from zlmreport.emulation.channels import LocalSocket, PseudoTerminal
 from zlmreport.emulation.emulator import Emulator
 from zlmreport.emulation.faults import Planned, Trouble, Troubles

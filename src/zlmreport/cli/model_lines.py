@@ -1,156 +1,274 @@
-"""What people read of an error model on a terminal: its error and its parameters."""
+"""What people read of an error model on a terminal: its error, its parameters, its diagnosis, its fall."""
 
 from __future__ import annotations
 
-import re
-import shutil
-import textwrap
+import sys
 from collections.abc import Iterator, Sequence
-from math import degrees
+from pathlib import Path
 
-from zlmreport.cli.terminal import Colour, table
+from zlmreport.certificate.forecast import Forecast
+from zlmreport.cli.model_values import Change, Points
+from zlmreport.cli.terminal import Colour, said, shown_path, table, wrapped
 from zlmreport.job.job import Job
-from zlmreport.language import Language, Words
-from zlmreport.model import wording
-from zlmreport.model.design import Design
-from zlmreport.model.diagnosis import ErrorNumbers
-from zlmreport.model.effect import Dimension, unit_of
-from zlmreport.model.estimate import Estimate, Plausibility
+from zlmreport.language import Language
+from zlmreport.measurement.axis import Axis
+from zlmreport.model.diagnosis import Diagnosis, ErrorNumbers, Verdict
+from zlmreport.model.estimate import Plausibility
 from zlmreport.model.fit import Fit
-from zlmreport.model.study import Fitted, waves
-from zlmreport.quantities.formatting import fixed_number, general_number
+from zlmreport.model.report import listed
+from zlmreport.model.study import Fitted
+from zlmreport.presenting.diagnosis import CandidateRow, DiagnosisRows
+from zlmreport.presenting.model import (
+    ErrorRows,
+    ParameterRow,
+    deviation,
+    no_table_takes_away,
+    parameter_rows,
+    wave_rows,
+)
+from zlmreport.presenting.writer import Writer
+from zlmreport.quantities.formatting import general_number
+from zlmreport.quantities.notation import plain
 from zlmreport.quantities.uncertain import rounded_pair
 
-_USUAL_WIDTH, _SMALLEST_WIDTH = 110, 60
-#: A blank at which no line ends: before a number or a unit, and around a sign between numbers.
-_HELD = "\N{NO-BREAK SPACE}"
-_WITHIN_A_VALUE = re.compile(
-    r" (?=[−\d]|[±=<≈] )|(?<=[±=<≈]) |(?<=\d) (?=(?:[mµn]?m|s|min|readings|%|°|″)(?!\w))"
-)
+_ENGLISH = Language.ENGLISH
+_VERDICTS = {
+    Verdict.ADEQUATE: Colour.GREEN,
+    Verdict.MISSING: Colour.YELLOW,
+    Verdict.UNEXPLAINED: Colour.RED,
+}
 _DOUBTS = {Plausibility.DOUBTFUL: Colour.YELLOW, Plausibility.IMPLAUSIBLE: Colour.RED}
-
-
-def said(words: Words) -> str:
-    """Return words as the terminal has them: in English."""
-    return words.in_language(Language.ENGLISH)
-
-
-def width() -> int:
-    """Return how many letters a line may have."""
-    return max(_SMALLEST_WIDTH, shutil.get_terminal_size((_USUAL_WIDTH, 0)).columns)
-
-
-def wrapped(text: str, indent: str = "  ") -> list[str]:
-    """Return a text in lines that fit, all but the first further in; no line ends within a value."""
-    lines = textwrap.wrap(
-        _WITHIN_A_VALUE.sub(_HELD, text),
-        width(),
-        initial_indent=indent,
-        subsequent_indent=f"{indent}  ",
-        break_on_hyphens=False,
-    )
-    return [line.replace(_HELD, " ") for line in lines]
-
-
-def heading(job: Job, identifiers: Sequence[str]) -> str:
-    """Return the first line: which job, which axis, which model."""
-    model = " + ".join(identifiers) or "no effects yet"
-    return f"{Colour.BOLD.of(job.keys.certificate.number)}  axis {job.axis.name}: {model}"
+_FURTHER_IN = "     "
+_BAR_WIDTH = 28
+_EIGHTHS = " ▏▎▍▌▋▊▉█"
 
 
 def fit_lines(fitted: Fitted, job: Job) -> Iterator[str]:
     """Yield the lines on a fitted model."""
-    yield heading(job, fitted.fit.model.identifiers)
+    yield _heading(job, fitted.fit)
     yield ""
-    yield f"  {error_line(fitted.error, fitted.fit.design)}"
+    yield f"  {error_line(fitted.error, fitted.fit.design.axis)}"
     yield ""
-    yield from parameter_lines(fitted.fit)
+    yield from _parameters(fitted.fit)
 
 
-def error_line(error: ErrorNumbers, design: Design) -> str:
+def error_line(error: ErrorNumbers, axis: Axis) -> str:
     """Return how far model and readings are apart, in a line."""
-    parts = [f"error {_deviation(error.rms, design)} rms"]
-    if error.noise_rms is not None:
-        parts.append(f"noise floor {_deviation(error.noise_rms, design)}")
-    if error.chi2_per_dof is not None:
-        parts.append(f"χ²/ν {said(wording.significant(error.chi2_per_dof))}")
-    if error.cross_validated_rms is not None:
-        parts.append(f"runs left out {_deviation(error.cross_validated_rms, design)}")
-    return "   ".join(parts)
-
-
-def parameter_lines(fit: Fit) -> Iterator[str]:
-    """Yield the parameters of a model with their uncertainties, waves by amplitude and phase."""
-    rows: list[tuple[str, ...]] = []
-    of_waves = list(_wave_rows(fit))
-    by_wave = {effect for effect, *_ in of_waves}
-    for identifier in fit.model.identifiers:
-        rows.extend(row for row in of_waves if row[0] == identifier)
-        rows.extend(
-            (identifier, each.parameter.name, *_value(each, fit.design), _remark(each, fit.design))
-            for each in fit.estimates
-            if each.effect == identifier
-            and not (identifier in by_wave and each.parameter.name.startswith(("sine", "cosine")))
-        )
-    shown: list[tuple[str, ...]] = []
-    for row in rows:
-        is_first = not shown or row[0] != rows[len(shown) - 1][0]
-        shown.append((row[0] if is_first else "", *row[1:]))
-    yield from table(shown, right=(2,), indent="  ")
-
-
-def estimate_text(estimate: Estimate, design: Design) -> str:
-    """Return a parameter within a sentence: ``drift 3.1 ± 0.4 µm``."""
-    value, uncertainty = _value(estimate, design)
-    remark = _remark(estimate, design)
-    return f"{estimate.parameter.name} {value} {uncertainty}".strip() + (f" ({remark})" if remark else "")
-
-
-def _wave_rows(fit: Fit) -> Iterator[tuple[str, ...]]:
-    unit = fit.design.axis.deviation_unit
-    angle = unit_of(Dimension.ANGLE, fit.design.axis.kind)
-    for wave in waves(fit):
-        harmonic, k = wave.harmonic, wave.coverage_factor
-        value, half = rounded_pair(
-            unit.from_si(harmonic.amplitude), k * unit.from_si(harmonic.amplitude_uncertainty)
-        )
-        name = "amplitude" if harmonic.order == 1 else f"amplitude {harmonic.order}"
-        phase = f"phase {general_number(round(degrees(harmonic.phase)))}{angle.symbol}"
-        yield wave.effect, name, value, f"± {half} {unit.symbol}", phase
-
-
-def _value(estimate: Estimate, design: Design) -> tuple[str, str]:
-    """Return a value, and its uncertainty with the unit."""
-    unit = unit_of(estimate.parameter.dimension, design.axis.kind, time_is_counted=design.time_is_counted)
-    if estimate.is_given:
-        return general_number(estimate.value * unit.per_si), f"{unit.symbol} (given)".strip()
-    value, half = rounded_pair(estimate.value * unit.per_si, estimate.expanded_uncertainty * unit.per_si)
-    grid = " (grid)" if estimate.is_scanned else ""
-    return value, f"± {half} {unit.symbol}".rstrip() + grid
-
-
-def _remark(estimate: Estimate, design: Design) -> str:
-    """Return what is to be said of a value that is not plausible, or of one that was expected."""
-    plausibility = estimate.plausibility(time_is_counted=design.time_is_counted)
-    if plausibility in _DOUBTS:
-        return _DOUBTS[plausibility].of(plausibility.value)
-    if estimate.expected is not None and not estimate.is_given:
-        unit = unit_of(estimate.parameter.dimension, design.axis.kind)
-        return f"expected {general_number(estimate.expected * unit.per_si)} {unit.symbol}".rstrip()
-    return ""
-
-
-def _deviation(value: float, design: Design) -> str:
-    unit = design.axis.deviation_unit
-    return f"{number(unit.from_si(value))} {unit.symbol}"
-
-
-def number(value: float) -> str:
-    """Write a number with two decimals, or more if it is small."""
-    if value != value:  # noqa: PLR0124 - NaN is what differs from itself
-        return "–"
-    return (
-        fixed_number(value, 2, Language.ENGLISH.decimal_sign)
-        if abs(value) >= 0.1
-        else said(wording.significant(value, 2))
+    rows = ErrorRows.of(error, axis, _ENGLISH)
+    parts = (
+        ("error", rows.rms, " rms"),
+        ("noise floor", rows.noise_floor, ""),
+        ("χ²/ν", rows.chi2_per_dof, ""),
+        ("runs left out", rows.left_out, ""),
     )
+    return "   ".join(f"{name} {value}{rest}" for name, value, rest in parts if value is not None)
+
+
+def point_lines(points: Points | None, axis: Axis) -> Iterator[str]:
+    """Yield a table of the deviation at the positions, a column for each direction."""
+    if points is None:
+        return
+    unit, position = axis.deviation_unit, axis.position_unit
+    heads = (
+        f"{axis.name} {position.symbol}",
+        *(f"{each.arrow} {unit.symbol}" for each in points.predictions),
+    )
+    rows = [heads]
+    for number, place in enumerate(position.from_si(points.positions).tolist()):
+        cells = (
+            rounded_pair(
+                unit.from_si(float(each.deviation[number])),
+                unit.from_si(float(each.expanded_uncertainty[number])),
+            )
+            for each in points.predictions.values()
+        )
+        rows.append((general_number(place), *map(" ± ".join, cells)))
+    yield ""
+    yield from table(rows, right=range(len(heads)), indent="  ")
+    when = "; at the mean time and the mean logged conditions of the test" if points.moves else ""
+    yield f"  deviation by the model, ± expanded uncertainty for 95 %{when}"
+
+
+def diagnosis_lines(diagnosis: Diagnosis, job: Job, path: str) -> Iterator[str]:
+    """Yield the lines on a diagnosis; `path` is the job as the user types it."""
+    fit, rows = diagnosis.fit, DiagnosisRows.of(diagnosis, _ENGLISH)
+    yield _heading(job, fit)
+    yield ""
+    for line in wrapped(rows.statement):
+        yield _VERDICTS[diagnosis.verdict].of(line)
+    yield f"  {error_line(diagnosis.error, fit.design.axis)}"
+    if fit.model.terms:
+        yield from ("", Colour.BOLD.of("model"))
+        yield from _parameters(fit)
+    if rows.failures:
+        yield from ("", Colour.BOLD.of("where it fails"))
+    for failure in rows.failures:
+        yield from wrapped(said(f"{failure.statement} ({failure.where}; {failure.p})"))
+    if rows.candidates:
+        yield from ("", Colour.BOLD.of("what may be missing"))
+        yield from _candidates(rows, fit.design.axis)
+    hidden = (*rows.hidden, *rows.not_tested)
+    if hidden:
+        yield from ("", Colour.BOLD.of("what this test cannot see"))
+    for each in hidden:
+        yield from wrapped(f"{', '.join(each.effects)}: {each.reason}")
+    yield ""
+    if rows.candidates and diagnosis.verdict is Verdict.MISSING:
+        argument = rows.candidates[0].argument
+        yield f"next: zlmreport model add {path} " + (f"'{argument}'" if ":" in argument else argument)
+    else:
+        yield f"next: zlmreport {path}"
+
+
+def history_lines(
+    history: Sequence[Fitted], forecasts: Sequence[Forecast], job: Job, writer: Writer
+) -> Iterator[str]:
+    """Yield how the error fell, effect by effect."""
+    yield _heading(job, history[-1].fit)
+    yield ""
+    yield from _fall(history, forecasts, writer)
+
+
+def change_lines(path: Path, change: Change, writer: Writer) -> Iterator[str]:
+    """Yield what became of the job, and how the error changed."""
+    shown, after = shown_path(path), change.history[-1]
+    axis = after.fit.design.axis
+    if change.edit.inherited_from:
+        origin = shown_path(path.parent / change.edit.inherited_from)
+        yield f"{shown} had its effects from {origin}; now they stand in {shown} itself"
+    done = [f"− {name}" for name in change.removed] + ([f"+ {change.added}"] if change.added else [])
+    yield f"{shown}: {', '.join(done)}"
+    yield ""
+    rows = [("before", error_line(change.before.error, axis)), ("after", error_line(after.error, axis))]
+    yield from table(rows, indent="  ")
+    yield ""
+    if change.added:
+        own = [each for each in parameter_rows(after.fit, _ENGLISH) if each.effect == change.added]
+        yield from wrapped(f"{change.added}: {', '.join(map(_in_a_sentence, own))}")
+        if not _stands_out(change.added, after.fit):
+            yield f"  {Colour.YELLOW.of('nothing')} of it exceeds its uncertainty: it may not be there"
+        yield ""
+    yield from _fall(change.history, change.forecasts, writer)
+    yield ""
+    yield f"next: zlmreport model diagnose {shown}"
+
+
+def _heading(job: Job, fit: Fit) -> str:
+    """Return the first line: which job, which axis, which model."""
+    model = " + ".join(fit.model.identifiers) or "no effects yet"
+    return f"{Colour.BOLD.of(job.keys.certificate.number)}  axis {job.axis.name}: {model}"
+
+
+def _parameters(fit: Fit) -> Iterator[str]:
+    """Yield the parameters of a model with their uncertainties, waves by amplitude and phase."""
+    of_waves = wave_rows(fit, _ENGLISH)
+    by_wave = {each.amplitude.effect for each in of_waves}
+    rows: list[tuple[str, ...]] = []
+    for identifier in fit.model.identifiers:
+        of_effect = [
+            (each.amplitude.name, *_amount(each.amplitude), f"phase {' '.join(_amount(each.phase))}")
+            for each in of_waves
+            if each.amplitude.effect == identifier
+        ]
+        of_effect += [
+            (each.name, *_amount(each), _remark(each))
+            for each in parameter_rows(fit, _ENGLISH)
+            if each.effect == identifier
+            and not (identifier in by_wave and each.name.startswith(("sine", "cosine")))
+        ]
+        rows += [("" if number else identifier, *cells) for number, cells in enumerate(of_effect)]
+    yield from table(rows, right=(2,), indent="  ")
+
+
+def _in_a_sentence(row: ParameterRow) -> str:
+    """Return a parameter within a sentence: ``drift 3.1 ± 0.4 µm``."""
+    remark = _remark(row)
+    return " ".join((row.name, *_amount(row))).strip() + (f" ({remark})" if remark else "")
+
+
+def _amount(row: ParameterRow) -> tuple[str, str]:
+    """Return a value, and its uncertainty with the unit."""
+    if row.is_given:
+        return row.value, f"{row.unit} (given)".strip()
+    return row.value, f"± {row.uncertainty} {row.unit}".rstrip() + (" (grid)" if row.is_on_grid else "")
+
+
+def _remark(row: ParameterRow) -> str:
+    """Return what is to be said of a value that is not plausible, or of one that was expected."""
+    if row.plausibility in _DOUBTS:
+        return _DOUBTS[row.plausibility].of(row.plausibility.value)
+    return f"expected {row.expected} {row.unit}".rstrip() if row.expected and not row.is_given else ""
+
+
+def _candidates(found: DiagnosisRows, axis: Axis) -> Iterator[str]:
+    rows = [("", "", "probability", f"rms {axis.deviation_unit.symbol}", "left out", "")]
+    for number, each in enumerate(found.candidates, start=1):
+        probability = f"{each.probability} %"
+        rows.append((str(number), each.effect, probability, each.rms, each.left_out, said(each.p)))
+    first, *lines = table(rows, right=(2, 3, 4), indent="  ")
+    yield first
+    for line, each in zip(lines, found.candidates, strict=True):
+        yield line
+        if each.is_serious:
+            yield from _details(each)
+            if found.not_excluded and each is found.candidates[0]:
+                names = ", ".join(found.not_excluded)
+                yield from wrapped(f"not excluded, for they could not be tried: {names}", _FURTHER_IN)
+
+
+def _details(candidate: CandidateRow) -> Iterator[str]:
+    yield from wrapped(", ".join(map(_in_a_sentence, candidate.parameters)), _FURTHER_IN)
+    yield from wrapped(candidate.explains, _FURTHER_IN)
+    if candidate.equals:
+        names = said(listed(candidate.equals))
+        yield from wrapped(f"not to be told from {names} by these readings", _FURTHER_IN)
+    if candidate.tell_apart_by:
+        yield from wrapped(f"to tell: {candidate.tell_apart_by}", _FURTHER_IN)
+
+
+def _fall(history: Sequence[Fitted], forecasts: Sequence[Forecast], writer: Writer) -> Iterator[str]:
+    """Yield the fall chart: a bar for each effect, down to the noise floor, and what standards would say."""
+    whole, forecast = history[-1], forecasts[0]
+    axis = whole.fit.design.axis
+    largest = max(each.error.rms for each in history)
+    symbols = [plain(quantity.notation) for quantity in forecast.quantities]
+    rows = [("", "", f"rms {axis.deviation_unit.symbol}", "left out", *symbols)]
+    names = ["without model", *(f"+ {name}" for name in whole.fit.model.identifiers)]
+    for name, each, values in zip(names, history, forecast.by_step.tolist(), strict=True):
+        bar = _bar(each.error.rms / largest if largest else 0.0)
+        errors = (each.error.rms, each.error.cross_validated_rms)
+        cells = (*(deviation(value, axis, _ENGLISH) for value in errors), *map(writer.deviation, values))
+        rows.append((name, bar, *cells))
+    floor = whole.error.noise_rms
+    if floor is not None:
+        bar, blank = _bar(floor / largest if largest else 0.0), ("",) * (1 + len(symbols))
+        rows.append(("noise floor", bar, deviation(floor, axis, _ENGLISH), *blank))
+    yield from table(rows, right=range(2, 4 + len(symbols)), indent="  ")
+    what = f"{', '.join(symbols)}: {forecast.designation}"
+    yield f"  {what}, predicted if the control corrects all effects so far"
+    moving = no_table_takes_away(whole.fit, _ENGLISH)
+    if moving:
+        yield from wrapped(moving)
+
+
+def _bar(share: float) -> str:
+    """Return a bar of a length between 0 and 1."""
+    eighths = round(share * 8 * _BAR_WIDTH)
+    if not _can_print(_EIGHTHS):
+        return "#" * max(1, round(eighths / 8)) if eighths else ""
+    return (_EIGHTHS[-1] * (eighths // 8) + _EIGHTHS[eighths % 8]).rstrip()
+
+
+def _can_print(text: str) -> bool:
+    try:
+        text.encode(sys.stdout.encoding or "ascii")
+    except UnicodeEncodeError:
+        return False
+    return True
+
+
+def _stands_out(identifier: str, fit: Fit) -> bool:
+    """Return whether any size of an effect exceeds its uncertainty: its place or period says nothing."""
+    (effect,) = (term.effect for term in fit.model.terms if term.effect.identifier == identifier)
+    sizes = [each for each in fit.estimates if each.effect == identifier and each.parameter in effect.linear]
+    return any(each.is_given or abs(each.value) > each.expanded_uncertainty for each in sizes)

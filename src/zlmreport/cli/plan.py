@@ -11,8 +11,7 @@ from zlmreport.cli.plan_json import plan_values
 from zlmreport.cli.plan_lines import plan_lines
 from zlmreport.cli.plan_path import run_path
 from zlmreport.cli.plan_programs import chosen_programs, program_files
-from zlmreport.cli.summary import print_json
-from zlmreport.cli.terminal import shown_path
+from zlmreport.cli.terminal import print_json, shown_path
 from zlmreport.files import Document, demand_free, write
 from zlmreport.job.loading import load
 from zlmreport.planning.planned_test import planned_test

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from zlmreport.cli.model_lines import said
 from zlmreport.cli.plan_files import SIGNS
+from zlmreport.cli.terminal import said
 from zlmreport.job.job import Job
 from zlmreport.measurement.axis import Axis
 from zlmreport.model.effect import unit_of

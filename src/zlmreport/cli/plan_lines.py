@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from zlmreport.cli.model_lines import said, width, wrapped
-from zlmreport.cli.terminal import Colour, table
+from zlmreport.cli.terminal import Colour, line_width, said, table, wrapped
 from zlmreport.evaluation import printed
 from zlmreport.job.job import Job
 from zlmreport.measurement.approach import Approach
@@ -18,7 +17,7 @@ from zlmreport.planning.plan import ASSUMPTION
 from zlmreport.planning.planned_test import PlannedTest
 from zlmreport.planning.targets import in_users_unit
 from zlmreport.planning.visibility import Remedy, SeenEffect, Sight
-from zlmreport.quantities.formatting import fixed_number, general_number
+from zlmreport.quantities.formatting import fixed_number, general_number, percentage
 
 _MINUTE = 60.0
 _MOST_STRETCHES = 6
@@ -52,7 +51,7 @@ def _targets(job: Job, planned: PlannedTest) -> Iterator[str]:
     decimals = max(len(f"{target:.9f}".rstrip("0").partition(".")[2]) for target in targets)
     cells = [(f"{number}", fixed_number(each, decimals)) for number, each in enumerate(targets, start=1)]
     wide = max(len(text) for _, text in cells) + len(cells[-1][0]) + 5
-    columns = max(1, min(len(cells), width() // wide))
+    columns = max(1, min(len(cells), line_width() // wide))
     filled = [*cells, *[("", "")] * (-len(cells) % columns)]
     starts = range(0, len(filled), columns)
     rows = [[text for cell in filled[start : start + columns] for text in cell] for start in starts]
@@ -221,4 +220,4 @@ def _assumed(key: str, planned: PlannedTest) -> str:
 
 
 def _percent(share: float) -> str:
-    return "< 1 %" if 0 < share < 0.005 else f"{fixed_number(100 * share, 0)} %"
+    return f"{percentage(share)} %"

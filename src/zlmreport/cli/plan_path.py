@@ -8,10 +8,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from zlmreport.cli.model_lines import wrapped
 from zlmreport.cli.plan_programs import chosen_programs
-from zlmreport.cli.summary import print_json
-from zlmreport.cli.terminal import Colour, shown_path
+from zlmreport.cli.terminal import Colour, print_json, shown_path, wrapped
 from zlmreport.errors import InputError, Problem
 from zlmreport.files import Document, demand_free, write
 from zlmreport.job.choices import ProgramChoice

@@ -7,10 +7,10 @@ from dataclasses import replace
 
 from zlmreport import pipeline
 from zlmreport.cli.capture_awaited import capture_if_watched
+from zlmreport.cli.job_lines import report
 from zlmreport.cli.jobs import do_all
 from zlmreport.cli.results import Result, load_all
 from zlmreport.cli.signature import demand_something_to_sign, signer_of
-from zlmreport.cli.terminal import report
 from zlmreport.errors import Place
 from zlmreport.files import write
 from zlmreport.job.job import Job

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from argparse import Namespace
 
-from zlmreport.cli.summary import print_json
+from zlmreport.cli.terminal import print_json
 from zlmreport.job.schema import job_schema
 from zlmreport.plugins import find_plugins
 

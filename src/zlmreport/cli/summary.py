@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import json
-import sys
 from collections.abc import Sequence
 from typing import Any
 
@@ -24,12 +22,6 @@ def summary(results: Sequence[Result], exit_code: int) -> dict[str, Any]:
         "exit_code": exit_code,
         "jobs": [_job(result) for result in results],
     }
-
-
-def print_json(value: Any) -> None:
-    """Print JSON, in letters where the terminal has them and in escapes where it might not."""
-    is_unicode = (sys.stdout.encoding or "").lower().replace("-", "") == "utf8"
-    print(json.dumps(value, ensure_ascii=not is_unicode, indent=1, allow_nan=False))
 
 
 def _job(result: Result) -> dict[str, Any]:

@@ -10,10 +10,9 @@ from pathlib import Path
 import numpy as np
 
 from zlmreport import pipeline
-from zlmreport.cli.model_lines import error_line, said, wrapped
+from zlmreport.cli.model_lines import error_line
 from zlmreport.cli.results import load_all
-from zlmreport.cli.summary import print_json
-from zlmreport.cli.terminal import Colour, table
+from zlmreport.cli.terminal import Colour, print_json, said, table, wrapped
 from zlmreport.errors import InputError, Place, Problem
 from zlmreport.job.job import Job
 from zlmreport.model import wording
@@ -85,7 +84,7 @@ def _lines(plane: Plane, points: Points) -> Iterator[str]:
             yield from wrapped(f"set aside, for it stands off from its repeats, at {at}: {aside}")
     for surface in plane.surfaces:
         yield ""
-        yield f"{surface.approach.arrow} {error_line(surface.error, surface.fit.design)}"
+        yield f"{surface.approach.arrow} {error_line(surface.error, surface.fit.design.axis)}"
         yield from wrapped(_equation(surface))
         yield from wrapped(_interaction(surface))
     yield ""

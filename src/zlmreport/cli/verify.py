@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from argparse import Namespace
 
-from zlmreport.cli.summary import print_json
+from zlmreport.cli.terminal import print_json
 from zlmreport.cli.verify_json import as_json
 from zlmreport.cli.verify_lines import lines
 from zlmreport.plugins import find_plugins

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from zlmreport.cli.messages import visible
-from zlmreport.cli.terminal import Colour, shown_path, table
+from zlmreport.cli.terminal import Colour, shown_path, table, visible
 from zlmreport.quantities.units import printed_symbol
 from zlmreport.verification.findings import Finding, Value, Verdict, Verification, is_number
 

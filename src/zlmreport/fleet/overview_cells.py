@@ -15,7 +15,7 @@ from zlmreport.fleet.records import Entry, RecordedParameter
 from zlmreport.fleet.trend_fleet import LEAST_DATES, Trend
 from zlmreport.fleet.trend_line import MOST_YEARS_AHEAD, Line
 from zlmreport.language import Language, Words
-from zlmreport.quantities.formatting import fixed_number, general_number
+from zlmreport.quantities.formatting import fixed_number, general_number, p_value
 from zlmreport.quantities.notation import plain
 from zlmreport.quantities.uncertain import rounded_pair
 from zlmreport.typesetting.overview import drawing
@@ -23,7 +23,8 @@ from zlmreport.typesetting.overview_contexts import LinkContext, OverviewCellCon
 from zlmreport.typesetting.templates import symbol
 
 _DECIMALS = 2
-_LEAST_CHANCE = 0.0001
+#: The test of a trend knows no tail beyond it.
+_LEAST_P = 1e-4
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,7 +99,10 @@ class Cells:
             return OverviewCellContext(self.say(too_few), style="quiet")
         if not trend.drifts:
             return OverviewCellContext(self.say(words.STEADY), style="quiet")
-        chance = words.CHANCE.given(p=self._chance(trend.line.p_value), number=len(series.calibrations))
+        chance = words.CHANCE.given(
+            p=p_value(trend.line.p_value, self.language.decimal_sign, least=_LEAST_P),
+            number=len(series.calibrations),
+        )
         return OverviewCellContext(
             self.say(self._change(trend.line, series.unit)),
             style="state drifts" if trend.line.slope > 0 else "state drifts falls",
@@ -161,13 +165,6 @@ class Cells:
         )
         rising = "+" if line.slope > 0 else ""
         return words.PER_YEAR.given(change=with_unit(f"{rising}{change} ± {uncertainty}", unit))
-
-    def _chance(self, p_value: float) -> str:
-        """Return a p-value with one significant digit, down to 0.0001."""
-        sign = self.language.decimal_sign
-        if p_value < _LEAST_CHANCE:
-            return f"p < {general_number(_LEAST_CHANCE, sign)}"
-        return f"p = {general_number(float(f'{p_value:.1g}'), sign)}"
 
     def _alternative(self, trend: Trend) -> str:
         series = trend.series

@@ -20,7 +20,7 @@ from zlmreport.quantities.arrays import FloatArray
 
 #: Simulated tests.
 TRIALS = 400
-#: Chance of a false alarm, over all that are compared together.
+#: Chance of a false alarm: over all that are compared together, and over all tests of residuals together.
 LEVEL = 0.05
 
 

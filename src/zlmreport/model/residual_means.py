@@ -166,7 +166,7 @@ def conditions(residuals: Residuals) -> Failure | None:
         return None
     closest = min(p_values, key=p_values.__getitem__)
     p_value = min(1.0, len(p_values) * p_values[closest])
-    return Failure(ResidualTest.CONDITION, p_value, same(closest), _FOLLOW)
+    return Failure(ResidualTest.CONDITION, p_value, same(closest), _FOLLOW, condition=closest)
 
 
 def spread(residuals: Residuals) -> Iterator[Failure]:

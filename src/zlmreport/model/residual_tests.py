@@ -8,6 +8,7 @@ import numpy as np
 
 from zlmreport.language import Words
 from zlmreport.model import wording
+from zlmreport.model.null_distribution import LEVEL
 from zlmreport.model.repeats import repeats
 from zlmreport.model.residual_means import conditions, direction, lack_of_fit, runs, signs, spread
 from zlmreport.model.residuals import Failure, Residuals, ResidualTest
@@ -37,8 +38,6 @@ _READINGS_PER_PERIOD = 4
 _HARMONICS = (1, 2)
 _FEWEST_TARGETS = 6
 _FINER = 41
-#: Chance that any of the tests of a sound model is called a failure.
-LEVEL = 0.05
 
 
 def time_order(residuals: Residuals) -> Failure | None:

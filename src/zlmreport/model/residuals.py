@@ -64,6 +64,8 @@ class Failure:
     readings : (k,) integer array
         The readings that `where` names, by their places in the design; none where all show it, or where they
         were set aside before.
+    condition
+        Of the test against a logged condition, the name of that; else empty.
     """
 
     test: ResidualTest
@@ -71,6 +73,7 @@ class Failure:
     where: Words
     statement: Words
     readings: IntArray = field(default_factory=lambda: read_only_integers([]), compare=False)
+    condition: str = ""
 
 
 _TITLES = {

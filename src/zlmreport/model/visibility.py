@@ -17,6 +17,8 @@ from zlmreport.model.effect import Effect, Parameter
 from zlmreport.model.null_distribution import NullDistribution, simulate_null
 from zlmreport.quantities.arrays import FloatArray
 
+#: Share of an effect that a plan sees, below which it hides it.
+HIDDEN_SHARE = 0.1
 #: Values of searched parameters that are looked at.
 _VALUES = 12
 
@@ -46,6 +48,11 @@ class Visibility:
     smallest_rms: float
     smallest: tuple[Parameter, float] | None = None
     reason: Words | None = None
+
+    @property
+    def is_hidden(self) -> bool:
+        """Whether the model imitates all or nearly all of it."""
+        return self.share < HIDDEN_SHARE
 
 
 def plan_visibility(

@@ -23,8 +23,6 @@ from zlmreport.planning.plan import Expected, Plan, Proposal, expected_condition
 from zlmreport.planning.targets import drawn_targets, periods_at_phases, usual_overrun
 from zlmreport.quantities.arrays import FloatArray
 
-#: Share of an effect that a plan sees, below which it hides it.
-HIDDEN_SHARE = 0.1
 #: With more targets than these or more runs, one more is no remedy worth the time.
 _MANY_TARGETS, _MANY_RUNS = 21, 5
 
@@ -151,7 +149,7 @@ def _sight(effect: Effect, seen: Visibility, design: Design) -> Sight:
     if seen.reason is not None and effect.untestable(design) is not None:
         other = seen.reason in (needs_linear_axis(design), needs_rotary_axis(design))
         return Sight.OTHER_AXIS if other else Sight.NOT_TESTABLE
-    if seen.share < HIDDEN_SHARE:
+    if seen.is_hidden:
         return Sight.HIDDEN
     return Sight.TOO_SMALL if _is_beyond_all_that_is_plausible(seen) else Sight.VISIBLE
 

@@ -4,8 +4,15 @@ from __future__ import annotations
 
 from decimal import ROUND_HALF_EVEN, Decimal
 from enum import StrEnum
+from math import log10
 
 MINUS = "\N{MINUS SIGN}"
+#: A blank at which no line ends.
+HELD = "\N{NO-BREAK SPACE}"
+#: Nobody knows the tails of real scatter better: below, a smaller chance is no stronger evidence.
+LEAST_P = 1e-6
+_SMALL_P = 1e-3
+_SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 class DecimalSign(StrEnum):
@@ -29,13 +36,64 @@ def fixed_number(value: float, decimals: int, sign: DecimalSign = DecimalSign.PO
     return f"{MINUS}{text}" if rounded < 0 else text
 
 
-def general_number(value: float, sign: DecimalSign = DecimalSign.POINT) -> str:
-    """Write a value with up to six significant digits and no trailing zeros.
+def general_number(value: float, sign: DecimalSign = DecimalSign.POINT, digits: int = 6) -> str:
+    """Write a value with up to so many significant digits and no trailing zeros.
 
     >>> general_number(250.0), general_number(-0.0315), general_number(2.5, DecimalSign.COMMA)
     ('250', '−0.0315', '2,5')
     """
-    text = f"{value:.6g}"
+    text = f"{value:.{digits}g}"
     if "e" in text:
         text = f"{Decimal(text):f}"
     return text.replace("-", MINUS).replace(".", sign)
+
+
+def percentage(share: float, sign: DecimalSign = DecimalSign.POINT, decimals: int = 0) -> str:
+    """Write a share or a probability in per cent, without the sign %.
+
+    One that is smaller than the last digit says so: it is small, and not nothing.
+
+    >>> percentage(0.984), percentage(0.004), percentage(0.0), percentage(0.0004, decimals=1)
+    ('98', '< 1', '0', '< 0.1')
+    """
+    if 0 < share < 0.01 * 10.0**-decimals:
+        return f"< {fixed_number(10.0**-decimals, decimals, sign)}"
+    return fixed_number(100 * share, decimals, sign)
+
+
+def p_value(
+    value: float,
+    sign: DecimalSign = DecimalSign.POINT,
+    *,
+    least: float = LEAST_P,
+    is_extrapolated: bool = False,
+) -> str:
+    r"""Write the p-value of a test with as many digits as it is known to; no line ends within it.
+
+    Parameters
+    ----------
+    value
+        A probability.
+    sign
+        Decimal sign.
+    least
+        A power of ten: below it, a smaller chance is no stronger evidence.
+    is_extrapolated
+        Whether no simulated test came near it: then it has one digit.
+
+    >>> p_value(0.0123), p_value(3.21e-5, DecimalSign.COMMA), p_value(1e-9)
+    ('p\xa0=\xa00.012', 'p\xa0=\xa03,2·10⁻⁵', 'p\xa0<\xa010⁻⁶')
+    >>> p_value(3.21e-5, is_extrapolated=True)
+    'p\xa0≈\xa03·10⁻⁵'
+    """
+    if value < least:
+        return HELD.join(("p", "<", _power_of_ten(round(log10(least)))))
+    relation, digits = ("≈", 0) if is_extrapolated else ("=", 1)
+    if value >= _SMALL_P:
+        return HELD.join(("p", relation, fixed_number(value, 3, sign)))
+    mantissa, _, exponent = f"{value:.{digits}e}".partition("e")
+    return HELD.join(("p", relation, f"{mantissa.replace('.', sign)}·{_power_of_ten(int(exponent))}"))
+
+
+def _power_of_ten(exponent: int) -> str:
+    return f"10{str(exponent).translate(_SUPERSCRIPTS)}"

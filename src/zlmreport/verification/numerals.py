@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from zlmreport.certificate.document import Certificate
-from zlmreport.certificate.rounding import written
-from zlmreport.certificate.scribe import Scribe
+from zlmreport.presenting.amounts import written
+from zlmreport.presenting.writer import Writer
 from zlmreport.quantities.notation import plain
 from zlmreport.verification.carrier import Carrier, guarded
 from zlmreport.verification.findings import Finding, Verdict
@@ -20,12 +20,12 @@ def compare(carrier: Carrier, again: Certificate) -> tuple[Finding, ...]:
 
 def _compare(carrier: Carrier, again: Certificate) -> Iterator[Finding]:
     printed = {word for number in range(len(carrier.reader.pages)) for word in words(carrier, number)}
-    scribe = Scribe.of(again.measurements, again.language)
+    writer = Writer.of(again.measurements, again.language)
     for evaluation in again.evaluations:
         missing = [
             f"{plain(parameter.quantity.notation)} = {value}"
             for parameter in evaluation.parameters
-            if (value := written(parameter, scribe)[0]) not in printed
+            if (value := written(parameter, writer)[0]) not in printed
         ]
         if missing:
             yield Finding(evaluation.designation, Verdict.DIFFERS, f"no page prints {', '.join(missing)}")

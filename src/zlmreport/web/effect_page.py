@@ -14,11 +14,12 @@ from zlmreport.measurement.axis import Axis
 from zlmreport.model.design import Design, at_positions
 from zlmreport.model.effect import Effect, Parameter, Shape, unit_of
 from zlmreport.plugins import Registry
+from zlmreport.presenting.model import parameter_rows
 from zlmreport.quantities.arrays import FloatArray
 from zlmreport.quantities.formatting import general_number
 from zlmreport.testing.designs import full_designs
 from zlmreport.web.bench import Bench, Loaded
-from zlmreport.web.panels import parameter, symbol
+from zlmreport.web.panels import parameter_values, symbol
 
 _OVER_TIME = frozenset({Shape.TIME, Shape.RUN})
 _POSITION = Words(en="Position", de="Position")
@@ -62,7 +63,7 @@ def effect_page(bench: Bench, loaded: Loaded, identifier: str, language: Languag
             for name, field in keys_in(effect.options).items()
         ],
         "estimates": [
-            parameter(each, fit.design, language) for each in fit.estimates if each.effect == identifier
+            parameter_values(each) for each in parameter_rows(fit, language) if each.effect == identifier
         ],
         "confusions": [
             {
@@ -174,7 +175,7 @@ def _along(shape: Shape, design: Design) -> tuple[FloatArray, Words, str]:
 def _described(own: Parameter, axis: Axis, language: Language) -> dict[str, Any]:
     unit = unit_of(own.dimension, axis.kind)
     bounds = [
-        None if bound is None else general_number(float(f"{bound * unit.per_si:.3g}"), language.decimal_sign)
+        None if bound is None else general_number(unit.from_si(bound), language.decimal_sign, 3)
         for bound in (own.smallest, own.largest)
     ]
     return {

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
@@ -11,31 +10,24 @@ import numpy as np
 
 from zlmreport import pipeline
 from zlmreport.certificate.conformity import STATEMENTS
-from zlmreport.certificate.model_tables import unit_symbol
-from zlmreport.certificate.rounding import written
-from zlmreport.certificate.scribe import NOTHING, Scribe
 from zlmreport.evaluation.evaluation import Parameter
 from zlmreport.evaluation.statistics import position_statistics
 from zlmreport.language import Language, Words
-from zlmreport.model import wording
 from zlmreport.model.design import Design
-from zlmreport.model.diagnosis import ErrorNumbers
-from zlmreport.model.effect import Shape, unit_of
-from zlmreport.model.estimate import Estimate
-from zlmreport.model.study import BY_TABLE, Fitted, corrected, moves_with_time
+from zlmreport.model.effect import Shape
+from zlmreport.model.study import BY_TABLE, Fitted, corrected
 from zlmreport.plugins import Registry
-from zlmreport.quantities.formatting import general_number
-from zlmreport.quantities.notation import spans
-from zlmreport.quantities.uncertain import rounded_pair
-from zlmreport.web.bench import Loaded
-
-_RMS = Words(en="Root mean square", de="Quadratischer Mittelwert")
-_FLOOR = Words(en="Noise floor", de="Grundrauschen")
-_LEFT_OUT = Words(en="Runs left out", de="Durchläufe ausgelassen")
-_MOVES = Words(
-    en="Not fixed in position, so no table of positions takes it away: {effects}.",
-    de="Nicht an die Position gebunden, eine Positionstabelle nimmt es also nicht weg: {effects}.",
+from zlmreport.presenting.amounts import written
+from zlmreport.presenting.model import (
+    ErrorRows,
+    ParameterRow,
+    deviation,
+    no_table_takes_away,
+    parameter_rows,
 )
+from zlmreport.presenting.writer import NOTHING, Writer
+from zlmreport.quantities.notation import spans
+from zlmreport.web.bench import Loaded
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,9 +57,9 @@ class Panels:
         return self.history[-1].fit.design
 
     @property
-    def scribe(self) -> Scribe:
+    def writer(self) -> Writer:
         """Writes as the certificate does."""
-        return Scribe.of(self.loaded.measurements, self.language)
+        return Writer.of(self.loaded.measurements, self.language)
 
     def say(self, words: Words) -> str:
         """Return words in the language of the page."""
@@ -75,7 +67,7 @@ class Panels:
 
     def error(self) -> list[dict[str, str]]:
         """Return how far model and readings are apart, number by number."""
-        return list(error_numbers(self.history[-1].error, self.design, self.language))
+        return error_values(ErrorRows.of(self.history[-1].error, self.design.axis, self.language))
 
     def effects(self) -> list[dict[str, Any]]:
         """Return the effects of the model with their parameters."""
@@ -86,8 +78,8 @@ class Panels:
                 "title": self.say(term.effect.title),
                 "equation": symbol(term.effect.equation),
                 "parameters": [
-                    parameter(each, self.design, self.language) | {"fixed": each.parameter.name in term.fixed}
-                    for each in fit.estimates
+                    parameter_values(each) | {"fixed": each.name in term.fixed}
+                    for each in parameter_rows(fit, self.language)
                     if each.effect == term.effect.identifier
                 ],
             }
@@ -114,15 +106,15 @@ class Panels:
             "rows": [
                 {
                     "effect": name,
-                    "rms": self._number(each.error.rms),
+                    "rms": self._deviation(each.error.rms),
                     "share": each.error.rms / largest,
-                    "left_out": self._number(each.error.cross_validated_rms),
+                    "left_out": self._deviation(each.error.cross_validated_rms),
                 }
                 for name, each in zip(names, self.history, strict=True)
             ],
             "floor": None
             if floor is None
-            else {"rms": self._number(floor), "share": min(1.0, floor / largest)},
+            else {"rms": self._deviation(floor), "share": min(1.0, floor / largest)},
         }
 
     def standards(self) -> list[dict[str, Any]]:
@@ -142,7 +134,7 @@ class Panels:
             found.append(
                 {
                     "designation": evaluated.evaluation.designation,
-                    "unit": self.scribe.deviation_unit.symbol,
+                    "unit": self.writer.deviation_unit.symbol,
                     "rows": [self._row(each, forecast[each.quantity.symbol]) for each in parameters],
                     "unmet": [
                         f"{self.say(finding.requirement)}: {self.say(finding.found)}"
@@ -155,25 +147,27 @@ class Panels:
 
     def moving(self) -> str:
         """Return the sentence on effects that no table takes away; empty if there are none."""
-        moving = moves_with_time(self.history[-1].fit)
-        return self.say(_MOVES.given(effects=", ".join(moving))) if moving else ""
+        return no_table_takes_away(self.history[-1].fit, self.language)
 
     def excluded(self) -> list[dict[str, str]]:
         """Return the readings that the job sets aside, each with its value and the reason."""
-        position, unit = self.scribe.position_unit.symbol, self.scribe.deviation_unit.symbol
+        position, unit = self.writer.position_unit.symbol, self.writer.deviation_unit.symbol
         return [
             {
-                "reading": f"{self.scribe.position(each.target_position)} {position} {each.approach.arrow}",
+                "reading": f"{self.writer.position(each.target_position)} {position} {each.approach.arrow}",
                 "run": str(each.run),
-                "deviation": f"{self.scribe.deviation(each.deviation)} {unit}",
+                "deviation": f"{self.writer.deviation(each.deviation)} {unit}",
                 "reason": each.reason,
             }
             for each in self.loaded.measurements.provenance.exclusions
         ]
 
+    def _deviation(self, value: float | None) -> str:
+        return deviation(value, self.design.axis, self.language)
+
     def _row(self, parameter: Parameter, forecast: Any) -> dict[str, Any]:
-        scribe, quantity = self.scribe, parameter.quantity
-        value, uncertainty = written(parameter, scribe)
+        writer, quantity = self.writer, parameter.quantity
+        value, uncertainty = written(parameter, writer)
         by_table, by_model = (quantity.printed_sign * float(value) for value in forecast)
         decision = parameter.decision
         return {
@@ -181,58 +175,33 @@ class Panels:
             "name": self.say(quantity.name),
             "value": value,
             "uncertainty": "" if uncertainty == NOTHING else uncertainty,
-            "limit": NOTHING if parameter.limit is None else scribe.deviation(parameter.limit),
+            "limit": NOTHING if parameter.limit is None else writer.deviation(parameter.limit),
             "verdict": "" if decision is None else self.say(STATEMENTS[decision.conformity][1]),
             "mark": "" if decision is None else STATEMENTS[decision.conformity][0].name.lower(),
-            "by_table": scribe.deviation(by_table),
-            "by_model": scribe.deviation(by_model),
+            "by_table": writer.deviation(by_table),
+            "by_model": writer.deviation(by_model),
         }
 
-    def _number(self, value: float | None) -> str:
-        if value is None or math.isnan(value):
-            return NOTHING
-        return self.say(wording.significant(self.design.axis.deviation_unit.from_si(value)))
+
+def error_values(rows: ErrorRows) -> list[dict[str, str]]:
+    """Return how far model and readings are apart: name and value."""
+    return [{"name": name, "value": value} for name, value in rows.named]
 
 
-def error_numbers(error: ErrorNumbers, design: Design, language: Language) -> Iterator[dict[str, str]]:
-    """Yield how far model and readings are apart: name and value."""
-    for name, value in ((_RMS, error.rms), (_FLOOR, error.noise_rms), (_LEFT_OUT, error.cross_validated_rms)):
-        if value is not None:
-            yield {
-                "name": name.in_language(language),
-                "value": wording.deviation(design.axis, value).in_language(language),
-            }
-    if error.chi2_per_dof is not None:
-        yield {"name": "χ²/ν", "value": wording.significant(error.chi2_per_dof).in_language(language)}
-
-
-def parameter(estimate: Estimate, design: Design, language: Language) -> dict[str, Any]:
-    """Return a parameter as a page shows it, rounded to what is known."""
-    sign, own = language.decimal_sign, estimate.parameter
-    unit = unit_of(own.dimension, design.axis.kind, time_is_counted=design.time_is_counted)
-    value, half = rounded_pair(
-        estimate.value * unit.per_si, estimate.expanded_uncertainty * unit.per_si, sign
-    )
-    if estimate.is_given:
-        value, half = general_number(estimate.value * unit.per_si, sign), ""
-    expected = estimate.expected
+def parameter_values(row: ParameterRow) -> dict[str, Any]:
+    """Return a parameter as a page shows it."""
     return {
-        "name": own.name,
-        "symbol": symbol(own.notation),
-        "description": own.description.in_language(language),
-        "value": value,
-        "number": float(f"{estimate.value * unit.per_si:.6g}") if estimate.is_given else _plain(value),
-        "uncertainty": half,
-        "unit": unit_symbol(unit, language),
-        "given": estimate.is_given,
-        "plausibility": estimate.plausibility(time_is_counted=design.time_is_counted).name.lower(),
-        "expected": "" if expected is None else general_number(expected * unit.per_si, sign),
+        "name": row.name,
+        "symbol": symbol(row.notation),
+        "description": row.description,
+        "value": row.value,
+        "number": row.number,
+        "uncertainty": row.uncertainty,
+        "unit": row.unit,
+        "given": row.is_given,
+        "plausibility": row.plausibility.name.lower(),
+        "expected": row.expected,
     }
-
-
-def _plain(printed: str) -> float:
-    """Return a printed value as a number: what is fixed is what was shown."""
-    return float(printed.replace("−", "-").replace(",", "."))
 
 
 def symbol(notation: str) -> list[dict[str, Any]]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from types import MappingProxyType
 
-from zlmreport.certificate.linked_texts import GRAPH_TEXTS
+from zlmreport.certificate.linked import GRAPH_TEXTS
 from zlmreport.language import Language, Words
 
 TEXTS: Mapping[str, Words] = MappingProxyType(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from zlmreport.certificate.linked_graphs import graphs
+from zlmreport.certificate.linked import graphs
 from zlmreport.job.job import Job
 from zlmreport.language import Language, Words, same
 from zlmreport.web.bench import Bench, Loaded

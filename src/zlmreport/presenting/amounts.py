@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 
-from zlmreport.certificate.scribe import NOTHING, Scribe
 from zlmreport.evaluation.evaluation import Parameter
+from zlmreport.presenting.writer import NOTHING, Writer
 from zlmreport.quantities.uncertain import rounded_pair
 
 #: Beyond the decimals of the readings: a mean of several says more than each of them.
@@ -14,7 +14,7 @@ _MORE_DECIMALS = 1
 _NONE = "0"
 
 
-def written(parameter: Parameter, scribe: Scribe) -> tuple[str, str]:
+def written(parameter: Parameter, writer: Writer) -> tuple[str, str]:
     """Write a parameter and its U, without unit: rounded together to two significant digits of U at most.
 
     A value of which no uncertainty is known has the decimals of the readings, one with an uncertainty no more
@@ -22,23 +22,23 @@ def written(parameter: Parameter, scribe: Scribe) -> tuple[str, str]:
     """
     expanded = parameter.expanded_uncertainty
     if not expanded:
-        return scribe.deviation(parameter.printed_value), NOTHING if expanded is None else _NONE
-    return with_uncertainty(parameter.printed_value, expanded, scribe)
+        return writer.deviation(parameter.printed_value), NOTHING if expanded is None else _NONE
+    return with_uncertainty(parameter.printed_value, expanded, writer)
 
 
-def written_uncertainty(expanded: float, scribe: Scribe) -> str:
+def written_uncertainty(expanded: float, writer: Writer) -> str:
     """Write an U (m or rad) by itself, without unit; NaN is nothing."""
     if math.isnan(expanded):
         return NOTHING
-    return with_uncertainty(0.0, expanded, scribe)[1] if expanded else _NONE
+    return with_uncertainty(0.0, expanded, writer)[1] if expanded else _NONE
 
 
-def with_uncertainty(value: float, expanded: float, scribe: Scribe) -> tuple[str, str]:
+def with_uncertainty(value: float, expanded: float, writer: Writer) -> tuple[str, str]:
     """Write a value and an U that is not zero (m or rad), without unit, rounded together."""
-    unit = scribe.deviation_unit
+    unit = writer.deviation_unit
     return rounded_pair(
         unit.from_si(value),
         unit.from_si(expanded),
-        scribe.language.decimal_sign,
-        scribe.deviation_decimals + _MORE_DECIMALS,
+        writer.language.decimal_sign,
+        writer.deviation_decimals + _MORE_DECIMALS,
     )

@@ -4,8 +4,8 @@ import pytest
 
 from certificate.documents import certificate, having, text_of
 from certificate.everything import EVERYTHING, write_tables
-from zlmreport.certificate.marks import Marks
 from zlmreport.job.contradictions import markable_keys
+from zlmreport.presenting.marks import Marks
 
 WORDS_ONLY = having("instrument.expanded_uncertainty", "see its certificate")
 DISCLAIMER = (

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from zlmreport.certificate.marks import NO_MARKS, Marks
 from zlmreport.language import Language, Words
 from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.presenting.marks import NO_MARKS, Marks
 from zlmreport.quantities.arrays import FloatArray
 from zlmreport.quantities.decimals import decimals_of
 from zlmreport.quantities.formatting import fixed_number, general_number
@@ -25,7 +25,7 @@ _MOST_TARGET_DECIMALS = 6
 
 
 @dataclass(frozen=True, slots=True)
-class Scribe:
+class Writer:
     """Writes for one document.
 
     Attributes
@@ -49,8 +49,8 @@ class Scribe:
     marks: Marks = NO_MARKS
 
     @classmethod
-    def of(cls, measurements: MeasurementSet, language: Language, marks: Marks = NO_MARKS) -> Scribe:
-        """Return the scribe for a document on these measurements."""
+    def of(cls, measurements: MeasurementSet, language: Language, marks: Marks = NO_MARKS) -> Writer:
+        """Return the writer for a document on these measurements."""
         axis = measurements.axis
         return cls(
             language,

@@ -1,0 +1,166 @@
+"""What ``zlmreport model … --json`` prints beside the diagnosis: full precision, µm or ″."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from zlmreport.certificate.forecast import Forecast
+from zlmreport.errors import InputError, Place, Problem
+from zlmreport.job.edit import Edit
+from zlmreport.measurement.approach import Approach
+from zlmreport.measurement.axis import Axis
+from zlmreport.model.design import at_positions, outside_of_measured
+from zlmreport.model.effect import Shape
+from zlmreport.model.fit import Fit, Prediction
+from zlmreport.model.report import report_error, report_model
+from zlmreport.model.study import Fitted
+from zlmreport.quantities.arrays import FloatArray
+
+FIT = "zlmreport/fit/1"
+HISTORY = "zlmreport/history/1"
+CHANGE = "zlmreport/model-change/1"
+
+
+@dataclass(frozen=True, slots=True)
+class Change:
+    """A change of a model that makes sense.
+
+    Attributes
+    ----------
+    edit
+        Of the job file.
+    added
+        The effect that comes in; empty if none does.
+    removed
+        The effects that go out.
+    before
+        The model as it was.
+    history
+        The model as it is then, effect by effect.
+    forecasts
+        What standards would say of an axis corrected by it.
+    """
+
+    edit: Edit
+    added: str
+    removed: tuple[str, ...]
+    before: Fitted
+    history: tuple[Fitted, ...]
+    forecasts: tuple[Forecast, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Points:
+    """What a model gives at positions that were asked for.
+
+    Attributes
+    ----------
+    positions : (M,) array
+        m or rad.
+    predictions
+        By direction of approach.
+    moves
+        Whether the model changes with time or run: then the predictions are those of the mean of the test.
+    """
+
+    positions: FloatArray
+    predictions: dict[Approach, Prediction]
+    moves: bool
+
+
+def points_of(fit: Fit, positions: Sequence[float]) -> Points | None:
+    """Return what a model gives at positions in mm or degrees; None if none is asked for."""
+    if not positions:
+        return None
+    design = fit.design
+    unit = design.axis.position_unit
+    places = unit.to_si(np.array(positions, dtype=np.float64))
+    sentences = outside_of_measured(design.axis.name, unit, places, design.span)
+    if sentences:
+        raise InputError(Problem(Place("--at"), sentence) for sentence in sentences)
+    measured = [approach for approach in Approach if np.any(design.direction == approach)]
+    return Points(
+        places,
+        {approach: fit.predict(at_positions(design, places, approach)) for approach in measured},
+        any(term.effect.shape in {Shape.TIME, Shape.RUN} for term in fit.model.terms),
+    )
+
+
+def fit_values(fitted: Fitted) -> dict[str, Any]:
+    """Return a fitted model with its parameters, and its error."""
+    axis = fitted.fit.design.axis
+    return {"schema": FIT, "model": report_model(fitted.fit), "error": report_error(fitted.error, axis)}
+
+
+def history_values(history: Sequence[Fitted], forecasts: Sequence[Forecast]) -> dict[str, Any]:
+    """Return how the error fell, step by step; the first step is that without a model."""
+    return {"schema": HISTORY, "steps": _steps(history, forecasts)}
+
+
+def change_values(path: Path, change: Change) -> dict[str, Any]:
+    """Return what was changed, and the error before and after."""
+    after = change.history[-1]
+    axis = after.fit.design.axis
+    return {
+        "schema": CHANGE,
+        "job": str(path),
+        "added": change.added or None,
+        "removed": list(change.removed),
+        "model": report_model(after.fit),
+        "error_before": report_error(change.before.error, axis),
+        "error": report_error(after.error, axis),
+        "steps": _steps(change.history, change.forecasts),
+    }
+
+
+def point_values(points: Points | None, axis: Axis) -> dict[str, Any]:
+    """Return the same for JSON, in full precision: positions in mm or degrees, deviations in µm or ″."""
+    if points is None:
+        return {}
+    unit = axis.deviation_unit
+    return {
+        "points": [
+            {
+                "position": axis.position_unit.from_si(place),
+                "direction": "+" if approach > 0 else "-",
+                "deviation": unit.from_si(float(found.deviation[number])),
+                "expanded_uncertainty": unit.from_si(float(found.expanded_uncertainty[number])),
+                "coverage_factor": float(found.coverage_factor[number]),
+                "unit": unit.ascii,
+            }
+            for number, place in enumerate(points.positions.tolist())
+            for approach, found in points.predictions.items()
+        ]
+    }
+
+
+def _steps(history: Sequence[Fitted], forecasts: Sequence[Forecast]) -> list[dict[str, Any]]:
+    axis = history[-1].fit.design.axis
+    names = [None, *history[-1].fit.model.identifiers]
+    return [
+        {
+            "effect": name,
+            "error": report_error(each.error, axis),
+            "predicted": [_predicted(forecast, index) for forecast in forecasts],
+        }
+        for index, (name, each) in enumerate(zip(names, history, strict=True))
+    ]
+
+
+def _predicted(forecast: Forecast, step: int) -> dict[str, Any]:
+    """Return what a standard would say of an axis corrected by the effects up to a step."""
+    unit = forecast.unit
+    return {
+        "standard": forecast.standard,
+        "parameters": [
+            {"symbol": quantity.symbol, "value": unit.from_si(value), "unit": unit.ascii}
+            for quantity, value in zip(forecast.quantities, forecast.by_step[step].tolist(), strict=True)
+            if not math.isnan(value)
+        ],
+    }

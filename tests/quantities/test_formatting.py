@@ -1,0 +1,31 @@
+"""Shares and p-values are written alike everywhere, and with no more digits than they are known to."""
+
+from __future__ import annotations
+
+import pytest
+
+from zlmreport.quantities.formatting import DecimalSign, p_value, percentage
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [(1e-9, "p < 10⁻⁶"), (2.34e-5, "p = 2,3·10⁻⁵"), (0.0123, "p = 0,012"), (0.4, "p = 0,400")],
+)
+def test_a_p_value_is_written_as_far_as_it_is_known(value: float, text: str) -> None:
+    assert p_value(value, DecimalSign.COMMA).replace("\xa0", " ") == text
+
+
+def test_an_extrapolated_p_value_is_about_so_much() -> None:
+    assert p_value(2.34e-5, is_extrapolated=True).replace("\xa0", " ") == "p ≈ 2·10⁻⁵"
+
+
+@pytest.mark.parametrize(
+    ("share", "text"), [(0.0, "0"), (0.004, "< 1"), (0.0099, "< 1"), (0.01, "1"), (0.996, "100")]
+)
+def test_a_share_below_the_last_digit_is_small_and_not_nothing(share: float, text: str) -> None:
+    assert percentage(share) == text
+
+
+def test_a_share_has_the_decimal_sign_and_the_decimals_that_are_asked_for() -> None:
+    assert percentage(0.1234, DecimalSign.COMMA, 1) == "12,3"
+    assert percentage(0.0004, DecimalSign.COMMA, 1) == "< 0,1"
