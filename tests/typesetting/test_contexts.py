@@ -12,8 +12,9 @@ from jinja2.exceptions import SecurityError
 
 from zlmreport.certificate import document
 from zlmreport.quantities.notation import Span
-from zlmreport.typesetting import contexts, overview_contexts
-from zlmreport.typesetting.templates import PACKAGE, environment
+from zlmreport.typesetting import contexts, overview
+from zlmreport.typesetting.resources import PACKAGE
+from zlmreport.typesetting.templates import environment
 
 CONTEXTS = get_args(contexts.Context)
 TEMPLATES = sorted(file.name for file in (files(PACKAGE) / "templates").iterdir())
@@ -25,10 +26,10 @@ PARTS = (
     document.Facts,
     document.Letterhead,
     document.Party,
-    overview_contexts.LinkContext,
-    overview_contexts.OverviewCellContext,
-    overview_contexts.OverviewGroupContext,
-    overview_contexts.TileContext,
+    overview.LinkContext,
+    overview.OverviewCellContext,
+    overview.OverviewGroupContext,
+    overview.TileContext,
     Span,
 )
 

@@ -6,7 +6,7 @@ import re
 
 import pytest
 
-from zlmreport.typesetting.workbench import page_file, page_files
+from zlmreport.typesetting.resources import page_file, page_files
 
 _IMPORT = re.compile(r'from "\./([\w.]+)"')
 _URL = re.compile(r"url\(([^)]+)\)")

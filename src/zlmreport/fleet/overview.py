@@ -16,8 +16,12 @@ from zlmreport.fleet.overview_names import Names
 from zlmreport.fleet.overview_needs import needs
 from zlmreport.fleet.overview_state import FleetState, Night
 from zlmreport.language import Language, Words
-from zlmreport.typesetting.overview import overview_style
-from zlmreport.typesetting.overview_contexts import OverviewContext, OverviewSectionContext, TileContext
+from zlmreport.typesetting.overview import (
+    OverviewContext,
+    OverviewSectionContext,
+    TileContext,
+    overview_style,
+)
 from zlmreport.typesetting.templates import render
 
 _MINUTE = 60

@@ -18,8 +18,7 @@ from zlmreport.language import Language, Words
 from zlmreport.quantities.formatting import fixed_number, general_number, p_value
 from zlmreport.quantities.notation import plain
 from zlmreport.quantities.uncertain import rounded_pair
-from zlmreport.typesetting.overview import drawing
-from zlmreport.typesetting.overview_contexts import LinkContext, OverviewCellContext
+from zlmreport.typesetting.overview import LinkContext, OverviewCellContext, drawing
 from zlmreport.typesetting.templates import symbol
 
 _DECIMALS = 2

@@ -11,8 +11,7 @@ from zlmreport.fleet.records import Entry, RecordedParameter, State
 from zlmreport.fleet.trend import Calibration, Series
 from zlmreport.fleet.trend_fleet import FALSE_SHARE, LEAST_DATES, Trend
 from zlmreport.fleet.trend_line import line_through
-from zlmreport.typesetting.overview import drawing
-from zlmreport.typesetting.overview_contexts import OverviewLegendContext
+from zlmreport.typesetting.overview import OverviewLegendContext, drawing
 
 _FIRST = date(2000, 1, 1)
 _SAMPLE = (8.4, 9.9, 11.2, 13.5, 14.6, 17.0, 18.4, 20.6)

@@ -9,7 +9,7 @@ from zlmreport.fleet import overview_words as words
 from zlmreport.fleet.overview_cells import Cells
 from zlmreport.fleet.overview_state import FleetState
 from zlmreport.fleet.trend_fleet import Trend
-from zlmreport.typesetting.overview_contexts import (
+from zlmreport.typesetting.overview import (
     OverviewCellContext,
     OverviewGroupContext,
     OverviewTableContext,

@@ -12,7 +12,7 @@ from zlmreport.fleet.overview_state import Failure, FleetState
 from zlmreport.fleet.records import Entry
 from zlmreport.fleet.trend_fleet import Trend
 from zlmreport.language import Words
-from zlmreport.typesetting.overview_contexts import (
+from zlmreport.typesetting.overview import (
     OverviewCellContext,
     OverviewGroupContext,
     OverviewTableContext,

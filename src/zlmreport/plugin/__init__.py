@@ -194,17 +194,16 @@ if TYPE_CHECKING:
         unit_named,
     )
     from zlmreport.quantities.units import Scale as ReadingScale
-    from zlmreport.typesetting.columns import decimal_padding
+    from zlmreport.typesetting.columns import GatheredBlock, decimal_padding, gather_facts
     from zlmreport.typesetting.columns import lines as table_lines
     from zlmreport.typesetting.columns import measures as column_measures
+    from zlmreport.typesetting.columns import side_by_side as facts_side_by_side
     from zlmreport.typesetting.columns import size as table_size
     from zlmreport.typesetting.columns import stands_apart as columns_stand_apart
     from zlmreport.typesetting.columns import widths as column_widths
     from zlmreport.typesetting.compose import GRAPH_ADDRESS, LOGO_ADDRESS
     from zlmreport.typesetting.compose import Setting as HtmlSetting
     from zlmreport.typesetting.compose import compose as compose_html
-    from zlmreport.typesetting.facts import GatheredBlock, gather_facts
-    from zlmreport.typesetting.facts import side_by_side as facts_side_by_side
     from zlmreport.typesetting.linked import fingerprint as script_fingerprint
     from zlmreport.typesetting.linked import script as linked_script
     from zlmreport.typesetting.linked import style as linked_style
@@ -566,7 +565,6 @@ _ROOMS = {
         "table_lines=lines table_size=size"
     ),
     "zlmreport.typesetting.compose": "GRAPH_ADDRESS HtmlSetting=Setting LOGO_ADDRESS compose_html=compose",
-    "zlmreport.typesetting.facts": "GatheredBlock facts_side_by_side=side_by_side gather_facts",
     "zlmreport.typesetting.linked": "linked_script=script linked_style=style script_fingerprint=fingerprint",
     "zlmreport.typesetting.resources": (
         "FONT_FACES=FACES font_face_rules=font_faces font_file=font style_sheet"

@@ -1,4 +1,4 @@
-"""How a table's columns share the page, and how its numbers stand under each other.
+"""How a table's columns and groups of facts share the page, and how numbers stand under each other.
 
 The tables have a fixed layout, which a page takes in a fraction of the time of one that measures every
 cell; so the widths are estimated here, from the characters in the cells.
@@ -7,13 +7,29 @@ cell; so the widths are estimated here, from the characters in the cells.
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
+from itertools import accumulate
 from math import ceil
+from typing import TypeAlias
 from unicodedata import combining
 
-from zlmreport.certificate.document import Align, Cell, Column, Explained, Symbol, Table, Verdict
+from zlmreport.certificate.document import (
+    Align,
+    Block,
+    Cell,
+    Column,
+    Explained,
+    Facts,
+    Formulas,
+    Graph,
+    Notice,
+    Paragraph,
+    Symbol,
+    Table,
+    Verdict,
+)
 from zlmreport.quantities.notation import plain
 
 #: Number, with its decimals apart; a dash stands for a value that does not exist.
@@ -206,3 +222,49 @@ def _character_width(character: str) -> float:
     if character >= _FIRST_FULL_WIDTH_CHARACTER:
         return _FULL
     return 0.0 if combining(character) else _WIDTHS.get(character, _FIGURE)
+
+
+#: A block, or facts that follow each other.
+GatheredBlock: TypeAlias = Table | Formulas | Graph | Paragraph | Notice | tuple[Facts, ...]
+
+#: Characters of a value that stand on one line of a column, and of its name; counted low.
+_VALUE_LINE = 26
+_NAME_LINE = 20
+#: Lines of a heading with the space around it.
+_HEADING_LINES = 2
+
+
+def gather_facts(blocks: Iterable[Block]) -> Iterator[GatheredBlock]:
+    """Yield the blocks in order, groups of facts that follow each other as one."""
+    facts: tuple[Facts, ...] = ()
+    for block in blocks:
+        if isinstance(block, Facts):
+            facts = (*facts, block)
+            continue
+        if facts:
+            yield facts
+            facts = ()
+        yield block
+    if facts:
+        yield facts
+
+
+def side_by_side(groups: tuple[Facts, ...]) -> tuple[tuple[Facts, ...], ...]:
+    """Part groups of facts into two columns of nearly one height; a single group keeps the page's width."""
+    if len(groups) == 1:
+        return (groups,)
+    *ends, total = accumulate(map(_fact_lines, groups))
+    heights = [max(end, total - end) for end in ends]
+    first = heights.index(min(heights)) + 1
+    return groups[:first], groups[first:]
+
+
+def _fact_lines(group: Facts) -> int:
+    """Estimate the lines that a group takes in a column."""
+    return _HEADING_LINES + sum(
+        max(
+            ceil(len(name) / _NAME_LINE),
+            sum(ceil(len(line) / _VALUE_LINE) or 1 for line in value.split("\n")),
+        )
+        for name, value in group.pairs
+    )

@@ -21,6 +21,7 @@ from zlmreport.certificate.document import (
     Section,
     Table,
 )
+from zlmreport.typesetting.columns import GatheredBlock, gather_facts, side_by_side
 from zlmreport.typesetting.contexts import (
     Context,
     DocumentContext,
@@ -32,7 +33,6 @@ from zlmreport.typesetting.contexts import (
     ParagraphContext,
     SectionContext,
 )
-from zlmreport.typesetting.facts import GatheredBlock, gather_facts, side_by_side
 from zlmreport.typesetting.linked import values
 from zlmreport.typesetting.tables import formulas_context, table_context
 from zlmreport.typesetting.templates import render

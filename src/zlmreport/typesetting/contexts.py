@@ -9,7 +9,7 @@ from markupsafe import Markup
 
 from zlmreport.certificate.document import Facts, Letterhead
 from zlmreport.quantities.notation import Span
-from zlmreport.typesetting.overview_contexts import (
+from zlmreport.typesetting.overview import (
     OverviewContext,
     OverviewLegendContext,
     OverviewSectionContext,

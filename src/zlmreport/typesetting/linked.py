@@ -18,8 +18,7 @@ from pathlib import PurePosixPath
 from markupsafe import Markup
 
 from zlmreport.certificate.linked import Linked
-from zlmreport.typesetting.templates import PACKAGE
-from zlmreport.typesetting.workbench import PageFile, page_files
+from zlmreport.typesetting.resources import PACKAGE, PageFile, page_files
 
 _FOLDER = "linked"
 _ENTRY = "linked.js"

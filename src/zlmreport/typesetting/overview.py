@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from base64 import b64encode
+from dataclasses import dataclass
+from typing import ClassVar
 
 from markupsafe import Markup
 
@@ -27,3 +29,148 @@ def overview_style() -> Markup:
 
 def _embedded(face: Face) -> str:
     return f"data:font/woff2;base64,{b64encode(font(f'{face.stem}.woff2')).decode('ascii')}"
+
+
+_NO_DRAWING = Markup()
+
+
+@dataclass(frozen=True, slots=True)
+class LinkContext:
+    """A link: its text, what it leads to for those who hear the text alone, and the address."""
+
+    text: str
+    name: str
+    address: str
+
+
+@dataclass(frozen=True, slots=True)
+class OverviewCellContext:
+    """A cell or heading of a table of the overview.
+
+    Attributes
+    ----------
+    content
+        Text, or a symbol that is set already.
+    style
+        Class names: alignment, or the shape of a state.
+    note
+        Below the content, in small type; empty for most.
+    links
+        Below the content.
+    drawing
+        A small graph in place of text; empty for most.
+    """
+
+    content: str = ""
+    style: str = ""
+    note: str = ""
+    links: tuple[LinkContext, ...] = ()
+    drawing: Markup = _NO_DRAWING
+
+
+@dataclass(frozen=True, slots=True)
+class OverviewGroupContext:
+    """Rows that share their first cell."""
+
+    head: OverviewCellContext
+    rows: tuple[tuple[OverviewCellContext, ...], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class OverviewTableContext:
+    """A table of the overview.
+
+    Attributes
+    ----------
+    key
+        Its anchor.
+    style
+        Class name of its columns.
+    title
+        Its heading.
+    count
+        Number after the heading; empty for none.
+    caption
+        What it shows.
+    headings
+        One for each column.
+    groups
+        The rows.
+    """
+
+    template: ClassVar[str] = "overview_table.html"
+    key: str
+    style: str
+    title: str
+    count: str
+    caption: str
+    headings: tuple[OverviewCellContext, ...]
+    groups: tuple[OverviewGroupContext, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class TileContext:
+    """A number of the headline: what it counts, its style, and the anchor of the table that lists it."""
+
+    number: str
+    label: str
+    style: str
+    anchor: str
+
+
+@dataclass(frozen=True, slots=True)
+class OverviewSectionContext:
+    """A section of the overview: its anchor and title, a lead below it, and its tables as markup."""
+
+    template: ClassVar[str] = "overview_section.html"
+    key: str
+    title: str
+    lead: str
+    lead_style: str
+    blocks: tuple[Markup, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class OverviewLegendContext:
+    """How to read a small graph: the graph, what each line of it is, and what the tests mean."""
+
+    template: ClassVar[str] = "overview_legend.html"
+    drawing: Markup
+    terms: tuple[tuple[str, str], ...]
+    paragraphs: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class OverviewContext:
+    """The whole overview.
+
+    Attributes
+    ----------
+    language
+        ISO 639-1 code.
+    title, subtitle
+        At the head.
+    generator
+        The program with its version.
+    style
+        Style sheets.
+    facts
+        Name and value of what is said of the last night.
+    tiles
+        The numbers of the headline.
+    tiles_title
+        Name of the headline, for those who cannot see it.
+    sections
+        Markup, in this order.
+    """
+
+    template: ClassVar[str] = "overview.html"
+    language: str
+    title: str
+    subtitle: str
+    generator: str
+    style: Markup
+    facts: tuple[tuple[str, str], ...]
+    tiles: tuple[TileContext, ...]
+    tiles_title: str
+    sections: tuple[Markup, ...]

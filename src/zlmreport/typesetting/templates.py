@@ -12,9 +12,7 @@ from markupsafe import Markup
 
 from zlmreport.quantities.notation import spans
 from zlmreport.typesetting.contexts import Context, SymbolContext
-
-#: The package whose templates are used, and no others.
-PACKAGE = "zlmreport_templates"
+from zlmreport.typesetting.resources import PACKAGE
 
 #: Characters that XML 1.0 has no place for, not even escaped.
 _NOT_IN_XML = re.compile(r"[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")

@@ -18,8 +18,8 @@ from zlmreport.errors import InputError, Place, ZlmreportError
 from zlmreport.language import Language, Words
 from zlmreport.plugins import Registry
 from zlmreport.typesetting.contexts import WorkbenchContext
+from zlmreport.typesetting.resources import page_file
 from zlmreport.typesetting.templates import render
-from zlmreport.typesetting.workbench import page_file
 from zlmreport.web.bench import Bench
 from zlmreport.web.certificates import Certificates
 from zlmreport.web.changes import ConflictError, NothingToUndoError, Request, change

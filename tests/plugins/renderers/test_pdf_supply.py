@@ -8,7 +8,7 @@ import pytest
 
 from typesetting import samples
 from zlmreport_plugins.renderers.pdf import PdfRenderer
-from zlmreport_plugins.renderers.pdf.supply import Supply
+from zlmreport_plugins.renderers.pdf.press import Supply
 
 
 def test_what_there_is_is_handed_out() -> None:

@@ -2,8 +2,45 @@
 
 from __future__ import annotations
 
-from zlmreport.plugin import hookimpl
-from zlmreport_plugins.renderers.dcc.renderer import DccRenderer
+from zlmreport.plugin import Certificate, InputError, Place, Relationship, Words, hookimpl
+from zlmreport_plugins.renderers.dcc.administrative import administrative_data
+from zlmreport_plugins.renderers.dcc.elements import SCHEMA_LOCATION, dcc, written
+from zlmreport_plugins.renderers.dcc.results import measurement_results
+
+_VERSION = "3.3.0"
+
+
+class DccRenderer:
+    """PTB's Digital Calibration Certificate (PTB, DCC schema 3.3.0, with D-SI 2.2.1).
+
+    The same numbers as the results file, at full precision, with units, uncertainties, conditions and
+    statements of conformity.
+    """
+
+    identifier = "dcc"
+    title = Words(en="Digital calibration certificate (DCC, XML)", de="Digitaler Kalibrierschein (DCC, XML)")
+    suffix = ".xml"
+    relationship = Relationship.ALTERNATIVE
+
+    def render(self, certificate: Certificate) -> bytes:
+        """Return the file, UTF-8.
+
+        Raises
+        ------
+        InputError
+            With everything that a DCC must state and the job does not.
+        """
+        job = certificate.job
+        if job is None:
+            raise InputError.at(Place(certificate.number), "a DCC can only be made of a job")
+        root = dcc(
+            "digitalCalibrationCertificate",
+            administrative_data(certificate, job),
+            measurement_results(certificate, job),
+            schemaVersion=_VERSION,
+        )
+        root.attrib.update(SCHEMA_LOCATION)
+        return written(root)
 
 
 @hookimpl

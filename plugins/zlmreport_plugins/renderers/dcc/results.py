@@ -20,10 +20,8 @@ from zlmreport.plugin import (
     Job,
     Words,
 )
-from zlmreport_plugins.renderers.dcc.administrative import Writer, software
-from zlmreport_plugins.renderers.dcc.conditions import equipment, influences, state
-from zlmreport_plugins.renderers.dcc.quantities import quantity, real, real_list, unit_of
-from zlmreport_plugins.renderers.dcc.xml import dcc, group
+from zlmreport_plugins.renderers.dcc.administrative import Writer, equipment, influences, software, state
+from zlmreport_plugins.renderers.dcc.elements import dcc, group, quantity, real, real_list, unit_of
 
 _RESULTS = Words(
     en="Positioning accuracy of axis {axis} by {designation}",

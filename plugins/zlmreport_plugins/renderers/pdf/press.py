@@ -6,16 +6,20 @@ new font configuration costs memory that WeasyPrint 70 never gives back.
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from datetime import date, datetime, time
 from functools import cache, partial
 from importlib.resources import files
 from threading import Lock
-from typing import Any
+from typing import Any, TypeAlias
 from xml.etree import ElementTree as ET
 
+import pydyf
 from cssselect2 import ElementWrapper
-from weasyprint import CSS, HTML, VERSION
+from weasyprint import CSS, HTML, VERSION, Attachment
 from weasyprint.text.fonts import FontConfiguration
+from weasyprint.urls import URLFetcher, URLFetcherResponse
 
 from zlmreport.plugin import (
     FONT_FACES,
@@ -28,10 +32,8 @@ from zlmreport.plugin import (
     font_file,
     style_sheet,
 )
-from zlmreport_plugins.renderers.pdf import identity, structure
-from zlmreport_plugins.renderers.pdf.enclosures import associate_once, enclosures
+from zlmreport_plugins.renderers.pdf import structure
 from zlmreport_plugins.renderers.pdf.graphs import PageGraph
-from zlmreport_plugins.renderers.pdf.supply import Contents, Supply
 
 #: For archives, with its structure tagged: it costs a tenth more time than a plain one.
 VARIANT = "pdf/a-3a"
@@ -103,7 +105,7 @@ def press() -> Press:
 def _finish(certificate: Certificate, _: Any, pdf: Any) -> None:
     """Complete a file that is ready but for its trailer."""
     associate_once(pdf)
-    identity.identify(pdf, certificate)
+    structure.identify(pdf, certificate)
     structure.mend(pdf, {section.key: section.title for section in certificate.sections})
 
 
@@ -142,3 +144,57 @@ class _Document(HTML):  # type: ignore[misc]
         self.media_type = "print"
         self.wrapper_element: Any = ElementWrapper.from_html_root(root, content_language=None)
         self.etree_element = self.wrapper_element.etree_element
+
+
+_ENCLOSURE_ADDRESS = "attachment:{}"
+#: Of a document that states no date of issue: a file in a PDF must have one, and the clock is not asked.
+_UNKNOWN = date(1970, 1, 1)
+
+
+def enclosures(certificate: Certificate) -> Iterator[Attachment]:
+    """Yield the attachments; each is loaded by an address, for only so WeasyPrint takes its media type."""
+    moment = datetime.combine(certificate.issued or _UNKNOWN, time())
+    for number, attachment in enumerate(certificate.attachments):
+        address = _ENCLOSURE_ADDRESS.format(number)
+        yield Attachment(
+            url=address,
+            url_fetcher=Supply({address: (attachment.content, attachment.media_type)}),
+            name=attachment.name,
+            description=attachment.description,
+            created=moment,
+            modified=moment,
+            relationship=attachment.relationship.value,
+        )
+
+
+def associate_once(pdf: Any) -> None:
+    """Name each attachment of a pydyf PDF once among its associated files: WeasyPrint 70 does it twice."""
+    if "AF" in pdf.catalog:
+        pdf.catalog["AF"] = pydyf.Array(dict.fromkeys(pdf.catalog["AF"]))
+
+
+#: What there is to load: by address, bytes and media type.
+Contents: TypeAlias = dict[str, tuple[bytes, str]]
+
+
+class Supply(URLFetcher):  # type: ignore[misc]
+    """Answers addresses from memory and refuses every other one, be it a file or a network address.
+
+    Parameters
+    ----------
+    contents
+        What there is.
+    """
+
+    def __init__(self, contents: Contents) -> None:
+        # The base class's own set-up is left out: it installs the openers of files and networks.
+        self._contents = contents
+        self._fail_on_errors = False
+
+    def fetch(self, url: str, headers: Mapping[str, str] | None = None) -> URLFetcherResponse:
+        """Return what lies at an address; WeasyPrint reports an error and goes on without it otherwise."""
+        del headers
+        if url not in self._contents:
+            raise ValueError(f"a certificate loads nothing from outside: {url}")
+        content, media_type = self._contents[url]
+        return URLFetcherResponse(url, content, {"Content-Type": media_type})

@@ -23,7 +23,7 @@ from zlmreport.plugin import (
     figure_size,
     hexadecimal_colour,
 )
-from zlmreport_plugins.renderers.pdf_typst.symbols import parted
+from zlmreport_plugins.renderers.pdf_typst.words import parted
 
 _FACES = {FontFace.REGULAR: "regular", FontFace.ITALIC: "italic", FontFace.SEMIBOLD: "semibold"}
 # A hundredth of a point is 4 µm of paper.

@@ -12,7 +12,7 @@ import typst
 
 from zlmreport.plugin import Certificate
 from zlmreport_plugins.renderers.pdf_typst.contents import contents, enclosures
-from zlmreport_plugins.renderers.pdf_typst.letters import demand_letters
+from zlmreport_plugins.renderers.pdf_typst.words import demand_letters
 
 _TEMPLATES = "zlmreport_templates"
 #: Of a document that states no date of issue: one that carries files must have one, and no clock is asked.

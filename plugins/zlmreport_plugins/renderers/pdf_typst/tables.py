@@ -26,8 +26,7 @@ from zlmreport.plugin import (
     table_lines,
     table_size,
 )
-from zlmreport_plugins.renderers.pdf_typst.symbols import symbol_data
-from zlmreport_plugins.renderers.pdf_typst.words import fitted
+from zlmreport_plugins.renderers.pdf_typst.words import fitted, symbol_data
 
 #: A table of no more lines is not parted by the end of a page.
 _WHOLE_LINES = 16

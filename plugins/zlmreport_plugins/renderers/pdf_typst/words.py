@@ -1,13 +1,29 @@
-"""Texts for their places: where a word may be parted that is wider, for Typst itself never parts one."""
+"""Texts for their places, and letters with their marks.
+
+Typst itself never parts a word, so a word that is wider than its place is told where it may be. And a letter
+and its mark are set one after the other, each with its place: set as one piece of text they look the same,
+but then a PDF says of the glyph ``x`` that it means x̄, and a program that reads glyph by glyph finds x̄
+wherever an x stands.
+"""
 
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
+from functools import lru_cache
 from itertools import groupby
 from typing import Any, TypeAlias
+from unicodedata import category, combining, name, normalize
 
-from zlmreport.plugin import FontFace, text_advance
-from zlmreport_plugins.renderers.pdf_typst.symbols import has_marks, parted
+from zlmreport.plugin import (
+    FontFace,
+    InputError,
+    Place,
+    has_letter,
+    mark_offset,
+    notation_spans,
+    text_advance,
+)
 
 #: A text, or its stretches, each with the way in which it is set.
 Text: TypeAlias = str | list[tuple[Any, str]]
@@ -45,3 +61,85 @@ def _way(word: str, room: float, face: FontFace) -> str:
         return AS_WORDS
     is_of_language = word.strip(".,;:!?()").replace("-", "").isalpha() and len(word) <= _LONGEST_WORD
     return BY_SYLLABLES if is_of_language and room >= _LEAST_ROOM else ANYWHERE
+
+
+#: A text; or a mark with its place, right of and above the pen, in em.
+Stretch: TypeAlias = tuple[str] | tuple[str, float, float]
+
+
+@lru_cache(maxsize=1024)
+def symbol_data(notation: str) -> dict[str, Any]:
+    """Return a symbol or a formula, word by word, for lines may part between words only.
+
+    Each word is a list of spans: whether it is italic, whether it is a subscript, and a stretch.
+    """
+    words: list[list[Any]] = [[]]
+    for span in notation_spans(notation):
+        face = FontFace.ITALIC if span.italic else FontFace.REGULAR
+        for number, text in enumerate(span.text.split(" ")):
+            if number:
+                words.append([])
+            words[-1] += [[span.italic, span.subscript, *stretch] for stretch in parted(text, face)]
+    return {"kind": "symbol", "words": words}
+
+
+@lru_cache(maxsize=4096)
+def parted(text: str, face: FontFace) -> tuple[Stretch, ...]:
+    """Return the stretches of a text; the whole of it where the typeface has no place for a mark."""
+    whole = normalize("NFC", text)
+    try:
+        return tuple(_parted(whole, face))
+    except LookupError:
+        return ((whole,),)
+
+
+def has_marks(text: str) -> bool:
+    """Return whether a letter of a text carries a mark with which it is no letter of its own."""
+    return not text.isascii() and any(map(combining, normalize("NFC", text)))
+
+
+def _parted(text: str, face: FontFace) -> Iterator[Stretch]:
+    before = ""
+    for is_mark, letters in groupby(text, lambda letter: bool(combining(letter))):
+        stretch = "".join(letters)
+        if is_mark and before:
+            for mark in stretch:
+                right, above = mark_offset(before, mark, face)
+                yield mark, right - text_advance(before, face), above
+        else:
+            yield (stretch,)
+            before = stretch[-1]
+
+
+#: What is seen only by what it does: line ends, joiners, direction marks.
+_UNSEEN = frozenset({"Cf", "Zl", "Zp"})
+_ESCAPED = re.compile(r"\\(?:u(?P<code>[0-9a-f]{4})|.)")
+_MOST_TOLD = 10
+
+
+def demand_letters(document: str, number: str) -> None:
+    """Refuse a document, a text of JSON, that has letters without a shape in the bundled typeface.
+
+    Raises
+    ------
+    InputError
+        With all such letters of the certificate of this number.
+    """
+    letters = set(document) | {
+        chr(int(each["code"], 16)) for each in _ESCAPED.finditer(document) if each["code"]
+    }
+    seen = (letter for letter in letters if category(letter) not in _UNSEEN)
+    lacking = sorted(letter for letter in seen if not has_letter(letter, FontFace.REGULAR))
+    if lacking:
+        told = ", ".join(map(_told, lacking[:_MOST_TOLD]))
+        more = f" and {len(lacking) - _MOST_TOLD} more" if len(lacking) > _MOST_TOLD else ""
+        raise InputError.at(
+            Place(number),
+            f"the typeface of the format pdf-typst has no {told}{more}; "
+            "write it otherwise, or ask for the format pdf, which takes letters from the system's typefaces",
+        )
+
+
+def _told(letter: str) -> str:
+    shown = f"{letter!r} " if letter.isprintable() else ""
+    return f"{shown}(U+{ord(letter):04X} {name(letter, 'a control character')})"
