@@ -18,26 +18,20 @@ import numpy as np
 from measure import Measured, Sizes, median, that_count, timed
 from zlmreport.capture.events import Recorded
 from zlmreport.capture.follower import Follower
-from zlmreport.capture.header import Header
-from zlmreport.capture.journal import Journal
-from zlmreport.capture.session import captured
-from zlmreport.capture.settings import Settings
-from zlmreport.capture.visit_list import start_of, visit_list
-from zlmreport.emulation.axis import MovingAxis
-from zlmreport.emulation.channels import PseudoTerminal
-from zlmreport.emulation.emulator import Emulator, Scene
-from zlmreport.emulation.faults import Troubles
-from zlmreport.emulation.serve import serve
-from zlmreport.live.streaming import Decoder
+from zlmreport.capture.journal import Journal, captured
+from zlmreport.capture.records import Header
+from zlmreport.capture.visits import Settings, start_of, visit_list
+from zlmreport.emulation.channels import PseudoTerminal, serve
+from zlmreport.emulation.emulator import Emulator, MovingAxis, Scene, Troubles
+from zlmreport.live.dialogue import Decoder
 from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.planning.plan import Plan
 from zlmreport.plugins import find_plugins
 from zlmreport.simulation.description import Description
 from zlmreport.simulation.machine import emulated_machine
-from zlmreport_plugins.instruments.text_readout.decoder import TextDecoder
-from zlmreport_plugins.instruments.text_readout.options import TextReadoutOptions
-from zlmreport_plugins.instruments.umd.decoder import Setup, UmdDecoder
-from zlmreport_plugins.instruments.umd.models import MODELS
+from zlmreport_plugins.instruments.text_readout import TextDecoder, TextReadoutOptions
+from zlmreport_plugins.instruments.umd import Setup, UmdDecoder
+from zlmreport_plugins.instruments.umd.lines import MODELS
 
 sys.path.append(str(Path(__file__).parents[1] / "tests"))
 from capture.bad_lines import LINES, on_a_bad_line

@@ -16,10 +16,8 @@ from typing import Any
 from capture.operated import OperatedAxis
 from processes import PATIENCE, ZLMREPORT, group
 from zlmreport.capture.history import History, read_history
-from zlmreport.emulation.channels import PseudoTerminal
-from zlmreport.emulation.emulator import Emulator, Scene
-from zlmreport.emulation.faults import Troubles
-from zlmreport.emulation.serve import serve
+from zlmreport.emulation.channels import PseudoTerminal, serve
+from zlmreport.emulation.emulator import Emulator, Scene, Troubles
 from zlmreport.job.simulation import load_simulation
 from zlmreport.plugins import find_plugins
 from zlmreport.simulation.files import description_of

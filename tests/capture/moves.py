@@ -11,8 +11,7 @@ from zlmreport.capture.events import Event, Recorded
 from zlmreport.capture.follower import Follower
 from zlmreport.capture.progress import Progress
 from zlmreport.capture.records import MOMENTARY
-from zlmreport.capture.settings import Settings
-from zlmreport.capture.visit_list import ListedVisit, visit_list
+from zlmreport.capture.visits import ListedVisit, Settings, visit_list
 from zlmreport.live.reading import LiveReading
 from zlmreport.planning.methods import Method
 from zlmreport.planning.plan import Plan

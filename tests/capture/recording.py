@@ -9,10 +9,9 @@ from pathlib import Path
 from capture.moves import SETTINGS, planned
 from zlmreport.capture.events import Event
 from zlmreport.capture.follower import Follower
-from zlmreport.capture.header import Header
-from zlmreport.capture.journal import Journal
-from zlmreport.capture.session import captured
-from zlmreport.capture.visit_list import visit_list
+from zlmreport.capture.journal import Journal, captured
+from zlmreport.capture.records import Header
+from zlmreport.capture.visits import visit_list
 from zlmreport.live.reading import LiveReading
 from zlmreport.measurement.axis import AxisKind
 from zlmreport.planning.plan import Plan

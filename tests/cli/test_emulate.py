@@ -14,7 +14,7 @@ from zlmreport.cli import main
 from zlmreport.cli.arguments import parse
 from zlmreport.cli.arguments.values import FAULTS
 from zlmreport.cli.emulate import axis_of
-from zlmreport.emulation.faults import Trouble
+from zlmreport.emulation.emulator import Trouble
 from zlmreport.plugins import find_plugins
 
 

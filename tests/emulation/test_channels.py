@@ -1,4 +1,4 @@
-"""The lines on which an emulated instrument is reached."""
+"""Where emulated instruments are found, and that they are served there in real time."""
 
 from __future__ import annotations
 
@@ -8,7 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from zlmreport.emulation.channels import LocalSocket, PseudoTerminal
+from zlmreport.emulation.channels import LocalSocket, PseudoTerminal, serve
+from zlmreport.emulation.emulator import Planned, Trouble, Troubles
 from zlmreport.errors import AccessError
 from zlmreport.live.port import Framing, Port
 
@@ -96,3 +97,53 @@ def test_a_socket_serves_one_host_after_the_other() -> None:
 def test_a_port_that_is_taken_is_told() -> None:
     with LocalSocket() as channel, pytest.raises(AccessError, match="cannot be opened"):
         LocalSocket(int(channel.address.rpartition(":")[2]))
+
+
+class _Channel:
+    """A line that a test reads, on which a question comes at every beat."""
+
+    address = "test"
+
+    def __init__(self) -> None:
+        self.sent: list[bytes] = []
+
+    def wait(self, seconds: float) -> None: ...
+
+    def receive(self) -> bytes:
+        return b"?"
+
+    def send(self, data: bytes) -> None:
+        self.sent.append(data)
+
+
+class _Echo:
+    """An instrument that says what time it is, and repeats what it is told."""
+
+    def unasked(self, time: float) -> bytes:
+        return b"%d " % time
+
+    def answer(self, data: bytes, _time: float) -> bytes:
+        return data
+
+
+def _served(*planned: Planned, beats: int = 5) -> list[bytes]:
+    channel = _Channel()
+    times = iter(range(100, 100 + beats + 1))
+    left = iter([False] * beats + [True])
+    serve(_Echo(), channel, Troubles(planned), is_over=lambda: next(left), clock=lambda: float(next(times)))
+    return channel.sent
+
+
+def test_it_speaks_by_the_time_since_its_start() -> None:
+    assert _served() == [b"1 ?", b"2 ?", b"3 ?", b"4 ?", b"5 ?"]
+
+
+def test_an_unplugged_line_ends_it() -> None:
+    assert _served(Planned(Trouble.UNPLUGGED, 3.0)) == [b"1 ?", b"2 ?"]
+
+
+def test_a_bad_line_garbles_what_is_sent() -> None:
+    clean = b"".join(_served(beats=200))
+    garbled = b"".join(_served(*(Planned(Trouble.GARBLED, float(at)) for at in range(201)), beats=200))
+    # one byte in ten is dropped: the standard deviation of a share of 1000 bytes is about 1 %
+    assert 0.85 < len(garbled) / len(clean) < 0.95

@@ -12,7 +12,7 @@ import pytest
 
 from zlmreport.emulation.channels import PseudoTerminal
 from zlmreport.errors import AccessError, InputError
-from zlmreport.live.patience import Patience
+from zlmreport.live.dialogue import Patience
 from zlmreport.live.port import Framing, Port, shown
 
 

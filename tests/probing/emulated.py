@@ -9,11 +9,10 @@ from dataclasses import dataclass, field
 
 from processes import PATIENCE
 from step_gauge.paths import planned
-from zlmreport.emulation.channels import LocalSocket
+from zlmreport.emulation.channels import LocalSocket, serve
 from zlmreport.emulation.coordinate_machine import Boxes, CoordinateMachine
 from zlmreport.emulation.dme_server import DmeServer, PointFault
-from zlmreport.emulation.faults import Troubles
-from zlmreport.emulation.serve import serve
+from zlmreport.emulation.emulator import Troubles
 from zlmreport.probing.answers import MachineError
 from zlmreport.step_gauge.path import Point, Probing
 from zlmreport.step_gauge.path_plan import PlannedPath

@@ -10,16 +10,13 @@ from typing import Any
 import pytest
 from pydantic import Field
 
-from zlmreport.emulation.emulator import Emulator, Scene
-from zlmreport.emulation.faults import Trouble
+from zlmreport.emulation.emulator import Emulator, Scene, Trouble
 from zlmreport.errors import InputError, Place
 from zlmreport.job.types import Options
 from zlmreport.language import Words
-from zlmreport.live.connection import LiveConnection
-from zlmreport.live.options import PortOptions
-from zlmreport.live.port import Framing, Port
+from zlmreport.live.dialogue import streamed
+from zlmreport.live.port import Framing, LiveConnection, Port, PortOptions
 from zlmreport.live.reading import Fault, LiveReading
-from zlmreport.live.streaming import streamed
 from zlmreport.testing import instruments
 
 

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from zlmreport.capture.visit_list import ListedVisit
+from zlmreport.capture.visits import ListedVisit
 from zlmreport.measurement.approach import Approach
 
 

@@ -31,13 +31,11 @@ from zlmreport.capture.events import (
     WrongDirection,
     ZeroLost,
 )
-from zlmreport.capture.pace import Pace
-from zlmreport.capture.place import Place, Programme, Route, Stop
+from zlmreport.capture.motion import Programme, Route
+from zlmreport.capture.place import Place, Stop
 from zlmreport.capture.progress import Progress
-from zlmreport.capture.settings import FASTEST, Settings
-from zlmreport.capture.track import Track
-from zlmreport.capture.visit_list import ListedVisit
-from zlmreport.capture.window import Window
+from zlmreport.capture.standstill import Pace, Track, Window
+from zlmreport.capture.visits import FASTEST, ListedVisit, Settings
 from zlmreport.live.reading import Fault, LiveReading
 from zlmreport.measurement.approach import Approach
 

@@ -11,9 +11,8 @@ from pathlib import Path
 from typing import Any
 
 from zlmreport.capture.events import Event, Recorded
-from zlmreport.capture.header import SCHEMA, Header
 from zlmreport.capture.progress import Progress
-from zlmreport.capture.records import Record, finite, from_record
+from zlmreport.capture.records import SCHEMA, Header, Record, finite, from_record
 from zlmreport.errors import AccessError, Place
 from zlmreport.measurement.provenance import SourceFile
 from zlmreport.measurement.text_file import LARGEST

@@ -4,18 +4,19 @@ from __future__ import annotations
 
 import contextlib
 import os
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 from types import TracebackType
 from typing import Self
 
 from zlmreport.capture.events import Event, Recorded, Unclear
-from zlmreport.capture.header import Header
+from zlmreport.capture.follower import Follower
 from zlmreport.capture.history import History, read_history, sealed
 from zlmreport.capture.progress import Progress
-from zlmreport.capture.records import Record, to_record
+from zlmreport.capture.records import MOMENTARY, Header, Record, to_record
 from zlmreport.errors import AccessError, Place
 from zlmreport.files import sync_folder, unwritable
+from zlmreport.live.reading import LiveReading
 
 
 class Journal:
@@ -194,3 +195,36 @@ def _is_there(history: History) -> str:
         f"holds a capture of {number} that is not finished: {progress.taken} of {len(progress.visits)} "
         "visits; go on with --resume, or name another journal"
     )
+
+
+def captured(
+    readings: Iterable[LiveReading],
+    follower: Follower,
+    journal: Journal,
+    elapsed: Callable[[float], float],
+    *,
+    show: Callable[[LiveReading], None] = lambda _reading: None,
+) -> Iterator[Event]:
+    """Follow readings, write down what happens, and yield it; end when nothing more is taken.
+
+    Parameters
+    ----------
+    readings
+        Of the instrument.
+    follower
+        It begins with the progress of the journal.
+    journal
+        Where it is written down.
+    elapsed
+        From the time of a reading to s from the start of the capture.
+    show
+        Is called with each reading, when all that happened with it is on the disk.
+    """
+    for reading in readings:
+        for event in follower.feed(reading):
+            if not isinstance(event, MOMENTARY):
+                journal.append(event, elapsed(reading.time))
+            yield event
+        show(reading)
+        if follower.is_halted:
+            return

@@ -8,11 +8,18 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 from zlmreport import __version__
-from zlmreport.capture.header import Header
 from zlmreport.capture.history import History
 from zlmreport.capture.options import CaptureOptions
-from zlmreport.capture.settings import FASTEST, SHARE_OF_INTERVAL, SHARE_OF_OVERRUN, Settings
-from zlmreport.capture.visit_list import ListedVisit, start_of, visit_list
+from zlmreport.capture.records import Header
+from zlmreport.capture.visits import (
+    FASTEST,
+    SHARE_OF_INTERVAL,
+    SHARE_OF_OVERRUN,
+    ListedVisit,
+    Settings,
+    start_of,
+    visit_list,
+)
 from zlmreport.errors import AccessError, InputError, Place, Problem
 from zlmreport.job.choices import InstrumentChoice
 from zlmreport.job.job import Job

@@ -21,7 +21,7 @@ from zlmreport.capture.events import (
     Unclear,
     ZeroLost,
 )
-from zlmreport.capture.visit_list import ListedVisit
+from zlmreport.capture.visits import ListedVisit
 from zlmreport.measurement.approach import Approach
 
 

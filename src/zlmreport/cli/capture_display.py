@@ -14,7 +14,7 @@ from zlmreport.capture.follower import Follower
 from zlmreport.capture.of_job import Assignment
 from zlmreport.capture.progress import Progress
 from zlmreport.capture.records import MOMENTARY, to_record
-from zlmreport.capture.visit_list import ListedVisit
+from zlmreport.capture.visits import ListedVisit
 from zlmreport.cli.capture_lines import Scribe, duration, halted, line_on, what_to_do
 from zlmreport.cli.capture_panel import panel
 from zlmreport.cli.terminal import Colour, visible

@@ -26,7 +26,7 @@ from zlmreport.capture.events import (
     ZeroLost,
 )
 from zlmreport.capture.progress import Progress
-from zlmreport.capture.visit_list import ListedVisit
+from zlmreport.capture.visits import ListedVisit
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.axis import Axis
 from zlmreport.quantities.formatting import MINUS, fixed_number

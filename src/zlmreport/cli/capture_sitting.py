@@ -12,9 +12,8 @@ from pathlib import Path
 from zlmreport.capture.events import Event, Interrupted, Resumed, Unclear
 from zlmreport.capture.follower import Follower
 from zlmreport.capture.history import read_history
-from zlmreport.capture.journal import Journal, demand_nothing_captured
+from zlmreport.capture.journal import Journal, captured, demand_nothing_captured
 from zlmreport.capture.of_job import Assignment, demand_same_test, header_of, instrument_of
-from zlmreport.capture.session import captured
 from zlmreport.cli.capture_display import Display, visit_named
 from zlmreport.cli.terminal import shown_path
 from zlmreport.errors import AccessError, InputError, Place

@@ -6,8 +6,7 @@ from argparse import Namespace
 
 from zlmreport.cli.emulate_machine import IPPDME, refuse_options_of_machines, run_machine
 from zlmreport.cli.line import put_on_line, refuse_two_lines, troubles_of
-from zlmreport.emulation.axis import MovingAxis
-from zlmreport.emulation.emulator import Scene
+from zlmreport.emulation.emulator import MovingAxis, Scene
 from zlmreport.errors import InputError, Place
 from zlmreport.language import Language
 from zlmreport.plugins import find_plugins

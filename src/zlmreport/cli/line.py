@@ -9,10 +9,8 @@ from types import FrameType
 from typing import NoReturn
 
 from zlmreport.cli.terminal import visible
-from zlmreport.emulation.channels import LocalSocket, PseudoTerminal
-from zlmreport.emulation.emulator import Emulator
-from zlmreport.emulation.faults import Planned, Trouble, Troubles
-from zlmreport.emulation.serve import serve
+from zlmreport.emulation.channels import LocalSocket, PseudoTerminal, serve
+from zlmreport.emulation.emulator import Emulator, Planned, Trouble, Troubles
 from zlmreport.errors import InputError, Place
 
 

@@ -1,15 +1,20 @@
-"""A port of any kind that pyserial opens, with errors that say what to do."""
+"""A port of any kind that pyserial opens, the keys that name it, and the connection to what is there."""
 
 from __future__ import annotations
 
 import errno
 import os
 import time
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from types import ModuleType, TracebackType
-from typing import Any, Literal, NoReturn, Self
+from typing import Annotated, Any, Literal, NoReturn, Self
+
+from pydantic import BeforeValidator, Field
 
 from zlmreport.errors import AccessError, InputError, Place
+from zlmreport.job.types import Options
+from zlmreport.live.reading import LiveReading
 
 #: How much of what a wrong device sends a message shows.
 _SHOWN_BYTES = 24
@@ -207,3 +212,86 @@ def _ports_there_are() -> str:
 
 def _in_one_line(error: OSError) -> str:
     return " ".join(str(error).split())[:200]
+
+
+def _port_is_named(value: object) -> object:
+    if not value:
+        raise ValueError("the name of a port is expected: /dev/ttyUSB0, COM3, socket://192.168.1.20:9090")
+    return value
+
+
+class PortOptions(Options):
+    """Where an instrument is, and which way its readings count."""
+
+    port: Annotated[str, BeforeValidator(_port_is_named)] = Field(
+        description="Port, as pyserial names it: /dev/ttyUSB0, COM3, socket://192.168.1.20:9090."
+    )
+    sign: Literal["+", "-"] = Field(
+        "+", description="'-' where the instrument counts down while the axis moves up."
+    )
+    scale: Annotated[float, Field(gt=0, allow_inf_nan=False)] = Field(
+        1.0, description="Factor on every reading: 0.5 for optics that double the path."
+    )
+    timeout: Annotated[float, Field(gt=0, le=60)] = Field(
+        2.0, description="How long the instrument may be silent, s, before it counts as gone."
+    )
+
+    @property
+    def factor(self) -> float:
+        """Scale and sign in one number."""
+        return -self.scale if self.sign == "-" else self.scale
+
+
+class PolledOptions(PortOptions):
+    """The same of an instrument that answers questions."""
+
+    rate: Annotated[float, Field(gt=0, le=1000)] = Field(
+        10.0, description="How often the instrument is asked, 1/s; less often where it is slower."
+    )
+
+
+class LiveConnection:
+    """A connection made of its parts; it closes the port when it is left.
+
+    Parameters
+    ----------
+    port
+        Where the instrument is.
+    readings
+        Begins to read, and yields without end.
+    zero
+        Lets the instrument begin to count from here; None if it cannot be told to.
+    """
+
+    def __init__(
+        self,
+        port: Port,
+        readings: Callable[[], Iterator[LiveReading]],
+        zero: Callable[[], None] | None = None,
+    ) -> None:
+        self._port = port
+        self._readings = readings
+        self._zero = zero
+        self.can_zero = zero is not None
+
+    def __enter__(self) -> Self:
+        """Return the connection."""
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        """Close the port."""
+        self._port.close()
+
+    def readings(self) -> Iterator[LiveReading]:
+        """Yield readings as they arrive, without end."""
+        return self._readings()
+
+    def zero(self) -> None:
+        """Let the instrument count from here."""
+        if self._zero is None:
+            self._port.fail(
+                "this instrument cannot be set to zero from here; press its key, or leave it as it is"
+            )
+        self._zero()

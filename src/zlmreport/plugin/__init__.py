@@ -14,11 +14,11 @@ if TYPE_CHECKING:
     from zlmreport.capture.events import Ended as CaptureEnded
     from zlmreport.capture.events import Recorded as ReadingRecorded
     from zlmreport.capture.events import Resumed as CaptureResumed
-    from zlmreport.capture.header import Header as JournalHeader
     from zlmreport.capture.history import Entry as JournalEntry
     from zlmreport.capture.history import History as JournalHistory
     from zlmreport.capture.history import read_history as read_journal
     from zlmreport.capture.options import CaptureOptions
+    from zlmreport.capture.records import Header as JournalHeader
     from zlmreport.certificate.attachments import Attachment, Relationship
     from zlmreport.certificate.attachments import Source as CertificateSource
     from zlmreport.certificate.conformity import STATEMENTS as CONFORMITY_STATEMENTS
@@ -52,8 +52,7 @@ if TYPE_CHECKING:
         index_change,
         refractive_index,
     )
-    from zlmreport.emulation.emulator import Emulator, Scene
-    from zlmreport.emulation.faults import Trouble
+    from zlmreport.emulation.emulator import Emulator, Scene, Trouble
     from zlmreport.errors import AccessError, InputError, Place, Problem, did_you_mean
     from zlmreport.evaluation.checks.positions import (
         exceeds,
@@ -114,17 +113,14 @@ if TYPE_CHECKING:
     from zlmreport.job.types import Finite, JobPath, Options
     from zlmreport.language import Language, Words
     from zlmreport.language import same as same_in_all_languages
-    from zlmreport.live.connection import LiveConnection
-    from zlmreport.live.lines import Lines as WholeLines
-    from zlmreport.live.options import PolledOptions, PortOptions
-    from zlmreport.live.patience import Patience
-    from zlmreport.live.polling import ask as ask_instrument
-    from zlmreport.live.polling import at_rate as readings_at_rate
-    from zlmreport.live.polling import unreadable as unreadable_reading
-    from zlmreport.live.port import Framing, Port
+    from zlmreport.live.dialogue import Lines as WholeLines
+    from zlmreport.live.dialogue import Patience, WrongDeviceError
+    from zlmreport.live.dialogue import ask as ask_instrument
+    from zlmreport.live.dialogue import at_rate as readings_at_rate
+    from zlmreport.live.dialogue import streamed as streamed_readings
+    from zlmreport.live.dialogue import unreadable as unreadable_reading
+    from zlmreport.live.port import Framing, LiveConnection, PolledOptions, Port, PortOptions
     from zlmreport.live.reading import NO_CONDITIONS, NO_FAULT, Fault, LiveReading
-    from zlmreport.live.streaming import WrongDeviceError
-    from zlmreport.live.streaming import streamed as streamed_readings
     from zlmreport.measurement.approach import Approach
     from zlmreport.measurement.axis import Axis, AxisKind, position_units
     from zlmreport.measurement.collect import Reading
@@ -466,9 +462,9 @@ _ROOMS = {
     "zlmreport.capture.events": (
         "CaptureEnded=Ended CaptureResumed=Resumed DatumHolds DatumMoved ReadingRecorded=Recorded ZeroLost"
     ),
-    "zlmreport.capture.header": "JournalHeader=Header",
     "zlmreport.capture.history": "JournalEntry=Entry JournalHistory=History read_journal=read_history",
     "zlmreport.capture.options": "CaptureOptions",
+    "zlmreport.capture.records": "JournalHeader=Header",
     "zlmreport.certificate.attachments": "Attachment CertificateSource=Source Relationship",
     "zlmreport.certificate.conformity": "CONFORMITY_STATEMENTS=STATEMENTS",
     "zlmreport.certificate.document": (
@@ -481,8 +477,7 @@ _ROOMS = {
     "zlmreport.correction.refractive_index": (
         "STANDARD_HUMIDITY STANDARD_PRESSURE index_change refractive_index"
     ),
-    "zlmreport.emulation.emulator": "Emulator Scene",
-    "zlmreport.emulation.faults": "Trouble",
+    "zlmreport.emulation.emulator": "Emulator Scene Trouble",
     "zlmreport.errors": "AccessError InputError Place Problem did_you_mean",
     "zlmreport.evaluation.checks.positions": (
         "exceeds measured_length positions_by_angle positions_in_all positions_over_travel "
@@ -525,14 +520,12 @@ _ROOMS = {
     "zlmreport.job.job": "Job",
     "zlmreport.job.types": "Finite JobPath Options",
     "zlmreport.language": "Language Words same_in_all_languages=same",
-    "zlmreport.live.connection": "LiveConnection",
-    "zlmreport.live.lines": "WholeLines=Lines",
-    "zlmreport.live.options": "PolledOptions PortOptions",
-    "zlmreport.live.patience": "Patience",
-    "zlmreport.live.polling": "ask_instrument=ask readings_at_rate=at_rate unreadable_reading=unreadable",
-    "zlmreport.live.port": "Framing Port",
+    "zlmreport.live.dialogue": (
+        "Patience WholeLines=Lines WrongDeviceError ask_instrument=ask readings_at_rate=at_rate "
+        "streamed_readings=streamed unreadable_reading=unreadable"
+    ),
+    "zlmreport.live.port": "Framing LiveConnection PolledOptions Port PortOptions",
     "zlmreport.live.reading": "Fault LiveReading NO_CONDITIONS NO_FAULT",
-    "zlmreport.live.streaming": "WrongDeviceError streamed_readings=streamed",
     "zlmreport.measurement.approach": "Approach",
     "zlmreport.measurement.axis": "Axis AxisKind position_units",
     "zlmreport.measurement.collect": (

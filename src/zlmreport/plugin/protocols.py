@@ -267,7 +267,7 @@ class Instrument(Protocol):
     title
         In words.
     options
-        Its job keys; all but ``port`` have a default. `zlmreport.live.options` has what most need.
+        Its job keys; all but ``port`` have a default. `zlmreport.live.port` has what most need.
     """
 
     identifier: str

@@ -19,7 +19,7 @@ from zlmreport.simulation.simulate import design_of, deviation_by_all, observed
 
 @dataclass(frozen=True, slots=True)
 class EmulatedMachine:
-    """A machine under its part program: an `zlmreport.emulation.axis.EmulatedAxis` that knows its truth.
+    """A machine under its part program: an `zlmreport.emulation.emulator.EmulatedAxis` that knows its truth.
 
     Attributes
     ----------

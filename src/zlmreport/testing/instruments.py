@@ -13,11 +13,8 @@ from contextlib import contextmanager
 from itertools import islice
 from typing import Any
 
-from zlmreport.emulation.axis import MovingAxis
-from zlmreport.emulation.channels import LocalSocket
-from zlmreport.emulation.emulator import Scene
-from zlmreport.emulation.faults import Planned, Trouble, Troubles
-from zlmreport.emulation.serve import serve
+from zlmreport.emulation.channels import LocalSocket, serve
+from zlmreport.emulation.emulator import MovingAxis, Planned, Scene, Trouble, Troubles
 from zlmreport.errors import AccessError, ZlmreportError
 from zlmreport.live.reading import LiveReading
 from zlmreport.plugin.protocols import Instrument

@@ -10,10 +10,8 @@ from itertools import islice
 from typing import Any
 
 from processes import PATIENCE
-from zlmreport.emulation.channels import PseudoTerminal
-from zlmreport.emulation.emulator import Emulator
-from zlmreport.emulation.faults import Troubles
-from zlmreport.emulation.serve import serve
+from zlmreport.emulation.channels import PseudoTerminal, serve
+from zlmreport.emulation.emulator import Emulator, Troubles
 from zlmreport.live.reading import LiveReading
 from zlmreport.plugin.protocols import Instrument
 

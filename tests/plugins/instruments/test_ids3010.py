@@ -8,14 +8,12 @@ import pytest
 
 from plugins.instruments.exchanges import questions_and_answers
 from plugins.instruments.lines import plugged_in, readings_of
-from zlmreport.emulation.axis import MovingAxis
-from zlmreport.emulation.emulator import Scene
-from zlmreport.emulation.faults import Planned, Trouble, Troubles
+from zlmreport.emulation.emulator import MovingAxis, Planned, Scene, Trouble, Troubles
 from zlmreport.errors import AccessError
 from zlmreport.live.reading import Fault
+from zlmreport_plugins.instruments.ids3010 import Ids3010
+from zlmreport_plugins.instruments.ids3010.dialogue import Answer, answer_to, question
 from zlmreport_plugins.instruments.ids3010.emulator import Ids3010Emulator
-from zlmreport_plugins.instruments.ids3010.instrument import Ids3010
-from zlmreport_plugins.instruments.ids3010.messages import Answer, answer_to, question
 
 EXCHANGE = questions_and_answers()
 

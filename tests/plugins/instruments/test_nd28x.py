@@ -6,13 +6,10 @@ import pytest
 
 from plugins.instruments.exchanges import dialogue
 from plugins.instruments.lines import plugged_in, readings_of
-from zlmreport.emulation.axis import MovingAxis
-from zlmreport.emulation.emulator import Scene
-from zlmreport.emulation.faults import Planned, Trouble, Troubles
+from zlmreport.emulation.emulator import MovingAxis, Planned, Scene, Trouble, Troubles
 from zlmreport.live.reading import Fault
+from zlmreport_plugins.instruments.nd28x import Nd28x, Nd28xEmulator
 from zlmreport_plugins.instruments.nd28x import dialogue as spoken
-from zlmreport_plugins.instruments.nd28x.emulator import Nd28xEmulator
-from zlmreport_plugins.instruments.nd28x.instrument import Nd28x
 
 _UNITS = {
     "mm": spoken.PrintedUnit.MILLIMETRE,

@@ -8,14 +8,15 @@ import pytest
 from pydantic import ValidationError
 
 from plugins.instruments.lines import plugged_in, readings_of
-from zlmreport.emulation.axis import MovingAxis
-from zlmreport.emulation.emulator import Scene
+from zlmreport.emulation.emulator import MovingAxis, Scene
 from zlmreport.live.port import Framing
 from zlmreport.live.reading import Fault
-from zlmreport_plugins.instruments.text_readout.decoder import TextDecoder
-from zlmreport_plugins.instruments.text_readout.emulator import TextEmulator
-from zlmreport_plugins.instruments.text_readout.instrument import TextReadout
-from zlmreport_plugins.instruments.text_readout.options import TextReadoutOptions
+from zlmreport_plugins.instruments.text_readout import (
+    TextDecoder,
+    TextEmulator,
+    TextReadout,
+    TextReadoutOptions,
+)
 
 
 def _value(line: bytes, **keys: object) -> float:

@@ -10,16 +10,12 @@ import pytest
 
 from plugins.instruments.exchanges import DATA, lines
 from zlmreport.correction.refractive_index import index_change
-from zlmreport.emulation.axis import MovingAxis
-from zlmreport.emulation.emulator import Scene
-from zlmreport.emulation.faults import Planned, Trouble, Troubles
+from zlmreport.emulation.emulator import MovingAxis, Planned, Scene, Trouble, Troubles
+from zlmreport.live.dialogue import WrongDeviceError
 from zlmreport.live.reading import Fault, LiveReading
-from zlmreport.live.streaming import WrongDeviceError
-from zlmreport_plugins.instruments.umd.decoder import Setup, UmdDecoder
+from zlmreport_plugins.instruments.umd import Setup, UmdDecoder, UmdOptions, cycle_length
 from zlmreport_plugins.instruments.umd.emulator import UmdEmulator
-from zlmreport_plugins.instruments.umd.frame import AxisCounts, Frame, frame_in
-from zlmreport_plugins.instruments.umd.instrument import UmdOptions, cycle_length
-from zlmreport_plugins.instruments.umd.models import MODELS
+from zlmreport_plugins.instruments.umd.lines import MODELS, AxisCounts, Frame, frame_in
 
 UMD = {model.identifier: model for model in MODELS}
 #: λ/2 in standard air, m.

@@ -20,7 +20,7 @@ from zlmreport.measurement import axis as axes
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.measurement_set import MeasurementSet, MissingReading
 from zlmreport.plugin.protocols import SourceContext
-from zlmreport_plugins.sources.serial_interferometer.source import SerialInterferometer
+from zlmreport_plugins.sources.serial_interferometer import SerialInterferometer
 
 #: The last reading before an axis is quite there may be among the hundred of a mean, m.
 ARRIVAL = 1 * UM / 100

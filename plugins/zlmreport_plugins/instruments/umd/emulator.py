@@ -18,8 +18,7 @@ from zlmreport.plugin import (
     Trouble,
     index_change,
 )
-from zlmreport_plugins.instruments.umd.frame import Code
-from zlmreport_plugins.instruments.umd.models import Model
+from zlmreport_plugins.instruments.umd.lines import Code, Model
 
 
 @dataclass(frozen=True, slots=True)

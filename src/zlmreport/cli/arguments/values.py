@@ -7,7 +7,7 @@ import math
 
 from zlmreport.errors import did_you_mean
 
-#: As `zlmreport.emulation.faults` knows them; a test holds the two together.
+#: As `zlmreport.emulation.emulator` knows them; a test holds the two together.
 FAULTS = ("lost-beam", "skipped", "error", "garbled", "unplugged")
 POINT_FAULTS = ("no-touch", "no-surface", "collision", "emergency-stop", "lost-connection")
 

@@ -1,4 +1,4 @@
-"""An emulated axis goes where it is told, and rests there."""
+"""The axis before an emulated instrument."""
 
 from __future__ import annotations
 
@@ -6,8 +6,7 @@ import statistics
 
 import pytest
 
-from zlmreport.emulation.axis import MovingAxis
-from zlmreport.emulation.faults import Planned, Trouble, Troubles
+from zlmreport.emulation.emulator import MovingAxis, Planned, Trouble, Troubles
 
 #: 2 s at 0, 1 s to 0.1 m, 2 s there, 1 s back; over and over.
 AXIS = MovingAxis((0.0, 0.1), feed=0.1, dwell=2.0)

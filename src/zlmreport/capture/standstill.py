@@ -1,4 +1,4 @@
-"""Readings within which the axis stands still."""
+"""Readings in time: how far apart they are, which way the axis moves, and when it stands still."""
 
 from __future__ import annotations
 
@@ -8,6 +8,106 @@ from typing import NamedTuple
 
 from zlmreport.capture.events import Mean
 from zlmreport.live.reading import LiveReading
+from zlmreport.measurement.approach import Approach
+
+#: From so many gaps it is told how far apart the readings of an instrument are.
+_GAPS = 10
+
+
+class Pace:
+    """Measures gaps between readings.
+
+    A reading is stamped when it arrives. Where a computer was busy, what had been waiting arrives at once,
+    and what had no room was dropped; so readings that are missing count for the time that they should have
+    taken.
+
+    Attributes
+    ----------
+    shortest
+        How far apart the first readings were at least, s; 0 before it is known.
+    """
+
+    def __init__(self) -> None:
+        self.shortest = 0.0
+        self._first: list[float] = []
+        self._elapsed = 0.0
+        self._count = 0
+
+    def gap(self, before: float, now: float, lost: int) -> float:
+        """Return how long no reading came, s.
+
+        Parameters
+        ----------
+        before, now
+            When the last reading arrived, and this one, s.
+        lost
+            How many between them did not arrive or were not understood.
+        """
+        elapsed = now - before
+        expected = (lost + 1) * self._elapsed / self._count if self._count and lost else 0.0
+        self._elapsed += elapsed
+        self._count += lost + 1
+        if len(self._first) < _GAPS:
+            self._first.append(elapsed)
+            self.shortest = min(self._first) if len(self._first) == _GAPS else 0.0
+        return max(elapsed, expected)
+
+
+class Track:
+    """Follows the axis by medians of three readings: one that its neighbours do not confirm is no motion.
+
+    The direction is that of the last motion that went further than a threshold; a smaller one back, such as
+    an overshoot, does not turn it.
+
+    Attributes
+    ----------
+    position
+        The median of the last three readings, m or rad; None as long as there are fewer.
+    before
+        The one before.
+    direction
+        None as long as no motion has been seen.
+
+    Parameters
+    ----------
+    motion
+        What counts as motion, m or rad.
+    """
+
+    def __init__(self, motion: float) -> None:
+        self.position: float | None = None
+        self.before: float | None = None
+        self.direction: Approach | None = None
+        self._motion = motion
+        self._last: list[float] = []
+        self._lowest = self._highest = 0.0
+
+    def forget(self) -> None:
+        """Begin anew: what the axis did in the meantime nobody saw."""
+        self.position = self.before = self.direction = None
+        self._last.clear()
+
+    def add(self, value: float) -> None:
+        """Take the next reading in, m or rad."""
+        self._last.append(value)
+        if len(self._last) < 3:
+            return
+        del self._last[:-3]
+        position = sorted(self._last)[1]
+        self.before, self.position = self.position, position
+        if self.before is None:
+            self._lowest = self._highest = position
+        self._lowest = min(self._lowest, position)
+        self._highest = max(self._highest, position)
+        if self.direction is not Approach.POSITIVE and position > self._lowest + self._motion:
+            self.direction = Approach.POSITIVE
+        elif self.direction is not Approach.NEGATIVE and position < self._highest - self._motion:
+            self.direction = Approach.NEGATIVE
+        if self.direction is Approach.POSITIVE:
+            self._lowest = self._highest
+        elif self.direction is Approach.NEGATIVE:
+            self._highest = self._lowest
+
 
 #: The last share of the dwell, over which the readings are averaged.
 _AVERAGED = 1 / 2

@@ -1,18 +1,129 @@
-"""What a µMD says of itself and of the air, one number a line, over and over.
-
-A line has no checksum, and a wrong rate or count would spoil every reading after it. So nothing is believed
-that was not said twice alike.
-"""
+"""The lines of the µMD displays: fields, the low-speed channel in them, and what the models differ in."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from enum import IntEnum
 from types import MappingProxyType
+from typing import NamedTuple
 
 from zlmreport.plugin import CELSIUS, NO_CONDITIONS, PERCENT
-from zlmreport_plugins.instruments.umd.frame import Code, Frame
-from zlmreport_plugins.instruments.umd.models import Model
+
+
+@dataclass(frozen=True, slots=True)
+class Model:
+    """A display.
+
+    Attributes
+    ----------
+    identifier
+        As jobs name it.
+    name
+        As its makers write it.
+    baud_rate
+        Of its port; only that of µMD0 is a real line, the others take any.
+    slots
+        After so many samples the low-speed channel begins anew.
+    announces_counting
+        Whether it says how many counts a cycle has (code 20); one that does not has 1.
+    interpolation
+        By how many counts DISP and VEL may disagree: the displacement is moved by interpolation, and the
+        velocity is not.
+    """
+
+    identifier: str
+    name: str
+    baud_rate: int
+    slots: int
+    announces_counting: bool
+    interpolation: int
+
+
+MODELS = (
+    Model("umd0", "µMD0", 115_200, 256, announces_counting=True, interpolation=0),
+    Model("umd1", "µMD1", 115_200, 32, announces_counting=False, interpolation=0),
+    Model("umd2", "µMD2", 2_000_000, 32, announces_counting=True, interpolation=2),
+)
+
+
+_DIGITS = re.compile(rb"[-0-9 ]{15,320}")
+
+
+class Code(IntEnum):
+    """What the low-speed channel says, of which each line carries one number."""
+
+    NONE = 0
+    TEMPERATURE_1 = 3
+    TEMPERATURE_2 = 4
+    PRESSURE = 5
+    HUMIDITY = 6
+    SAMPLE_RATE = 8
+    FIRMWARE = 10
+    COUNTING = 20
+    FLAGS = 112
+
+
+class AxisCounts(NamedTuple):
+    """What a line says of one axis.
+
+    Attributes
+    ----------
+    measured
+        MEAS, cycles of the measurement signal in the sample; 0 of a homodyne instrument.
+    displacement
+        DISP, counts from switching on.
+    velocity
+        VEL, counts from the sample before; 0 of a homodyne instrument.
+    phase
+        PHASE, the fraction of a count, or a flag that it was not found.
+    """
+
+    measured: int
+    displacement: int
+    velocity: int
+    phase: int
+
+
+class Frame(NamedTuple):
+    """A line.
+
+    Attributes
+    ----------
+    reference
+        REF, cycles of the laser's reference in the sample; 0 of a homodyne instrument.
+    axes
+        One, or three.
+    sequence
+        SEQ, the number of the sample.
+    code, data
+        The low-speed channel.
+    """
+
+    reference: int
+    axes: tuple[AxisCounts, ...]
+    sequence: int
+    code: int
+    data: int
+
+
+def frame_in(line: bytes) -> Frame | None:
+    """Return what a line without its end says; None if it is none, such as a banner or debug text (``!``)."""
+    if not _DIGITS.fullmatch(line):  # or a number might be written in a way that only Python takes for one
+        return None
+    fields = line.split(b" ")
+    if len(fields) not in {8, 16}:
+        return None
+    try:
+        numbers = tuple(map(int, fields))
+    except ValueError:
+        return None
+    axes: tuple[AxisCounts, ...] = (AxisCounts(*numbers[1:5]),)
+    if len(numbers) > 8:
+        axes += (AxisCounts(*numbers[8:12]), AxisCounts(*numbers[12:]))
+    return Frame(numbers[0], axes, *numbers[5:8])
+
 
 _ABSENT = -1
 #: From this firmware on a µMD2 sends the phase in 16 bits, unless the flag says 8.

@@ -1,4 +1,4 @@
-"""Questions at a rate, and their answers."""
+"""Bytes to lines, questions and answers, and patience with both."""
 
 from __future__ import annotations
 
@@ -6,9 +6,11 @@ from itertools import islice
 from typing import Any
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from zlmreport.live import polling
-from zlmreport.live.polling import ask, at_rate, unreadable
+from zlmreport.live.dialogue import Lines, ask, at_rate, unreadable
 from zlmreport.live.port import Framing, Port
 from zlmreport.live.reading import Fault, LiveReading
 
@@ -85,3 +87,20 @@ def test_faults_that_lose_counts_lose_the_zero(fault: Fault, loses: bool) -> Non
 
 def test_skipped_readings_do_no_harm_to_the_one_after() -> None:
     assert LiveReading(0.0, 1.0, skipped=3).is_usable
+
+
+@given(st.lists(st.integers(1, 40)))
+def test_lines_are_the_same_however_they_arrive(sizes: list[int]) -> None:
+    data = b"one\r\ntwo\rthree\n\n\r\nfour\r\nrest"
+    lines, found, start = Lines(), [], 0
+    for size in [*sizes, len(data)]:
+        found += lines.feed(data[start : start + size])
+        start += size
+    assert found == [b"one", b"two", b"three", b"four"]
+
+
+@pytest.mark.parametrize("size", [5, 100_000])
+def test_bytes_without_an_end_are_not_kept_for_ever(size: int) -> None:
+    lines = Lines(longest=4)
+    assert lines.feed(b"x" * size) == [b"x" * size]
+    assert lines.feed(b"y\n") == [b"y"]

@@ -1,0 +1,247 @@
+"""Data source ``serial-interferometer``: readings that were captured live, from their journal."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+from zlmreport.plugin import (
+    AccessError,
+    Axis,
+    CaptureEnded,
+    CaptureOptions,
+    CaptureResumed,
+    DataSource,
+    DatumHolds,
+    DatumMoved,
+    InputError,
+    JournalEntry,
+    JournalHeader,
+    JournalHistory,
+    MeasurementSet,
+    Options,
+    Place,
+    Provenance,
+    Reading,
+    ReadingRecorded,
+    SourceContext,
+    Words,
+    ZeroLost,
+    collect_readings,
+    hookimpl,
+    read_journal,
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Taken:
+    """A reading that counts: its entry in the journal, and the event in it."""
+
+    entry: JournalEntry
+    event: ReadingRecorded
+
+
+@dataclass(frozen=True, slots=True)
+class Part:
+    """A part of the test, which shares one datum.
+
+    Attributes
+    ----------
+    number
+        Of the part, from 1.
+    attempt
+        The attempt that counts, from 1.
+    attempts
+        How many there were.
+    left_out
+        How many readings the others have.
+    """
+
+    number: int
+    attempt: int
+    attempts: int
+    left_out: int
+
+
+def counted(history: JournalHistory) -> tuple[Mapping[int, Taken], tuple[Part, ...]]:
+    """Return the readings that count, by the numbers of their visits, and what was left out.
+
+    Readings of two attempts are not mixed, for each has a datum of its own. The attempt with the most
+    readings counts, of equals the last: a rule that no reading's value has a part in.
+    """
+    by_part: dict[int, dict[int, list[Taken]]] = defaultdict(lambda: defaultdict(list))
+    for taken in _taken(history.entries):
+        by_part[taken.event.visit.part][taken.event.attempt].append(taken)
+    readings: dict[int, Taken] = {}
+    parts = []
+    for number, attempts in sorted(by_part.items()):
+        attempt = max(attempts, key=lambda each: (len(attempts[each]), each))
+        readings |= {taken.event.visit.number: taken for taken in attempts[attempt]}
+        left_out = sum(len(others) for each, others in attempts.items() if each != attempt)
+        parts.append(Part(number, attempt, len(attempts), left_out))
+    return readings, tuple(parts)
+
+
+def _taken(entries: Iterable[JournalEntry]) -> Iterable[Taken]:
+    return (Taken(entry, entry.event) for entry in entries if isinstance(entry.event, ReadingRecorded))
+
+
+def remarks(
+    history: JournalHistory, taken: Mapping[int, Taken], parts: Sequence[Part], axis: Axis
+) -> Iterator[Words]:
+    """Yield what a reader of the results must know of a capture."""
+    header = history.header
+    yield Words(
+        en="Captured live with {instrument} ({tool}). A reading is the mean over {dwell} s in which the axis "
+        "stood still within {stability} {fine}, at most {tolerance} {unit} from the target.",
+        de="Live erfasst mit {instrument} ({tool}). Ein Messwert ist das Mittel über {dwell} s, in denen die "
+        "Achse innerhalb von {stability} {fine} stillstand, höchstens {tolerance} {unit} vom Sollwert.",
+    ).given(
+        instrument=str(header.instrument.get("plugin", "")),
+        tool=header.tool,
+        dwell=header.settings.dwell,
+        stability=axis.deviation_unit.from_si(header.settings.stability),
+        fine=axis.deviation_unit.symbol,
+        tolerance=axis.position_unit.from_si(header.settings.tolerance),
+        unit=axis.position_unit.symbol,
+    )
+    yield _datum(header.datum, axis)
+    yield from _interruptions(history, axis)
+    yield from _repetitions(parts)
+    missing = len(header.visits) - len(taken)
+    if missing:
+        yield Words(
+            en="{missing} of {all} visits of the plan have no reading.",
+            de="{missing} von {all} geplanten Messpunkten haben keinen Messwert.",
+        ).given(missing=missing, all=len(header.visits))
+    if any(isinstance(entry.event, CaptureEnded) for entry in history.entries):
+        yield Words(
+            en="The operator closed the test before the plan was done.",
+            de="Die Messung wurde beendet, bevor der Plan abgearbeitet war.",
+        )
+
+
+def _datum(datum: float | None, axis: Axis) -> Words:
+    if datum is None:
+        return Words(
+            en="Positions are counted from the instrument's own zero.",
+            de="Positionen zählen vom Nullpunkt des Messgeräts.",
+        )
+    return Words(
+        en="The reading at {position} {unit} was taken for that position: deviations are relative to it.",
+        de="Die Anzeige bei {position} {unit} wurde dieser Position gleichgesetzt: Abweichungen sind auf sie "
+        "bezogen.",
+    ).given(position=axis.position_unit.from_si(datum), unit=axis.position_unit.symbol)
+
+
+def _interruptions(history: JournalHistory, axis: Axis) -> Iterator[Words]:
+    events = [entry.event for entry in history.entries]
+    lost = sum(isinstance(event, ZeroLost | DatumMoved) for event in events)
+    resumed = sum(isinstance(event, CaptureResumed) for event in events)
+    if resumed > lost:
+        yield Words(
+            en="The capture was interrupted and went on (interruptions: {count}).",
+            de="Die Erfassung wurde unterbrochen und fortgesetzt (Unterbrechungen: {count}).",
+        ).given(count=resumed - lost)
+    held = [abs(event.difference) for event in events if isinstance(event, DatumHolds)]
+    if held:
+        yield Words(
+            en="After an interruption the datum was held against an earlier reading; largest difference: "
+            "{difference} {unit}.",
+            de="Nach einer Unterbrechung wurde der Bezug an einem früheren Messwert geprüft; größte "
+            "Differenz: {difference} {unit}.",
+        ).given(difference=axis.deviation_unit.from_si(max(held)), unit=axis.deviation_unit.symbol)
+    if lost:
+        yield Words(
+            en="The instrument's zero was lost (times: {count}). What it showed from then on, until the "
+            "datum was taken anew, is not used.",
+            de="Der Nullpunkt des Messgeräts ging verloren (Anzahl: {count}). Was es von da an bis zum neuen "
+            "Bezug anzeigte, ist nicht verwendet.",
+        ).given(count=lost)
+
+
+def _repetitions(parts: Sequence[Part]) -> Iterator[Words]:
+    for part in parts:
+        if part.attempts > 1:
+            yield Words(
+                en="Part {part} of the test (a run, or all of it) was taken {attempts} times, each "
+                "time from a datum of its own; attempt {attempt}, the most complete, counts; {left_out} "
+                "readings of the others stay in the journal.",
+                de="Teil {part} der Messung (ein Durchlauf oder die ganze) wurde {attempts}-mal aufgenommen, "
+                "jedes Mal mit eigenem Bezug; Versuch {attempt}, der vollständigste, zählt; {left_out} "
+                "Messwerte der anderen bleiben im Protokoll.",
+            ).given(part=part.number, attempts=part.attempts, attempt=part.attempt, left_out=part.left_out)
+
+
+_COMMAND = "zlmreport capture JOB.yaml"
+
+
+class SerialInterferometer:
+    """Readings that were captured live from an interferometer, a display or another instrument.
+
+    The journal of ``zlmreport capture`` is read; the instrument is not. So a journal that was captured before
+    is evaluated without one, on any computer.
+    """
+
+    identifier = "serial-interferometer"
+    title = Words(en="Live capture from an instrument", de="Live-Erfassung von einem Messgerät")
+    options: type[Options] = CaptureOptions
+
+    def read(self, options: CaptureOptions, context: SourceContext) -> MeasurementSet:
+        """Read a journal; raise `AccessError` for one that is damaged or not finished."""
+        place = Place(str(options.journal))
+        history = read_journal(options.journal)
+        if history is None or not history.progress.is_over:
+            raise AccessError.at(place, _unfinished(history))
+        _demand_axis(history.header, context.axis, place)
+        taken, parts = counted(history)
+        provenance = Provenance(
+            self.identifier, (history.file,), tuple(remarks(history, taken, parts, context.axis))
+        )
+        readings = _readings(history, taken, place)
+        found = collect_readings(readings, context.axis, provenance, place=place)
+        return replace(found, datum=history.header.datum)
+
+
+def _unfinished(history: JournalHistory | None) -> str:
+    if history is None:
+        return f"holds nothing yet; '{_COMMAND}' begins the capture"
+    progress = history.progress
+    return (
+        f"the capture is not finished: {progress.taken} of {len(progress.visits)} visits; "
+        f"'{_COMMAND} --resume' goes on, '{_COMMAND} --end' closes it without the rest"
+    )
+
+
+def _demand_axis(header: JournalHeader, axis: Axis, place: Place) -> None:
+    if (header.axis, header.kind) != (axis.name, axis.kind):
+        raise InputError.at(
+            place,
+            f"is the journal of the {header.kind} axis {header.axis} ({header.number}), and the job is on "
+            f"the {axis.kind} axis {axis.name}; name its own journal",
+        )
+
+
+def _readings(history: JournalHistory, taken: Mapping[int, Taken], place: Place) -> Iterator[Reading]:
+    """Yield the visits of the test in their order; those that were not taken have no deviation."""
+    for visit in history.header.visits:
+        found = taken.get(visit.number)
+        if found is None:
+            yield Reading(place, visit.position, visit.approach, visit.run, float("nan"))
+        else:
+            yield Reading(
+                Place(place.file, found.entry.line),
+                visit.position,
+                visit.approach,
+                visit.run,
+                found.event.deviation,
+                found.entry.elapsed,
+                found.event.mean.conditions,
+            )
+
+
+@hookimpl
+def zlmreport_sources() -> Iterable[DataSource]:
+    """Return the reader of journals."""
+    return [SerialInterferometer()]
