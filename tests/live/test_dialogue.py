@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from zlmreport.live import polling
+from zlmreport.live import dialogue
 from zlmreport.live.dialogue import Lines, ask, at_rate, unreadable
 from zlmreport.live.port import Framing, Port
 from zlmreport.live.reading import Fault, LiveReading
@@ -50,7 +50,7 @@ def test_questions_keep_their_rate(
     lasts: list[float], asked_at: list[float], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     clock: Any = _Clock()
-    monkeypatch.setattr(polling, "time", clock)
+    monkeypatch.setattr(dialogue, "time", clock)
     durations = iter(lasts)
     times = []
 
