@@ -554,8 +554,8 @@ _ROOMS = {
         "ReadingScale=Scale SECOND TIME_UNITS Unit unit_named"
     ),
     "zlmreport.typesetting.columns": (
-        "column_measures=measures column_widths=widths columns_stand_apart=stands_apart decimal_padding "
-        "table_lines=lines table_size=size"
+        "GatheredBlock column_measures=measures column_widths=widths columns_stand_apart=stands_apart "
+        "decimal_padding facts_side_by_side=side_by_side gather_facts table_lines=lines table_size=size"
     ),
     "zlmreport.typesetting.compose": "GRAPH_ADDRESS HtmlSetting=Setting LOGO_ADDRESS compose_html=compose",
     "zlmreport.typesetting.linked": "linked_script=script linked_style=style script_fingerprint=fingerprint",
