@@ -12,7 +12,7 @@ import pytest
 from processes import ZLMREPORT, run, started
 from zlmreport.cli import main
 from zlmreport.cli.arguments import parse
-from zlmreport.cli.arguments.values import FAULTS
+from zlmreport.cli.arguments.parser import FAULTS
 from zlmreport.cli.emulate import axis_of
 from zlmreport.emulation.emulator import Trouble
 from zlmreport.plugins import find_plugins

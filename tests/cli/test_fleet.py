@@ -14,7 +14,7 @@ from fleet.fleets import FLEET, Fleet, without_processes
 from processes import PYTHON
 from processes import run as run_program
 from zlmreport.cli import main
-from zlmreport.cli.fleet_progress import Progress, bar
+from zlmreport.cli.fleet_log import Progress, bar
 
 OTHER_READINGS = "2 2 3 -1 -2 -3"
 Run = Callable[..., tuple[int, str, str]]

@@ -12,7 +12,7 @@ from probing.emulated import on_a_port
 from processes import ZLMREPORT, started
 from step_gauge.jobs import write_job
 from zlmreport.cli import main
-from zlmreport.cli.arguments.values import POINT_FAULTS
+from zlmreport.cli.arguments.parser import POINT_FAULTS
 from zlmreport.emulation.dme_server import DmeServer, PointFault
 from zlmreport.job.loading import load
 from zlmreport.plugins import find_plugins

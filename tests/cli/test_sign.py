@@ -13,7 +13,7 @@ from pdf_conformance import complaints
 from processes import ZLMREPORT, run
 from signing.keys import PASSWORD, pkcs12_file
 from zlmreport.cli import main
-from zlmreport.cli.arguments.main_job import SIGN_PASSWORD
+from zlmreport.cli.arguments.documents import SIGN_PASSWORD
 from zlmreport.signing.state import Integrity, signature_state
 
 JOB = ROOT / "configs" / "german" / "messbericht.yaml"
@@ -47,7 +47,7 @@ def test_the_password_is_asked_for_at_a_terminal(
     monkeypatch.delenv(SIGN_PASSWORD, raising=False)
     monkeypatch.setattr("sys.stdin.isatty", lambda: True, raising=False)
     asked = []
-    monkeypatch.setattr("zlmreport.cli.signature.getpass", lambda prompt, stream: asked.append(prompt) or "x")  # noqa: ARG005
+    monkeypatch.setattr("zlmreport.cli.report.getpass", lambda prompt, stream: asked.append(prompt) or "x")  # noqa: ARG005
     shop.job()
     assert shop.run("job.yaml", "--sign", str(key)).code == 2
     assert asked == [f"Password of {key}: "]

@@ -2,22 +2,42 @@
 
 from __future__ import annotations
 
+import datetime as dt
+import time
 from argparse import Namespace
+from collections.abc import Callable, Iterator
 from dataclasses import replace
+from functools import partial
+from itertools import chain
 from pathlib import Path
 
-from zlmreport.capture.events import Ended
-from zlmreport.capture.journal import Journal
-from zlmreport.capture.of_job import Assignment, options_of
+from zlmreport import pipeline
+from zlmreport.capture.events import Ended, Event, Interrupted, Resumed, Unclear
+from zlmreport.capture.follower import Follower
+from zlmreport.capture.history import History, read_history
+from zlmreport.capture.journal import Journal, captured, demand_nothing_captured
+from zlmreport.capture.of_job import (
+    Assignment,
+    assignment_of,
+    demand_same_test,
+    header_of,
+    instrument_of,
+    options_of,
+)
+from zlmreport.certificate.clauses import demand_mandatory_items
 from zlmreport.cli import capture_probing
-from zlmreport.cli.capture_awaited import assignment
-from zlmreport.cli.capture_display import JsonLines, LiveDisplay, PlainLines, is_watched
-from zlmreport.cli.capture_sitting import capture, demand_own_journal
-from zlmreport.cli.terminal import shown_path
-from zlmreport.errors import InputError, Place
+from zlmreport.cli.capture_display import Display, JsonLines, LiveDisplay, PlainLines, is_watched, visit_named
+from zlmreport.cli.job_lines import requirements
+from zlmreport.cli.terminal import Colour, shown_path
+from zlmreport.errors import AccessError, InputError, Place
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
-from zlmreport.plugins import find_plugins
+from zlmreport.language import Language
+from zlmreport.live.reading import LiveReading
+from zlmreport.planning.plan import as_measured, propose
+from zlmreport.plugin.protocols import Connection
+from zlmreport.plugins import Registry, find_plugins
+from zlmreport.presenting.writer import Writer
 from zlmreport.probing.run import live_probing
 
 
@@ -65,3 +85,198 @@ def _close(job: Job, asked: Assignment, path: Path) -> None:
         journal.append(Ended(), journal.elapsed)
     print(f"closed after {taken} of {visits} visits; what was not taken is missing")
     print(f"next: zlmreport {shown_path(path)}")
+
+
+def assignment(job: Job, registry: Registry) -> Assignment:
+    """Return what a job asks to be captured; raise `InputError` if it is nothing, or makes no sense."""
+    return assignment_of(job, propose(job, pipeline.standards(job, registry)).plan)
+
+
+def awaits_capture(job: Job) -> bool:
+    """Tell whether the readings of a job are captured live, and are not all there yet."""
+    if options_of(job) is None:
+        return False
+    history = _history(job)
+    return history is None or not history.progress.is_over
+
+
+def demand_capturable(job: Job, registry: Registry) -> None:
+    """Refuse a job whose certificate would lack something, or whose capture makes no sense."""
+    demand_mandatory_items(job)
+    assignment(job, registry)
+    instrument_of(job)
+
+
+def planned(path: Path, job: Job, registry: Registry) -> Iterator[str]:
+    """Yield the lines on a job that awaits its capture: what its standards ask of the test as planned."""
+    plan = assignment(job, registry).plan
+    test = as_measured(job.axis, plan.method, plan.targets, plan.runs)
+    writer = Writer.of(test, Language.ENGLISH)
+    yield f"{Colour.BOLD.of(str(path))}  the job is sound; its readings are still to be captured"
+    for standard, options in pipeline.standards(job, registry):
+        yield from requirements(standard.designation, standard.requirements(test, options), writer)
+    yield f"  next: zlmreport capture {shown_path(path)}{' --resume' if _has_begun(job) else ''}"
+
+
+def capture_if_watched(job: Job, registry: Registry, path: Path) -> None:
+    """Capture what a job awaits if somebody sits at the terminal; if not, its data source says what to do."""
+    if not is_watched() or job.source.instrument is None or not awaits_capture(job):
+        return
+    asked = assignment(job, registry)
+    capture(job, asked, registry, LiveDisplay(job, asked), path, resume=_has_begun(job))
+
+
+def _has_begun(job: Job) -> bool:
+    history = _history(job)
+    return history is not None and history.has_readings
+
+
+def _history(job: Job) -> History | None:
+    """Return what was captured so far; None for nothing."""
+    options = options_of(job)
+    if options is None or not options.journal.exists():
+        return None
+    return read_history(options.journal)
+
+
+def capture(  # noqa: PLR0913 - whom, what, with what, shown where, and how to go on
+    job: Job,
+    assignment: Assignment,
+    registry: Registry,
+    display: Display,
+    path: Path,
+    *,
+    resume: bool,
+    answer: str = "",
+) -> None:
+    """Capture the test of a job to its end.
+
+    Parameters
+    ----------
+    job
+        The job.
+    assignment
+        What it asks to be captured.
+    registry
+        The plugins: one is the instrument.
+    display
+        Shows what happens, and may have an operator who sees to something.
+    path
+        The job file, for the command that goes on.
+    resume
+        Whether to go on with a journal.
+    answer
+        What the question was answered with that its last sitting ended with: the number of a visit, or
+        ``none``; empty for no answer.
+
+    Raises
+    ------
+    AccessError
+        If the instrument or the journal fails, or there is no operator to see to something; with how to go
+        on.
+    """
+    if resume:
+        demand_own_journal(job, assignment)
+        demand_answer(assignment, answer)
+    else:
+        demand_nothing_captured(assignment.options.journal)
+    choice = instrument_of(job)
+    with registry.instrument(choice.identifier).open(choice.options) as connection:
+        display.wait()
+        readings = connection.readings()
+        readings = chain([next(readings)], readings)  # an instrument that is not there leaves no journal
+        go_on = f"zlmreport capture {shown_path(path)} --resume"
+        with _journal(job, assignment, resume=resume, answer=answer) as journal:
+            try:
+                _sittings(readings, connection, assignment, journal, display)
+            except KeyboardInterrupt:
+                journal.append(Interrupted("ended by the user"), _elapsed_now(journal))
+                display.leave(f"ended; go on with: {go_on}")
+                raise
+            except AccessError as error:
+                problem = error.problems[0]
+                journal.append(Interrupted(problem.message), _elapsed_now(journal))
+                raise AccessError.at(problem.place, f"{problem.message}; go on with: {go_on}") from error
+
+
+def demand_own_journal(job: Job, assignment: Assignment) -> None:
+    """Refuse to go on with a journal of another job, or with a capture that is over."""
+    path = assignment.options.journal
+    history = read_history(path)
+    if history is None:
+        return
+    demand_same_test(history, job, assignment, Place(str(path)))
+    if history.progress.is_over:
+        raise AccessError.at(Place(str(path)), "the capture is finished: there is nothing to go on with")
+
+
+def demand_answer(assignment: Assignment, answer: str) -> None:
+    """Refuse an answer where there is no question, or that names no visit."""
+    if not answer:
+        return
+    history = read_history(assignment.options.journal)
+    if history is None or history.progress.question is None:
+        raise InputError.at(Place("--answer"), "no question is open; leave it out")
+    visit_named(answer, history.progress, Place("--answer"))
+
+
+def _journal(job: Job, assignment: Assignment, *, resume: bool, answer: str) -> Journal:
+    path = assignment.options.journal
+    if not resume:
+        return Journal.begun(path, header_of(job, assignment, dt.datetime.now(dt.UTC)))
+    journal = Journal.continued(path)
+    if answer:
+        visit = visit_named(answer, journal.progress, Place("--answer"))
+        now = _elapsed_now(journal)
+        for event in Follower(journal.progress, assignment.settings).told(visit, now - journal.asked):
+            journal.append(event, now)
+    journal.append(Resumed(), _elapsed_now(journal))
+    return journal
+
+
+def _sittings(
+    readings: Iterator[LiveReading],
+    connection: Connection,
+    assignment: Assignment,
+    journal: Journal,
+    display: Display,
+) -> None:
+    """Follow the axis until the test is over; between two sittings the operator sees to what went wrong."""
+    while not journal.progress.is_over:
+        clock = _clock(journal)
+        follower = Follower(journal.progress, assignment.settings, last=_last_visit(journal, clock))
+        display.begin(follower)
+        show = partial(display.show, follower)
+        event: Event | None = None
+        for event in captured(readings, follower, journal, clock, show=show):
+            display.tell(event)
+        if journal.progress.is_over:
+            return
+        if isinstance(event, Unclear):
+            for each in follower.told(display.ask(event, journal.progress)):
+                journal.append(each, _elapsed_now(journal))
+                display.tell(each)
+        else:
+            display.see_to(event, journal.progress.after(Resumed()))
+        journal.append(Resumed(), _elapsed_now(journal))
+        readings = connection.readings()
+
+
+def _last_visit(journal: Journal, clock: Callable[[float], float]) -> float | None:
+    """Return when the last visit was, by the clock of the readings: the program may have run on since."""
+    if journal.visited is None or journal.progress.zero is None:
+        return None
+    return journal.visited - clock(0.0)
+
+
+def _clock(journal: Journal) -> Callable[[float], float]:
+    """Return the way from the time of a reading to s from the start of the capture.
+
+    Within a sitting it is the steady clock of the readings that counts: the clock of the computer may be set.
+    """
+    offset = _elapsed_now(journal) - time.monotonic()
+    return lambda moment: moment + offset
+
+
+def _elapsed_now(journal: Journal) -> float:
+    return max(journal.elapsed, (dt.datetime.now(dt.UTC) - journal.header.started).total_seconds())

@@ -7,6 +7,7 @@ import os
 import shutil
 import sys
 import textwrap
+from collections.abc import Iterator
 from typing import Protocol
 
 from zlmreport.capture.events import Event, Recorded, TooSlow, Unclear
@@ -15,8 +16,7 @@ from zlmreport.capture.of_job import Assignment
 from zlmreport.capture.progress import Progress
 from zlmreport.capture.records import MOMENTARY, to_record
 from zlmreport.capture.visits import ListedVisit
-from zlmreport.cli.capture_lines import Scribe, duration, halted, line_on, what_to_do
-from zlmreport.cli.capture_panel import panel
+from zlmreport.cli.capture_lines import SIDES, AxisWriter, duration, halted, line_on, what_to_do
 from zlmreport.cli.terminal import Colour, visible
 from zlmreport.errors import AccessError, InputError, Place
 from zlmreport.job.job import Job
@@ -28,6 +28,7 @@ _BELL = "\a"
 #: An answer: the stop is no visit.
 _NO_VISIT = "none"
 _CLEAR_BELOW, _UP = "\x1b[J", "\x1b[{}A"
+_BAR = 24
 
 
 class Display(Protocol):
@@ -80,7 +81,7 @@ class PlainLines:
     def __init__(self, job: Job, assignment: Assignment) -> None:
         self._job = job
         self._assignment = assignment
-        self._scribe = Scribe(job.axis)
+        self._writer = AxisWriter(job.axis)
 
     def wait(self) -> None:
         """Say whose test it is, while the instrument is awaited."""
@@ -91,12 +92,12 @@ class PlainLines:
 
     def begin(self, follower: Follower) -> None:
         """Say what is to be done."""
-        for number, step in enumerate(what_to_do(follower.progress, self._scribe), start=1):
+        for number, step in enumerate(what_to_do(follower.progress, self._writer), start=1):
             self._line(f"{number}. {step}")
 
     def tell(self, event: Event) -> None:
         """Print a line on an event."""
-        line = line_on(event, len(self._assignment.visits), self._scribe)
+        line = line_on(event, len(self._assignment.visits), self._writer)
         if line:
             self._line(visible(line))
 
@@ -105,14 +106,14 @@ class PlainLines:
 
     def see_to(self, event: Event | None, progress: Progress) -> None:
         """Raise `AccessError` with what is to be seen to."""
-        steps = ", then ".join(what_to_do(progress, self._scribe, event))
-        raise AccessError.at(Place("zlmreport capture"), f"{halted(event, self._scribe)}; {steps}")
+        steps = ", then ".join(what_to_do(progress, self._writer, event))
+        raise AccessError.at(Place("zlmreport capture"), f"{halted(event, self._writer)}; {steps}")
 
     def ask(self, question: Unclear, progress: Progress) -> ListedVisit | None:  # noqa: ARG002
         """Raise `AccessError` with what may be answered."""
         raise AccessError.at(
             Place("zlmreport capture"),
-            f"{halted(question, self._scribe)}; nothing is filed: stop the program, look where it is, and "
+            f"{halted(question, self._writer)}; nothing is filed: stop the program, look where it is, and "
             "state --answer with the number of the visit, or none",
         )
 
@@ -162,7 +163,7 @@ class LiveDisplay(PlainLines):
             return
         self._due = reading.time + _BEAT
         width = shutil.get_terminal_size().columns - 1
-        shown = [visible(line)[:width] for line in panel(reading, follower, self._assignment, self._scribe)]
+        shown = [visible(line)[:width] for line in panel(reading, follower, self._assignment, self._writer)]
         print(self._back(), *(f"{line}\n" for line in shown), sep="", end="", flush=True)
         self._shown = len(shown)
 
@@ -170,8 +171,8 @@ class LiveDisplay(PlainLines):
         """Print what is wrong, and what to do, and wait until the operator has done it."""
         if isinstance(event, TooSlow):  # nothing that is done at the machine helps
             super().see_to(event, progress)
-        self._say(halted(event, self._scribe))
-        self._line(f"First {what_to_do(progress, self._scribe, event)[0]}.")
+        self._say(halted(event, self._writer))
+        self._line(f"First {what_to_do(progress, self._writer, event)[0]}.")
         try:
             input("Press Enter when that is done, Ctrl-C to stop: ")
         except EOFError as error:
@@ -180,7 +181,7 @@ class LiveDisplay(PlainLines):
     def ask(self, question: Unclear, progress: Progress) -> ListedVisit | None:
         """Ring, and ask which visit a stop is until there is an answer."""
         print(_BELL, end="", flush=True)
-        self._say(halted(question, self._scribe))
+        self._say(halted(question, self._writer))
         self._line("Stop the program and look where it is.")
         while True:
             try:
@@ -207,3 +208,33 @@ class LiveDisplay(PlainLines):
     def _back(self) -> str:
         """Return what takes the cursor to where the present moment is shown, and wipes that away."""
         return (_UP.format(self._shown) if self._shown else "") + "\r" + _CLEAR_BELOW
+
+
+def panel(
+    reading: LiveReading, follower: Follower, assignment: Assignment, writer: AxisWriter
+) -> Iterator[str]:
+    """Yield what is next, what the instrument reads, and how far the test has come."""
+    progress = follower.progress
+    visit = progress.next
+    yield ""
+    yield f"next   {writer.visit(visit)} {SIDES[visit.approach]}"
+    yield f"now    {_now(reading, follower, assignment, writer)}"
+    done, planned = progress.taken, len(progress.visits)
+    full = round(_BAR * done / planned)
+    bar = "█" * full + "░" * (_BAR - full)
+    rest = duration(assignment.remaining_time(done))
+    yield f"done   {bar}  {done} of {planned}, {planned - done} to go, {rest}"
+
+
+def _now(reading: LiveReading, follower: Follower, assignment: Assignment, writer: AxisWriter) -> str:
+    if not reading.is_usable and reading.message:
+        return reading.message
+    progress, status, settings = follower.progress, follower.status, assignment.settings
+    still = f"range {writer.fine(status.range)}, still {status.still:.1f} of {settings.dwell:g} s"
+    if status.position is None:
+        return f"waiting for the datum: {still}"
+    away = status.position - progress.next.position
+    position = writer.position(status.position, 4)
+    if abs(away) > settings.tolerance:
+        return f"{position:>14}  {writer.position(-away, 3)} to go"
+    return f"{position:>14}  {writer.deviation(away)}  {still}"

@@ -39,7 +39,7 @@ _SECONDS_A_MINUTE, _MINUTES_AN_HOUR = 60, 60
 
 
 @dataclass(frozen=True, slots=True)
-class Scribe:
+class AxisWriter:
     """Writes positions and deviations of an axis as the terminal shows them."""
 
     axis: Axis
@@ -64,66 +64,66 @@ class Scribe:
         return f"run {visit.run} {visit.approach.arrow} {self.position(visit.position):>12}"
 
 
-def line_on(event: Event, visits: int, scribe: Scribe) -> str:
+def line_on(event: Event, visits: int, writer: AxisWriter) -> str:
     """Return what an operator reads of an event; nothing for those that only a display shows."""
     match event:
         case DatumTaken(position=position):
-            return f"datum    the reading is taken for {scribe.position(position)}"
+            return f"datum    the reading is taken for {writer.position(position)}"
         case DatumHolds(visit=visit, difference=difference):
-            return f"datum    holds: {scribe.deviation(difference)} against visit {visit.number}"
+            return f"datum    holds: {writer.deviation(difference)} against visit {visit.number}"
         case NotChecked(target=target, approach=approach):
             return f"datum    target {target} {approach.arrow} was not read before: nothing is taken"
         case Recorded(visit=visit, mean=mean):
             number = f"{visit.number:>{len(str(visits))}}/{visits}"
-            deviation = scribe.deviation(event.deviation)
-            return f"{number:8} {scribe.visit(visit)}  {deviation:>12}  range {scribe.fine(mean.range)}"
+            deviation = writer.deviation(event.deviation)
+            return f"{number:8} {writer.visit(visit)}  {deviation:>12}  range {writer.fine(mean.range)}"
         case _:
-            return _out_of_order(event, scribe)
+            return _out_of_order(event, writer)
 
 
-def _out_of_order(event: Event, scribe: Scribe) -> str:
+def _out_of_order(event: Event, writer: AxisWriter) -> str:
     line = ""
     match event:
         case Passed(visit=visit, seconds=seconds):
-            line = f"passed   {scribe.visit(visit)}: nothing taken, it was there for {seconds:.1f} s"
+            line = f"passed   {writer.visit(visit)}: nothing taken, it was there for {seconds:.1f} s"
         case Missed(visit=visit):
-            line = f"MISSED   {scribe.visit(visit)}: the axis stands at a later one"
+            line = f"MISSED   {writer.visit(visit)}: the axis stands at a later one"
         case Repeated(visit=visit):
-            line = f"again    {scribe.visit(visit)}: its earlier reading is nearer to the target, and stays"
+            line = f"again    {writer.visit(visit)}: its earlier reading is nearer to the target, and stays"
         case WrongDirection(visit=visit, approach=approach):
             came = f"it came {SIDES[approach]}" if approach else "no motion towards it was seen"
-            line = f"WRONG    {scribe.visit(visit)}: {came}; let it come {SIDES[visit.approach]}"
+            line = f"WRONG    {writer.visit(visit)}: {came}; let it come {SIDES[visit.approach]}"
         case NotNext(target=target, approach=approach, visit=visit):
-            line = f"OTHER    target {target} {approach.arrow} is not next; next is {scribe.visit(visit)}"
+            line = f"OTHER    target {target} {approach.arrow} is not next; next is {writer.visit(visit)}"
         case TrackLost(silence=silence):
             line = f"SILENT   no sound reading came for {silence:.1f} s; visits may have gone unseen"
         case Unclear(target=target, approach=approach):
             line = f"WHERE?   target {target} {approach.arrow}: {candidates(event)}"
         case Placed(visit=visit):
-            line = f"placed   {scribe.visit(visit) if visit else 'no visit'}"
+            line = f"placed   {writer.visit(visit) if visit else 'no visit'}"
         case Elsewhere(position=position):
-            line = f"no target at {scribe.position(position)}, where it stands; is the datum right?"
+            line = f"no target at {writer.position(position)}, where it stands; is the datum right?"
     return line
 
 
-def halted(event: Event | None, scribe: Scribe) -> str:
+def halted(event: Event | None, writer: AxisWriter) -> str:
     """Return why nothing more is taken, and what that means for what was."""
     match event:
         case ZeroLost(message=message, void=void):
-            return f"{message or 'the instrument lost its zero'}. {_void(void, scribe)}"
+            return f"{message or 'the instrument lost its zero'}. {_void(void, writer)}"
         case MovedBeforeDatum(position=position):
             return (
-                f"the axis moved before the reading at {scribe.position(position)} was taken for its datum, "
+                f"the axis moved before the reading at {writer.position(position)} was taken for its datum, "
                 "and where it stands now is not known: stop the program"
             )
         case DatumMoved(visit=visit, difference=difference, void=void):
             moved = (
-                f"the datum has moved by {scribe.deviation(difference)} since visit {visit.number} was read"
+                f"the datum has moved by {writer.deviation(difference)} since visit {visit.number} was read"
             )
-            return f"{moved}. {_void(void, scribe)}"
+            return f"{moved}. {_void(void, writer)}"
         case Unclear(target=target, approach=approach, position=position):
             return (
-                f"the axis stands at target {target} {approach.arrow}, {scribe.position(position)}, and what "
+                f"the axis stands at target {target} {approach.arrow}, {writer.position(position)}, and what "
                 f"it did before leaves open which visit that is: {candidates(event)}"
             )
         case TooSlow(spacing=spacing, largest=largest):
@@ -145,23 +145,23 @@ def candidates(event: Unclear) -> str:
     )
 
 
-def _void(void: Sequence[ListedVisit], scribe: Scribe) -> str:
+def _void(void: Sequence[ListedVisit], writer: AxisWriter) -> str:
     first, last = void[0], void[-1]
     visits = f"visits {first.number} to {last.number} are" if len(void) > 1 else f"visit {first.number} is"
     return (
-        f"The datum is gone: {visits} void, from {scribe.position(first.position)} {first.approach.arrow} of "
+        f"The datum is gone: {visits} void, from {writer.position(first.position)} {first.approach.arrow} of "
         f"run {first.run} on. What was taken before stays"
     )
 
 
-def what_to_do(progress: Progress, scribe: Scribe, event: Event | None = None) -> list[str]:
+def what_to_do(progress: Progress, writer: AxisWriter, event: Event | None = None) -> list[str]:
     """Return what an operator does, step by step, before the capture goes on.
 
     Parameters
     ----------
     progress
         How far it has come.
-    scribe
+    writer
         Writes positions.
     event
         What stopped it; None if nothing did.
@@ -169,13 +169,13 @@ def what_to_do(progress: Progress, scribe: Scribe, event: Event | None = None) -
     visit = progress.next
     attempt = f", attempt {progress.attempt}" if progress.attempt > 1 else ""
     begin = "go on with" if progress.taken else "start"
-    where = f"{scribe.position(visit.position)} {SIDES[visit.approach]}, run {visit.run}{attempt}"
+    where = f"{writer.position(visit.position)} {SIDES[visit.approach]}, run {visit.run}{attempt}"
     steps = [f"{begin} the program at visit {visit.number}: {where}"]
     if progress.zero is None and progress.datum is not None:
-        steps.insert(0, f"let the axis stand still at {scribe.position(progress.datum)}, for the datum")
+        steps.insert(0, f"let the axis stand still at {writer.position(progress.datum)}, for the datum")
     elif progress.must_check:
         last = max((read.visit for read in progress.read.values()), key=lambda visit: visit.number)
-        back = f"{scribe.position(last.position)} {SIDES[last.approach]}"
+        back = f"{writer.position(last.position)} {SIDES[last.approach]}"
         steps.insert(0, f"let the axis come once more to {back}, to check the datum")
     elif isinstance(event, ZeroLost | DatumMoved):
         steps.insert(0, "set the instrument's zero as it was when the capture began")

@@ -7,10 +7,9 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from zlmreport import pipeline
-from zlmreport.cli.capture_awaited import awaits_capture, demand_capturable, planned
+from zlmreport.cli.capture import awaits_capture, demand_capturable, planned
 from zlmreport.cli.job_lines import findings
-from zlmreport.cli.jobs import do_all
-from zlmreport.cli.results import Result, load_all
+from zlmreport.cli.jobs import Result, do_all, load_all
 from zlmreport.job.job import Job
 from zlmreport.plugins import find_plugins
 

@@ -13,8 +13,7 @@ from types import TracebackType
 from typing import Any, Self
 
 from zlmreport import __version__
-from zlmreport.cli.fleet_log import JsonLog, TextLog, by_word, of_job
-from zlmreport.cli.fleet_progress import Progress
+from zlmreport.cli.fleet_log import JsonLog, Progress, TextLog, by_word, of_job
 from zlmreport.cli.terminal import print_json, visible
 from zlmreport.errors import AccessError, InputError, Place
 from zlmreport.fleet.desk import Happened, What

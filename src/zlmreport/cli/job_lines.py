@@ -9,7 +9,7 @@ from zlmreport.certificate import exclusions
 from zlmreport.certificate.conformity import STATEMENTS
 from zlmreport.certificate.readings import missing_readings
 from zlmreport.certificate.values import limit
-from zlmreport.cli.results import Result
+from zlmreport.cli.jobs import Result
 from zlmreport.cli.terminal import Colour, shown_path, table
 from zlmreport.evaluation.evaluation import Evaluation, Parameter
 from zlmreport.evaluation.requirements import Finding

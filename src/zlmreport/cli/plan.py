@@ -2,20 +2,29 @@
 
 from __future__ import annotations
 
+import math
 from argparse import Namespace
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
 
 from zlmreport import pipeline
 from zlmreport.capture.of_job import options_of
-from zlmreport.cli.plan_files import plan_files
-from zlmreport.cli.plan_json import plan_values
+from zlmreport.cli.plan_files import SIGNS, chosen_programs, plan_files, program_files
 from zlmreport.cli.plan_lines import plan_lines
 from zlmreport.cli.plan_path import run_path
-from zlmreport.cli.plan_programs import chosen_programs, program_files
-from zlmreport.cli.terminal import print_json, shown_path
+from zlmreport.cli.terminal import print_json, said, shown_path
 from zlmreport.files import Document, demand_free, write
+from zlmreport.job.job import Job
 from zlmreport.job.loading import load
-from zlmreport.planning.planned_test import planned_test
+from zlmreport.measurement.axis import Axis
+from zlmreport.model.effect import unit_of
+from zlmreport.planning.planned_test import PlannedTest, planned_test
+from zlmreport.planning.targets import in_users_unit
+from zlmreport.planning.visibility import Remedy, SeenEffect
 from zlmreport.plugins import find_plugins
+
+SCHEMA = "zlmreport/plan/1"
 
 
 def run(options: Namespace) -> int:
@@ -50,3 +59,84 @@ def run(options: Namespace) -> int:
     command = "zlmreport capture" if options_of(job) else "measure, then zlmreport"
     print(f"next: {command} {shown_path(options.job)}")
     return 0
+
+
+def plan_values(job: Job, planned: PlannedTest, written: Sequence[Path]) -> dict[str, Any]:
+    """Return a plan as plain values for JSON."""
+    axis, proposal = job.axis, planned.proposal
+    plan, position = proposal.plan, axis.position_unit
+    targets = in_users_unit(axis, plan.targets)
+    return {
+        "schema": SCHEMA,
+        "certificate": {"number": job.keys.certificate.number},
+        "axis": {"name": axis.name, "kind": axis.kind.value},
+        "units": {"position": position.ascii, "deviation": axis.deviation_unit.ascii, "time": "s"},
+        "method": plan.method.value,
+        "runs": plan.runs,
+        "overrun": round(position.from_si(plan.overrun), 9),
+        "feed_per_minute": round(position.from_si(plan.feed) * 60, 9),
+        "dwell": plan.dwell,
+        "seed": proposal.seed if proposal.has_fractions else None,
+        "assumed": sorted(proposal.assumed),
+        "expected": {
+            "repeatability": axis.deviation_unit.from_si(proposal.expected.sigma),
+            "temperature_change": proposal.expected.temperature_change,
+        },
+        "travelled": position.from_si(planned.travelled),
+        "duration": planned.duration,
+        "targets": targets,
+        "two_phases_of": [said(period) for period in planned.half_seen],
+        "visits": [
+            {
+                "target": targets[visit.target],
+                "direction": SIGNS[visit.approach],
+                "run": visit.run,
+                "time": time,
+            }
+            for visit, time in zip(planned.visits, planned.design.time.tolist(), strict=True)
+        ],
+        "model": list(planned.model.identifiers),
+        "visibility": [
+            _seen_effect(each, planned.remedies.get(each.effect.identifier), axis)
+            for each in planned.seen_effects
+        ],
+        "log": [{"column": column, "effects": names} for column, names in planned.logs.items()],
+        "requirements": [
+            {
+                "standard": designation,
+                "requirement": said(finding.requirement),
+                "found": said(finding.found),
+                "met": finding.met,
+            }
+            for designation, findings in planned.findings.items()
+            for finding in findings
+        ],
+        "files": [str(path) for path in written],
+    }
+
+
+def _seen_effect(found: SeenEffect, remedy: Remedy | None, axis: Axis) -> dict[str, Any]:
+    seen = found.visibility
+    smallest = None
+    if seen.smallest is not None and math.isfinite(seen.smallest[1]):
+        parameter, value = seen.smallest
+        unit = unit_of(parameter.dimension, axis.kind)
+        smallest = {"name": parameter.name, "value": value * unit.per_si, "unit": unit.ascii}
+    return {
+        "effect": seen.effect,
+        "sight": found.sight.value,
+        "share": seen.share,
+        "smallest_rms": axis.deviation_unit.from_si(seen.smallest_rms)
+        if math.isfinite(seen.smallest_rms)
+        else None,
+        "smallest": smallest,
+        "log": list(found.logs),
+        "reason": None if seen.reason is None else said(seen.reason),
+        "remedy": None
+        if remedy is None
+        else {
+            "reason": None if remedy.reason is None else said(remedy.reason),
+            "advice": said(remedy.advice),
+            "share": remedy.share,
+        },
+    }

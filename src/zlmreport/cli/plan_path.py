@@ -8,7 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from zlmreport.cli.plan_programs import chosen_programs
+from zlmreport.cli.plan_files import chosen_programs
 from zlmreport.cli.terminal import Colour, print_json, shown_path, wrapped
 from zlmreport.errors import InputError, Problem
 from zlmreport.files import Document, demand_free, write

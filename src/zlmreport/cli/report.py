@@ -1,22 +1,28 @@
-"""The main job: from job files to certificates."""
+"""``zlmreport JOB.yaml``: the certificates of jobs, signed if that is asked for."""
 
 from __future__ import annotations
 
+import os
+import sys
 from argparse import Namespace
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import replace
+from getpass import getpass
 
 from zlmreport import pipeline
-from zlmreport.cli.capture_awaited import capture_if_watched
+from zlmreport.cli.arguments.documents import SIGN_PASSWORD
+from zlmreport.cli.capture import capture_if_watched
 from zlmreport.cli.job_lines import report
-from zlmreport.cli.jobs import do_all
-from zlmreport.cli.results import Result, load_all
-from zlmreport.cli.signature import demand_something_to_sign, signer_of
-from zlmreport.errors import Place
+from zlmreport.cli.jobs import Result, do_all, load_all
+from zlmreport.errors import InputError, Place
 from zlmreport.files import write
 from zlmreport.job.job import Job
 from zlmreport.job.loading import chosen_formats
+from zlmreport.pipeline import PDF
 from zlmreport.plugins import Registry, find_plugins
-from zlmreport.signing.signer import Signer
+from zlmreport.signing.signer import Signer, open_signer
+
+_PLACE = Place("zlmreport --sign")
 
 
 def run(options: Namespace) -> int:
@@ -53,3 +59,29 @@ def _formats(named: str | None, registry: Registry) -> tuple[str, ...]:
         return ()
     place = Place("zlmreport --format")
     return chosen_formats([(name.strip(), place) for name in named.split(",")], registry)
+
+
+def signer_of(options: Namespace) -> AbstractContextManager[Signer | None]:
+    """Return who signs, if anybody is asked to."""
+    return open_signer(options.sign, _password, _PLACE) if options.sign else nullcontext()
+
+
+def demand_something_to_sign(job: Job, registry: Registry) -> None:
+    """Refuse a job that writes no PDF, rather than leave its user to believe that it is signed."""
+    if not any(registry.renderer(identifier).suffix == PDF for identifier in job.formats):
+        raise InputError.at(
+            job.place_of("output.formats"),
+            f"there is nothing to sign: {', '.join(job.formats)} is no PDF; add pdf to the formats",
+        )
+
+
+def _password(of: str) -> str:
+    stated = os.environ.get(SIGN_PASSWORD)
+    if stated is not None:
+        return stated
+    if not sys.stdin.isatty():
+        raise InputError.at(
+            _PLACE,
+            f"the password of {of} is asked for at a terminal or stands in {SIGN_PASSWORD}: here is neither",
+        )
+    return getpass(f"Password of {of}: ", stream=sys.stderr)

@@ -10,8 +10,8 @@ from pathlib import Path
 import numpy as np
 
 from zlmreport import pipeline
+from zlmreport.cli.jobs import load_all
 from zlmreport.cli.model_lines import error_line
-from zlmreport.cli.results import load_all
 from zlmreport.cli.terminal import Colour, print_json, said, table, wrapped
 from zlmreport.errors import InputError, Place, Problem
 from zlmreport.job.job import Job

@@ -7,8 +7,8 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from types import MappingProxyType
 
-from zlmreport.cli.arguments import capture, fleet, jobs, model, tests_to_come, workbench
-from zlmreport.cli.arguments.main_job import main_job
+from zlmreport.cli.arguments import documents, measuring
+from zlmreport.cli.arguments.documents import main_job
 from zlmreport.cli.arguments.parser import CommandParser
 from zlmreport.errors import InputError, Place, did_you_mean
 
@@ -18,34 +18,37 @@ MAIN_JOB = "report"
 #: Each command: what it does, in a line, and what makes its parser.
 _COMMANDS: Mapping[str, tuple[str, Callable[[str], CommandParser]]] = MappingProxyType(
     {
-        "capture": ("take the readings live, from the instrument that a job names", capture.capture),
-        "check": ("validate jobs, their data and the tests; write nothing", jobs.check),
+        "capture": ("take the readings live, from the instrument that a job names", measuring.capture),
+        "check": ("validate jobs, their data and the tests; write nothing", documents.check),
         "emulate": (
             "put an instrument that is not there on a line, to try capture",
-            tests_to_come.emulate,
+            measuring.emulate,
         ),
-        "fleet": ("make the certificates of many machines that are due, every night", fleet.fleet),
-        "fleet report": ("write the overview of a fleet: who fails, who drifts", fleet.fleet_report),
-        "init": ("write a commented job with sample data that runs as it is", jobs.init),
-        "model": ("fit a job's error model, find what it lacks, add it, watch the error fall", model.model),
+        "fleet": ("make the certificates of many machines that are due, every night", documents.fleet),
+        "fleet report": ("write the overview of a fleet: who fails, who drifts", documents.fleet_report),
+        "init": ("write a commented job with sample data that runs as it is", documents.init),
+        "model": (
+            "fit a job's error model, find what it lacks, add it, watch the error fall",
+            documents.model,
+        ),
         "plan": (
             "choose targets and their sequence, and say what such a test will not see",
-            tests_to_come.plan,
+            measuring.plan,
         ),
-        "plugins": ("list the plugins found, and why one failed to load", jobs.plugins),
-        "schema": ("print the JSON Schema of the job file, for editors", jobs.schema),
+        "plugins": ("list the plugins found, and why one failed to load", documents.plugins),
+        "schema": ("print the JSON Schema of the job file, for editors", documents.schema),
         "simulate": (
             "write simulated readings of a described axis, and a job for them",
-            tests_to_come.simulate,
+            measuring.simulate,
         ),
-        "surface": ("fit the deviation over a plane, from lines that were measured in it", model.surface),
+        "surface": ("fit the deviation over a plane, from lines that were measured in it", documents.surface),
         "verify": (
             "evaluate a certificate again from what it carries, and say whether it holds",
-            jobs.verify,
+            documents.verify,
         ),
         "workbench": (
             "work on a job's error model with a mouse, on a page in the browser",
-            workbench.workbench,
+            documents.workbench,
         ),
     }
 )
@@ -73,7 +76,7 @@ def parse(arguments: Sequence[str]) -> tuple[str, argparse.Namespace]:
         parser = make(command)
         options = parser.parse_strictly(rest)
         if command == "model":
-            model.demand_model_action(options, parser)
+            documents.demand_model_action(options, parser)
         return command, options
     options = _main_parser().parse_strictly(arguments)
     for job in options.jobs:

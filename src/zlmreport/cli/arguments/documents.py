@@ -1,0 +1,276 @@
+"""The commands from readings to documents: certificates, checks, the error model, fleets."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Mapping
+from pathlib import Path
+
+from zlmreport import __version__
+from zlmreport.cli.arguments.parser import JSON_HELP, CommandParser, add_jobs, point, port, position
+from zlmreport.errors import did_you_mean
+
+#: Environment variable with the password of the key that signs.
+SIGN_PASSWORD = "ZLMREPORT_SIGN_PASSWORD"  # noqa: S105 (a name)
+
+_MAIN_EPILOG = """\
+examples:
+  zlmreport init first && zlmreport first/job.yaml
+  zlmreport x-axis.yaml y-axis.yaml --output certificates
+  zlmreport x-axis.yaml --format pdf,html,json --fail-on-nonconformity
+
+exit codes: 0 done; 1 done, but a limit is not met (only with --fail-on-nonconformity);
+2 a job, its data or the command line is wrong; 3 a file could not be read or written
+"""
+_MODEL_ACTIONS = {
+    "fit": "the parameters with their uncertainties, and the error that is left",
+    "diagnose": "where the model fails, and which effect is missing",
+    "add": "write an effect into the job, and show the error before and after",
+    "remove": "take an effect out of the job, and show the same",
+    "history": "how the error fell, effect by effect",
+}
+_MOST_WORKERS = 1024
+
+
+def main_job(commands: Mapping[str, str]) -> CommandParser:
+    """Return the parser of the main job; its help lists the other commands, each with a line."""
+    parser = CommandParser("zlmreport", _description(commands), _MAIN_EPILOG)
+    parser.add_argument("--version", action="version", version=f"zlmreport {__version__}")
+    add_jobs(parser)
+    parser.add_argument(
+        "-o", "--output", metavar="DIR", type=Path, help="folder of the files, instead of the job's"
+    )
+    parser.add_argument(
+        "--format", metavar="F,F", help="formats, parted by commas, instead of the job's: pdf,html,json"
+    )
+    parser.add_argument(
+        "--sign",
+        metavar="ID",
+        help="sign the PDF with the key in a PKCS#12 file (ID.p12) or a token (pkcs11:…); its password is "
+        f"asked for, or stands in the environment variable {SIGN_PASSWORD}",
+    )
+    parser.add_argument("--quiet", action="store_true", help="print nothing but mistakes")
+    parser.add_argument("--json", action="store_true", help=JSON_HELP)
+    parser.add_argument(
+        "--fail-on-nonconformity", action="store_true", help="exit with 1 if a stated limit is not met"
+    )
+    return parser
+
+
+def _description(commands: Mapping[str, str]) -> str:
+    listed = "\n".join(f"  {name:12} {summary}" for name, summary in commands.items())
+    return (
+        "Read the measurements that a job names, evaluate them by its standards, and write\n"
+        f"the certificate.\n\nother commands:\n{listed}\n"
+    )
+
+
+def check(command: str) -> CommandParser:
+    """Return the parser of ``zlmreport check``."""
+    parser = CommandParser(
+        f"zlmreport {command}",
+        "Validate jobs and their data, and hold each standard's requirements against the test.\n"
+        "Nothing is written. A requirement that is not met is no mistake; the certificate says so.",
+        "example:\n  zlmreport check x-axis.yaml",
+    )
+    add_jobs(parser)
+    parser.add_argument("--quiet", action="store_true", help="print nothing but mistakes")
+    parser.add_argument("--json", action="store_true", help=JSON_HELP)
+    return parser
+
+
+def init(command: str) -> CommandParser:
+    """Return the parser of ``zlmreport init``."""
+    parser = CommandParser(
+        f"zlmreport {command}",
+        "Write a commented job, a laboratory's shared data and sample readings, to begin with.\n"
+        "No file that is there already is touched.",
+        "example:\n  zlmreport init first && zlmreport first/job.yaml",
+    )
+    parser.add_argument("directory", metavar="DIR", type=Path, help="folder; it is made if it is not there")
+    return parser
+
+
+def plugins(command: str) -> CommandParser:
+    """Return the parser of ``zlmreport plugins``."""
+    return CommandParser(
+        f"zlmreport {command}",
+        "List every plugin found, by kind, with its identifier, title and distribution,\n"
+        "and why one failed to load. ZLMREPORT_DISABLE_PLUGINS=name,name switches plugins off.",
+    )
+
+
+def schema(command: str) -> CommandParser:
+    """Return the parser of ``zlmreport schema``."""
+    return CommandParser(
+        f"zlmreport {command}",
+        "Print the JSON Schema of the job file, with the keys of all installed plugins.",
+        "example, for editors that use the YAML language server: write the schema to a file,\n"
+        "  zlmreport schema > job.schema.json\n"
+        "and begin the job with the line\n"
+        "  # yaml-language-server: $schema=job.schema.json",
+    )
+
+
+def verify(command: str) -> CommandParser:
+    """Return the parser of ``zlmreport verify``."""
+    parser = CommandParser(
+        f"zlmreport {command}",
+        "Evaluate a certificate again from the job and the readings that it carries, print it again, and\n"
+        "say for every number, page and attached file whether it holds. Nothing is written.",
+        "example:\n  zlmreport verify CAL-2026-0117.pdf\n\n"
+        "exit codes: 0 everything holds; 1 something does not; 2 the file is no certificate of zlmreport,\n"
+        "or cannot be evaluated here; 3 the file cannot be read",
+    )
+    parser.add_argument("certificate", metavar="FILE.pdf", type=Path, help="certificate, signed or not")
+    parser.add_argument("--json", action="store_true", help="print every finding as JSON")
+    parser.add_argument(
+        "--dcc-schema",
+        metavar="DIR",
+        type=Path,
+        help="check an attached digital certificate (DCC) by PTB's rules, and by PTB's schema in this folder",
+    )
+    return parser
+
+
+def model(command: str) -> CommandParser:
+    """Return the parser of ``zlmreport model``."""
+    parser = CommandParser(
+        f"zlmreport {command}",
+        "Work on the error model of a job (its key model.effects):\n\n"
+        + "\n".join(f"  {action:9} {text}" for action, text in _MODEL_ACTIONS.items())
+        + "\n\nThe job is edited in place; comments and layout stay. It is left as it is if the effect\n"
+        "makes no sense or explains nothing.",
+        "examples:\n"
+        "  zlmreport model diagnose configs/hidden-effect/job.yaml\n"
+        "  zlmreport model add x-axis.yaml screw-pitch\n"
+        "  zlmreport model add x-axis.yaml 'polynomial: {order: 5}'",
+    )
+    parser.add_argument("action", metavar="ACTION", help=", ".join(_MODEL_ACTIONS))
+    parser.add_argument("job", metavar="JOB.yaml", type=Path, help="job file")
+    parser.add_argument(
+        "effect",
+        metavar="EFFECT",
+        nargs="?",
+        default="",
+        help="of add and remove: an installed effect; add takes it with keys as in a job, too",
+    )
+    parser.add_argument(
+        "--at",
+        metavar="P",
+        type=position,
+        action="append",
+        default=[],
+        help="of fit: a position, mm or degrees, at which to state the deviation; may be given several times",
+    )
+    parser.add_argument("--json", action="store_true", help="print the values in full precision as JSON")
+    return parser
+
+
+def demand_model_action(options: argparse.Namespace, parser: CommandParser) -> None:
+    """Refuse an action that there is not, and an effect that is missing or too much."""
+    if options.action not in _MODEL_ACTIONS:
+        parser.error(
+            f"unknown action {options.action!r}; {did_you_mean(options.action, list(_MODEL_ACTIONS))}"
+        )
+    takes_effect = options.action in {"add", "remove"}
+    if takes_effect and not options.effect.strip():
+        parser.error(f"{options.action} needs the name of an effect, such as backlash")
+    if options.at and options.action != "fit":
+        parser.error(f"--at belongs to fit, not to {options.action}")
+    if not takes_effect and options.effect:
+        parser.error(f"{options.action} takes no effect, but {options.effect!r} is given")
+
+
+def surface(command: str) -> CommandParser:
+    """Return the parser of ``zlmreport surface``."""
+    parser = CommandParser(
+        f"zlmreport {command}",
+        "Fit the deviation of an axis over a plane of two axes. Each job measures one line; its key\n"
+        "measurement.plane says where: {axis: Y, at: 200}. Printed are the polynomial of each direction\n"
+        "of approach, and the deviation at points of the plane with its expanded uncertainty.",
+        "example:\n  zlmreport surface y-100.yaml y-200.yaml y-300.yaml y-400.yaml --at 250,130",
+    )
+    add_jobs(parser)
+    parser.add_argument(
+        "--at",
+        metavar="P,R",
+        type=point,
+        action="append",
+        default=[],
+        help="a point: positions of the axis under test and of the second one, mm (--at=-20,130 for one that "
+        "is negative); may be given several times",
+    )
+    parser.add_argument(
+        "--json", action="store_true", help="print the values in full precision as JSON (zlmreport/surface/1)"
+    )
+    return parser
+
+
+def fleet(command: str) -> CommandParser:
+    """Return the parser of ``zlmreport fleet``."""
+    parser = CommandParser(
+        f"zlmreport {command}",
+        "Make the certificates of a fleet that are due: new ones, and those whose job, readings, shared\n"
+        "files, plugins or program changed. What was issued under a number is never replaced: another\n"
+        "content becomes a draft. A job that fails does so alone, and is tried again the next night.",
+        "examples:\n"
+        "  zlmreport fleet fleet.yaml --dry-run\n"
+        "  zlmreport fleet fleet.yaml --quiet --log-json\n\n"
+        "exit codes: 0 done; 2 the fleet file is wrong; 3 the ledger cannot be used, or another night is at\n"
+        "work on it; 4 done, but jobs failed",
+    )
+    _add_fleet(parser)
+    parser.add_argument(
+        "--dry-run", action="store_true", help="say what would be done, and why; make and write nothing"
+    )
+    parser.add_argument(
+        "--workers", metavar="N", type=_workers, help="number of processes, instead of the fleet file's"
+    )
+    parser.add_argument("--quiet", action="store_true", help="print nothing but failures")
+    parser.add_argument("--json", action="store_true", help="print what became of every job as JSON")
+    parser.add_argument("--log-json", action="store_true", help="log each job as a line of JSON")
+    return parser
+
+
+def fleet_report(command: str) -> CommandParser:
+    """Return the parser of ``zlmreport fleet report``."""
+    parser = CommandParser(
+        f"zlmreport {command}",
+        "Write the overview of a fleet from its ledger: the state of every axis, failures, limits that are\n"
+        "not met, who drifts, with small graphs; and the same numbers as a text file for Prometheus.",
+        "example:\n  zlmreport fleet report fleet.yaml --output overview",
+    )
+    _add_fleet(parser)
+    parser.add_argument("-o", "--output", metavar="DIR", type=Path, help="folder of the overview")
+    return parser
+
+
+def _workers(text: str) -> int:
+    """Read a number of processes."""
+    if not (text.isascii() and text.isdigit() and 0 < int(text) <= _MOST_WORKERS):
+        raise argparse.ArgumentTypeError(f"{text!r} is no number of processes; write 2")
+    return int(text)
+
+
+def _add_fleet(parser: CommandParser) -> None:
+    parser.add_argument("fleet", metavar="FLEET.yaml", type=Path, help="fleet file")
+
+
+def workbench(command: str) -> CommandParser:
+    """Return the parser of ``zlmreport workbench``."""
+    parser = CommandParser(
+        f"zlmreport {command}",
+        "Open the error model of a job as a web page of this computer: compare the model with the\n"
+        "readings, see where it fails, add what is missing, watch the error fall. Every click is\n"
+        "written into the job (comments stay) and recorded beside it. The page opens by the printed\n"
+        "address alone.",
+        "examples:\n  zlmreport workbench x-axis.yaml\n"
+        "  zlmreport workbench x-axis.yaml --port 8420 --no-browser",
+    )
+    parser.add_argument("job", metavar="JOB.yaml", type=Path, help="job file")
+    parser.add_argument(
+        "--port", metavar="N", type=port, default=0, help="a TCP port; without it any free one"
+    )
+    parser.add_argument("--no-browser", action="store_true", help="print the address, and open no browser")
+    return parser
