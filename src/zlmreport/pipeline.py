@@ -10,32 +10,32 @@ import gc
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from zlmreport.certificate.attachments import Attachment, arranged, media_type, source_attachments
 from zlmreport.certificate.build import build
 from zlmreport.certificate.clauses import demand_mandatory_items
-from zlmreport.certificate.document import Certificate
-from zlmreport.certificate.forecast import forecasts
-from zlmreport.certificate.model_annex import Modelled
 from zlmreport.certificate.results import Evaluated
 from zlmreport.correction.corrections import corrected
 from zlmreport.correction.of_job import corrections_of, without_excluded
 from zlmreport.evaluation.decision import decided, decision_rule
 from zlmreport.evaluation.evaluate import evaluate
 from zlmreport.files import Document
-from zlmreport.job.job import Job
 from zlmreport.language import Words
-from zlmreport.measurement.measurement_set import MeasurementSet
-from zlmreport.model.study import Fitted, Study
 from zlmreport.plugin.kinds import RENDERER
 from zlmreport.plugin.protocols import Renderer, SourceContext, Standard, carries_attachments, relationship_of
-from zlmreport.plugins import Registry
-from zlmreport.signing.signer import Signer
 from zlmreport.step_gauge.set_up import gauge_set_up
 from zlmreport.step_gauge.uncertainty import contributions_of_job
 from zlmreport.uncertainty.expanded import with_uncertainty
 from zlmreport.uncertainty.job_budget import budget_of
+
+if TYPE_CHECKING:
+    from zlmreport.certificate.document import Certificate
+    from zlmreport.certificate.model_annex import Modelled
+    from zlmreport.job.job import Job
+    from zlmreport.measurement.measurement_set import MeasurementSet
+    from zlmreport.plugins import Registry
+    from zlmreport.signing.signer import Signer
 
 #: The format that every document with attachments carries.
 RESULTS = "json"
@@ -106,6 +106,10 @@ def evaluated(job: Job, measurements: MeasurementSet, registry: Registry) -> tup
 
 def modelled(job: Job, measurements: MeasurementSet, registry: Registry) -> Modelled:
     """Hold the job's error model against the readings, and ask its standards about a corrected axis."""
+    from zlmreport.certificate.forecast import forecasts  # noqa: PLC0415 - only for a job with a model
+    from zlmreport.certificate.model_annex import Modelled  # noqa: PLC0415
+    from zlmreport.model.study import Fitted, Study  # noqa: PLC0415
+
     study = Study.of(job, measurements, registry.effects)
     diagnosis = study.diagnosis(registry.effects)
     history = study.history(Fitted(diagnosis.fit, diagnosis.error))

@@ -29,8 +29,6 @@ from zlmreport.plugin import (
     Unit,
     Words,
     hookimpl,
-    report_error,
-    report_model,
 )
 
 SCHEMA = "zlmreport/results/1"
@@ -220,6 +218,8 @@ def _model(certificate: Certificate) -> Json:
     diagnosis = certificate.diagnosis
     if diagnosis is None:
         return {"effects": [], "parameters": [], "error": {}}
+    from zlmreport.plugin import report_error, report_model  # noqa: PLC0415 - brings the error model
+
     error = report_error(diagnosis.error, certificate.measurements.axis)
     return {
         **report_model(diagnosis.fit),

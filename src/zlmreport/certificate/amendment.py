@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 from zlmreport.certificate.document import Notice
-from zlmreport.job.document_keys import CertificateKeys
 from zlmreport.language import Words
-from zlmreport.presenting.writer import Writer
+
+if TYPE_CHECKING:
+    from zlmreport.job.document_keys import CertificateKeys
+    from zlmreport.presenting.writer import Writer
 
 TITLES = {
     "certificate": Words(en="Calibration Certificate", de="Kalibrierschein"),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -20,13 +21,15 @@ from zlmreport.certificate.document import (
     Section,
 )
 from zlmreport.certificate.facts import Fact, stated
-from zlmreport.certificate.results import Evaluated
-from zlmreport.figures.figure import Figure
 from zlmreport.figures.prescribed import comparison_graph
-from zlmreport.job.measurement_keys import AsFound
 from zlmreport.language import Words
-from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.presenting.writer import Writer
+
+if TYPE_CHECKING:
+    from zlmreport.certificate.results import Evaluated
+    from zlmreport.figures.figure import Figure
+    from zlmreport.job.measurement_keys import AsFound
+    from zlmreport.measurement.measurement_set import MeasurementSet
 
 #: What the two measurements are called, by the work between them.
 NAMES = {

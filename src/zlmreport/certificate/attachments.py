@@ -9,13 +9,16 @@ from collections.abc import Container, Iterable, Iterator
 from dataclasses import dataclass
 from enum import Enum, StrEnum
 from pathlib import PurePosixPath
+from typing import TYPE_CHECKING
 
 from zlmreport.errors import InputError, Place
-from zlmreport.job.job import Job
 from zlmreport.job.references import path_from_job
 from zlmreport.job.tree import texts
 from zlmreport.language import Language, Words
-from zlmreport.measurement.provenance import SourceFile
+
+if TYPE_CHECKING:
+    from zlmreport.job.job import Job
+    from zlmreport.measurement.provenance import SourceFile
 
 #: Of the files in one certificate, and in bytes of all of them together.
 MOST_ATTACHMENTS = 64

@@ -4,34 +4,35 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 from zlmreport import __version__
 from zlmreport.certificate import (
     amendment,
     conditions,
     cover,
-    model_annex,
     opinions,
     origin,
     readings,
     results,
     uncertainty,
 )
-from zlmreport.certificate.as_found import beside_as_found, readings_as_found, uncertainty_beside_as_found
 from zlmreport.certificate.attachments import sources
 from zlmreport.certificate.document import Certificate, Letterhead, PageWords, Party, Section
 from zlmreport.certificate.identity import lines
-from zlmreport.certificate.linked import Linked
 from zlmreport.certificate.logo import Logo, read_logo
-from zlmreport.certificate.model_annex import Modelled
-from zlmreport.certificate.results import Evaluated
-from zlmreport.figures.figure import Figure
-from zlmreport.job.document_keys import Laboratory
-from zlmreport.job.job import Job
 from zlmreport.language import Words
-from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.presenting.marks import Marks
 from zlmreport.presenting.writer import Writer
+
+if TYPE_CHECKING:
+    from zlmreport.certificate.linked import Linked
+    from zlmreport.certificate.model_annex import Modelled
+    from zlmreport.certificate.results import Evaluated
+    from zlmreport.figures.figure import Figure
+    from zlmreport.job.document_keys import Laboratory
+    from zlmreport.job.job import Job
+    from zlmreport.measurement.measurement_set import MeasurementSet
 
 GENERATOR = f"zlmreport {__version__}"
 
@@ -90,7 +91,7 @@ def build(
             *_readings(job, measurements, as_found, writer),
             origin.section(made_from, read, GENERATOR, plugins, writer),
             *opinions.section(job.keys, writer),
-            *([model_annex.section(modelled, writer)] if modelled else []),
+            *_model(modelled, writer),
         ),
         page_words=PageWords(
             number=writer.say(amendment.running_title(certificate)),
@@ -121,7 +122,11 @@ def _results(
     """Yield the results by each standard; of an axis that was adjusted, those before, after, and compared."""
     sections = (results.section(each, writer) for each in evaluated)
     keys = job.keys.as_found
-    return beside_as_found(keys, sections, as_found, evaluated, writer) if keys else sections
+    if keys is None:
+        return sections
+    from zlmreport.certificate.as_found import beside_as_found  # noqa: PLC0415 - of the few that need it
+
+    return beside_as_found(keys, sections, as_found, evaluated, writer)
 
 
 def _uncertainty(
@@ -129,15 +134,27 @@ def _uncertainty(
 ) -> Iterator[Section]:
     """Yield the uncertainty budget; of an axis that was adjusted, that of both measurements."""
     if job.keys.as_found:
+        from zlmreport.certificate.as_found import uncertainty_beside_as_found  # noqa: PLC0415
+
         return uncertainty_beside_as_found(job.keys.as_found, as_found, evaluated, writer)
     return iter([uncertainty.section(evaluated[0].budget, job.axis, writer)])
+
+
+def _model(modelled: Modelled | None, writer: Writer) -> Iterator[Section]:
+    """Yield what the error model says, if the job names one."""
+    if modelled:
+        from zlmreport.certificate.model_annex import section  # noqa: PLC0415 - brings the error model
+
+        yield section(modelled, writer)
 
 
 def _linked(job: Job, modelled: Modelled | None, writer: Writer) -> Linked | None:
     """Return the readings beside the model, one by one; nothing where single readings are not to be shown."""
     if modelled is None or job.keys.agreement.simplified or not job.keys.certificate.readings_on_graphs:
         return None
-    return model_annex.linked_graphs(modelled, writer)
+    from zlmreport.certificate.model_annex import linked_graphs  # noqa: PLC0415 - brings the error model
+
+    return linked_graphs(modelled, writer)
 
 
 def _readings(
@@ -148,6 +165,8 @@ def _readings(
         return
     yield readings.section(measurements, writer)
     if job.keys.as_found:
+        from zlmreport.certificate.as_found import readings_as_found  # noqa: PLC0415
+
         yield readings_as_found(job.keys.as_found, as_found, writer)
 
 

@@ -4,15 +4,18 @@ from __future__ import annotations
 
 import datetime as dt
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from zlmreport.certificate.facts import Fact
-from zlmreport.job.measurement_keys import Environment, Measurement
 from zlmreport.language import Words
 from zlmreport.measurement.measurement_set import CONDITION_NAMES, CONDITIONS, MeasurementSet
-from zlmreport.presenting.writer import Writer
-from zlmreport.quantities.arrays import FloatArray
+
+if TYPE_CHECKING:
+    from zlmreport.job.measurement_keys import Environment, Measurement
+    from zlmreport.presenting.writer import Writer
+    from zlmreport.quantities.arrays import FloatArray
 
 _METHODS = {
     "linear": Words(en="linear method", de="Linearverfahren"),

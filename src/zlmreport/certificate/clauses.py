@@ -8,11 +8,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from zlmreport.certificate.place import place_of_work
 from zlmreport.errors import InputError, Problem
-from zlmreport.job.job import Job
-from zlmreport.job.keys import JobKeys
+
+if TYPE_CHECKING:
+    from zlmreport.job.job import Job
+    from zlmreport.job.keys import JobKeys
 
 
 @dataclass(frozen=True, slots=True)

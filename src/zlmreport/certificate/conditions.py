@@ -4,18 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from zlmreport.certificate import corrections, step_gauge
 from zlmreport.certificate.circumstances import date, environment_facts, measurement_facts, with_unit
 from zlmreport.certificate.document import Block, Facts, Paragraph, Section
 from zlmreport.certificate.facts import Fact, stated
-from zlmreport.job.job import Job
-from zlmreport.job.keys import JobKeys
-from zlmreport.job.measurement_keys import Instrument
 from zlmreport.language import Words
 from zlmreport.measurement.axis import AxisKind
-from zlmreport.measurement.measurement_set import MeasurementSet
-from zlmreport.presenting.writer import Writer
+
+if TYPE_CHECKING:
+    from zlmreport.job.job import Job
+    from zlmreport.job.keys import JobKeys
+    from zlmreport.job.measurement_keys import Instrument
+    from zlmreport.measurement.measurement_set import MeasurementSet
+    from zlmreport.presenting.writer import Writer
 
 _TITLE = Words(en="Item, method and conditions", de="Gegenstand, Verfahren und Bedingungen")
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
+from typing import TYPE_CHECKING
 
 from zlmreport.certificate.document import (
     Align,
@@ -19,13 +20,14 @@ from zlmreport.certificate.document import (
     Verdict,
 )
 from zlmreport.evaluation.conformity import Conformity
-from zlmreport.evaluation.evaluation import Evaluation, Parameter
-from zlmreport.figures.bars import conformity_graph
-from zlmreport.job.evaluation_keys import DecisionRuleKeys
 from zlmreport.language import Words
 from zlmreport.presenting.amounts import with_uncertainty
 from zlmreport.presenting.writer import NOTHING, Writer
 from zlmreport.quantities.formatting import fixed_number, percentage
+
+if TYPE_CHECKING:
+    from zlmreport.evaluation.evaluation import Evaluation, Parameter
+    from zlmreport.job.evaluation_keys import DecisionRuleKeys
 
 #: Of a risk that no double holds: it is small, and not none.
 _UNDERFLOW = 1e-300
@@ -120,6 +122,10 @@ def blocks(evaluation: Evaluation, writer: Writer) -> Iterator[Block]:
     that of the results.
     """
     limited = [each for each in evaluation.parameters if each.limit is not None]
+    if not limited:
+        return
+    from zlmreport.figures.bars import conformity_graph  # noqa: PLC0415 - only with limits
+
     graph = conformity_graph(evaluation)
     if graph is None:
         return

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 from zlmreport.certificate.document import Align, Block, Cell, Column, Paragraph, RowGroup, Table
 from zlmreport.language import Words
-from zlmreport.measurement.measurement_set import MeasurementSet
-from zlmreport.presenting.writer import Writer
+
+if TYPE_CHECKING:
+    from zlmreport.measurement.measurement_set import MeasurementSet
+    from zlmreport.presenting.writer import Writer
 
 _CAPTION = Words(en="Corrections applied to the readings", de="An den Messwerten angebrachte Korrektionen")
 _ALL_CORRECTED = Words(

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 from zlmreport.certificate import amendment, conformity, statements, uncertainty
-from zlmreport.certificate.as_found import on_cover
 from zlmreport.certificate.document import (
     Block,
     Column,
@@ -20,12 +20,14 @@ from zlmreport.certificate.identity import identity
 from zlmreport.certificate.readings import missing_readings
 from zlmreport.certificate.results import Evaluated, section_key
 from zlmreport.certificate.values import Values
-from zlmreport.evaluation.evaluation import Evaluation, Parameter
 from zlmreport.evaluation.quantity import Group
-from zlmreport.job.job import Job
 from zlmreport.language import Words
-from zlmreport.measurement.measurement_set import MeasurementSet
-from zlmreport.presenting.writer import Writer
+
+if TYPE_CHECKING:
+    from zlmreport.evaluation.evaluation import Evaluation, Parameter
+    from zlmreport.job.job import Job
+    from zlmreport.measurement.measurement_set import MeasurementSet
+    from zlmreport.presenting.writer import Writer
 
 
 def blocks(
@@ -41,10 +43,18 @@ def blocks(
         *conformity.rule_paragraph(job.keys.decision_rule, evaluations, writer),
         *missing_readings(measurements, writer),
         *_shortfalls(evaluations, writer),
-        *on_cover(job.keys.as_found, writer),
+        *_as_found(job, writer),
         *statements.notices(job.keys, writer),
         *statements.paragraphs(job.keys, writer),
     )
+
+
+def _as_found(job: Job, writer: Writer) -> Iterator[Block]:
+    """Yield which of two measurements the first page shows, if there are two."""
+    if job.keys.as_found:
+        from zlmreport.certificate.as_found import on_cover  # noqa: PLC0415 - of the few that need it
+
+        yield from on_cover(job.keys.as_found, writer)
 
 
 def _results(evaluations: tuple[Evaluation, ...], writer: Writer) -> Table:

@@ -10,17 +10,18 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from datetime import date
 from enum import Enum
-from typing import TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
-from zlmreport.certificate.attachments import Attachment, Source
-from zlmreport.certificate.linked import Linked
-from zlmreport.evaluation.evaluation import Evaluation
-from zlmreport.figures.figure import Figure
-from zlmreport.job.job import Job
-from zlmreport.language import Language
-from zlmreport.measurement.measurement_set import MeasurementSet
-from zlmreport.model.diagnosis import Diagnosis
-from zlmreport.uncertainty.budget import Budget, NoBudget
+if TYPE_CHECKING:
+    from zlmreport.certificate.attachments import Attachment, Source
+    from zlmreport.certificate.linked import Linked
+    from zlmreport.evaluation.evaluation import Evaluation
+    from zlmreport.figures.figure import Figure
+    from zlmreport.job.job import Job
+    from zlmreport.language import Language
+    from zlmreport.measurement.measurement_set import MeasurementSet
+    from zlmreport.model.diagnosis import Diagnosis
+    from zlmreport.uncertainty.budget import Budget, NoBudget
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 from zlmreport.certificate.document import Notice
-from zlmreport.job.keys import JobKeys
 from zlmreport.language import Words
-from zlmreport.measurement.measurement_set import MeasurementSet
-from zlmreport.measurement.provenance import Exclusion
-from zlmreport.presenting.writer import Writer
+
+if TYPE_CHECKING:
+    from zlmreport.job.keys import JobKeys
+    from zlmreport.measurement.measurement_set import MeasurementSet
+    from zlmreport.measurement.provenance import Exclusion
+    from zlmreport.presenting.writer import Writer
 
 _ONE = Words(
     en="{count} reading was set aside and did not enter the results",

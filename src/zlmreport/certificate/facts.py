@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
-from zlmreport.language import Words
-from zlmreport.presenting.writer import Writer
+if TYPE_CHECKING:
+    from zlmreport.language import Words
+    from zlmreport.presenting.writer import Writer
 
 
 class Fact(NamedTuple):

@@ -4,16 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from zlmreport.evaluation.evaluate import EvaluatingStandard
 from zlmreport.evaluation.quantity import Group, Quantity
 from zlmreport.evaluation.statistics import position_statistics
 from zlmreport.model.study import BY_TABLE, Fitted, Study, corrected
 from zlmreport.quantities.arrays import FloatArray, read_only_floats
-from zlmreport.quantities.units import Unit
+
+if TYPE_CHECKING:
+    from zlmreport.evaluation.evaluate import EvaluatingStandard
+    from zlmreport.quantities.units import Unit
 
 _ORDER = (Group.COMPOSITE, Group.SYSTEMATIC, Group.RANDOM)
 

@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 from zlmreport.certificate.circumstances import date, days
 from zlmreport.certificate.conditions import MACHINE_KINDS, axis_in_words
 from zlmreport.certificate.facts import Fact
 from zlmreport.certificate.opinions import in_a_line
 from zlmreport.certificate.place import place_of_work
-from zlmreport.evaluation.evaluation import Evaluation
-from zlmreport.job.job import Job
 from zlmreport.language import Words
-from zlmreport.presenting.writer import Writer
+
+if TYPE_CHECKING:
+    from zlmreport.evaluation.evaluation import Evaluation
+    from zlmreport.job.job import Job
+    from zlmreport.presenting.writer import Writer
 
 
 def identity(job: Job, evaluations: tuple[Evaluation, ...], writer: Writer) -> Iterator[Fact]:

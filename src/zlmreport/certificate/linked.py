@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -13,12 +13,14 @@ from zlmreport.figures.model_diagram import SPREAD, ModelDiagram, estimate
 from zlmreport.figures.model_residuals import over_position
 from zlmreport.language import Language, Words, same
 from zlmreport.measurement.measurement_set import CONDITION_NAMES, CONDITIONS
-from zlmreport.model.diagnosis import Diagnosis
 from zlmreport.model.outliers import outliers
 from zlmreport.model.residuals import Failure, ResidualTest
 from zlmreport.model.study import Fitted, Study, corrected
 from zlmreport.presenting.diagnosis import FailureRow, failure_row
-from zlmreport.quantities.arrays import FloatArray
+
+if TYPE_CHECKING:
+    from zlmreport.model.diagnosis import Diagnosis
+    from zlmreport.quantities.arrays import FloatArray
 
 _MINUTE = 60.0
 _LONG = 600.0

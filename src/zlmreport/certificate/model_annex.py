@@ -7,22 +7,25 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from zlmreport.certificate.document import Block, Facts, Graph, Notice, Paragraph, Section
-from zlmreport.certificate.forecast import Forecast
 from zlmreport.certificate.linked import Linked, linked
 from zlmreport.certificate.model_tables import ModelTables
 from zlmreport.certificate.opinions import OPINION
-from zlmreport.figures.figure import Figure
 from zlmreport.figures.model_diagram import ModelDiagram, estimate
 from zlmreport.figures.model_residuals import fall_chart, over_condition, over_position, over_run, over_time
 from zlmreport.language import Words
 from zlmreport.model.diagnosis import Diagnosis, Verdict
 from zlmreport.model.residuals import Failure, ResidualTest
-from zlmreport.model.study import Fitted, Study
 from zlmreport.presenting.diagnosis import DiagnosisRows
 from zlmreport.presenting.model import ErrorRows, no_table_takes_away
-from zlmreport.presenting.writer import Writer
+
+if TYPE_CHECKING:
+    from zlmreport.certificate.forecast import Forecast
+    from zlmreport.figures.figure import Figure
+    from zlmreport.model.study import Fitted, Study
+    from zlmreport.presenting.writer import Writer
 
 _KEY = "model"
 _TITLE = Words(

@@ -4,19 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from zlmreport.certificate.document import Align, Cell, Column, Explained, Formulas, RowGroup, Symbol, Table
-from zlmreport.certificate.forecast import Forecast
 from zlmreport.language import Words
 from zlmreport.model import wording
-from zlmreport.model.design import Design
 from zlmreport.model.estimate import Plausibility
-from zlmreport.model.study import Fitted
-from zlmreport.model.visibility import Visibility
-from zlmreport.presenting.diagnosis import CandidateRow
 from zlmreport.presenting.model import ParameterRow, deviation, parameter_rows, wave_rows
 from zlmreport.presenting.writer import NOTHING, Writer
 from zlmreport.quantities.formatting import percentage
+
+if TYPE_CHECKING:
+    from zlmreport.certificate.forecast import Forecast
+    from zlmreport.model.design import Design
+    from zlmreport.model.study import Fitted
+    from zlmreport.model.visibility import Visibility
+    from zlmreport.presenting.diagnosis import CandidateRow
 
 _EFFECT = Words(en="Effect", de="Einfluss")
 _OF_GRID = Words(en="{half_width} (grid)", de="{half_width} (Raster)")

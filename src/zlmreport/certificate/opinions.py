@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 from zlmreport.certificate.document import Column, Notice, RowGroup, Section, Table
-from zlmreport.job.document_keys import Person
-from zlmreport.job.keys import JobKeys
 from zlmreport.language import Words
 from zlmreport.presenting.writer import NOTHING, Writer
+
+if TYPE_CHECKING:
+    from zlmreport.job.document_keys import Person
+    from zlmreport.job.keys import JobKeys
 
 #: Above every opinion of a document.
 OPINION = Words(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING
 
 from zlmreport.certificate.attachments import Role, Source
 from zlmreport.certificate.document import (
@@ -16,8 +17,10 @@ from zlmreport.certificate.document import (
     Table,
 )
 from zlmreport.language import Words
-from zlmreport.measurement.measurement_set import MeasurementSet
-from zlmreport.presenting.writer import Writer
+
+if TYPE_CHECKING:
+    from zlmreport.measurement.measurement_set import MeasurementSet
+    from zlmreport.presenting.writer import Writer
 
 _TITLE = Words(en="Origin of the results", de="Herkunft der Ergebnisse")
 

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from zlmreport.job.document_keys import Location
-from zlmreport.job.keys import JobKeys
 from zlmreport.language import Words, same
+
+if TYPE_CHECKING:
+    from zlmreport.job.keys import JobKeys
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -10,8 +11,10 @@ from zlmreport.certificate import exclusions
 from zlmreport.certificate.document import Align, Block, Column, Notice, RowGroup, Section, Symbol, Table
 from zlmreport.language import Words
 from zlmreport.measurement.approach import Approach
-from zlmreport.measurement.measurement_set import MeasurementSet
-from zlmreport.presenting.writer import Writer
+
+if TYPE_CHECKING:
+    from zlmreport.measurement.measurement_set import MeasurementSet
+    from zlmreport.presenting.writer import Writer
 
 #: Columns of readings that stand beside each other on an upright page.
 _MOST_COLUMNS = 10

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -25,15 +26,17 @@ from zlmreport.certificate.document import (
     Verdict,
 )
 from zlmreport.certificate.values import Values
-from zlmreport.evaluation.evaluation import Evaluation
 from zlmreport.evaluation.quantity import Group
 from zlmreport.evaluation.requirements import Basis, Finding
-from zlmreport.figures.figure import Figure
 from zlmreport.language import Words
 from zlmreport.presenting.amounts import written_uncertainty
-from zlmreport.presenting.writer import Writer
-from zlmreport.quantities.arrays import FloatArray
-from zlmreport.uncertainty.budget import Budget, NoBudget
+
+if TYPE_CHECKING:
+    from zlmreport.evaluation.evaluation import Evaluation
+    from zlmreport.figures.figure import Figure
+    from zlmreport.presenting.writer import Writer
+    from zlmreport.quantities.arrays import FloatArray
+    from zlmreport.uncertainty.budget import Budget, NoBudget
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 from zlmreport.certificate import exclusions
 from zlmreport.certificate.document import Block, Notice, Paragraph
-from zlmreport.job.keys import JobKeys
 from zlmreport.language import Words, same
 from zlmreport.presenting.marks import BY_CUSTOMER, EXTERNAL
-from zlmreport.presenting.writer import Writer
+
+if TYPE_CHECKING:
+    from zlmreport.job.keys import JobKeys
+    from zlmreport.presenting.writer import Writer
 
 ONLY_THIS_ITEM = Words(
     en="The results relate only to the item calibrated, in its condition at the time of the measurement.",

@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 from zlmreport.certificate.document import Graph
 from zlmreport.certificate.facts import Fact
 from zlmreport.figures.gauge_calibration import gauge_calibration
-from zlmreport.job.job import Job
 from zlmreport.language import Words
-from zlmreport.presenting.writer import Writer
 from zlmreport.quantities.formatting import fixed_number
 from zlmreport.quantities.units import MICRORADIAN, MILLIMETRE
-from zlmreport.step_gauge.location import Located
 from zlmreport.step_gauge.set_up import gauge_set_up
+
+if TYPE_CHECKING:
+    from zlmreport.job.job import Job
+    from zlmreport.presenting.writer import Writer
+    from zlmreport.step_gauge.location import Located
 
 _SECTION = Words(en="blocks {first} to {last}", de="Blöcke {first} bis {last}")
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 from zlmreport.certificate.document import (
     Align,
@@ -20,14 +21,16 @@ from zlmreport.certificate.document import (
 )
 from zlmreport.figures.bars import budget_bars
 from zlmreport.language import Words
-from zlmreport.measurement.axis import Axis
-from zlmreport.presenting.writer import Writer
 from zlmreport.quantities.formatting import percentage
 from zlmreport.quantities.uncertain import rounded_pair
 from zlmreport.uncertainty import wording
 from zlmreport.uncertainty.budget import Budget, NoBudget
 from zlmreport.uncertainty.contribution import Acts, Contribution
 from zlmreport.uncertainty.monte_carlo import TRIALS
+
+if TYPE_CHECKING:
+    from zlmreport.measurement.axis import Axis
+    from zlmreport.presenting.writer import Writer
 
 _TITLE = Words(en="Uncertainty of measurement", de="Messunsicherheit")
 _COVERAGE = Words(

@@ -4,14 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from zlmreport.certificate import conformity
 from zlmreport.certificate.document import Align, Cell, Column, Symbol
-from zlmreport.evaluation.evaluation import Evaluation, Parameter
 from zlmreport.language import Words
 from zlmreport.presenting.amounts import written
 from zlmreport.presenting.writer import NOTHING, Writer
 from zlmreport.quantities.formatting import fixed_number
+
+if TYPE_CHECKING:
+    from zlmreport.evaluation.evaluation import Evaluation, Parameter
 
 _VALUE = Words(en="Value", de="Wert")
 _LIMIT = Words(en="Limit", de="Grenzwert")

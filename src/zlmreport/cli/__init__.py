@@ -26,6 +26,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     # Before numpy is loaded: on the small matrices of a test, threads only wait for each other, and a
     # diagnosis takes ten times as long.
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+    # Pydantic looks for plugins of its own among all distributions before it makes its first model.
+    os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
     for stream in (sys.stdout, sys.stderr):
         _write_what_cannot_be_encoded_as_escapes(stream)
     try:

@@ -4,22 +4,23 @@ from __future__ import annotations
 
 import shutil
 from collections.abc import Iterable, Iterator, Sequence
+from typing import TYPE_CHECKING
 
 from zlmreport.certificate import exclusions
 from zlmreport.certificate.conformity import STATEMENTS
 from zlmreport.certificate.readings import missing_readings
 from zlmreport.certificate.values import limit
-from zlmreport.cli.jobs import Result
 from zlmreport.cli.terminal import Colour, shown_path, table
-from zlmreport.evaluation.evaluation import Evaluation, Parameter
-from zlmreport.evaluation.requirements import Finding
-from zlmreport.job.job import Job
 from zlmreport.language import Language
-from zlmreport.model.diagnosis import Verdict
-from zlmreport.model.report import verdict_statement
 from zlmreport.presenting.amounts import written
 from zlmreport.presenting.writer import Writer
 from zlmreport.quantities.notation import plain
+
+if TYPE_CHECKING:
+    from zlmreport.cli.jobs import Result
+    from zlmreport.evaluation.evaluation import Evaluation, Parameter
+    from zlmreport.evaluation.requirements import Finding
+    from zlmreport.job.job import Job
 
 #: Of a terminal, in letters: its width where it has none, what a table needs beside the names of
 #: parameters, and how much of a name is always shown; what the column of uncertainties needs.
@@ -146,6 +147,9 @@ def _model(result: Result) -> Iterator[str]:
     diagnosis = result.diagnosis
     if diagnosis is None:
         return
+    from zlmreport.model.diagnosis import Verdict  # noqa: PLC0415 - brings the error model
+    from zlmreport.model.report import verdict_statement  # noqa: PLC0415
+
     label = (Colour.GREEN if diagnosis.verdict is Verdict.ADEQUATE else Colour.YELLOW).of("model")
     yield f"  {label}  {verdict_statement(diagnosis).in_language(Language.ENGLISH)}"
     if diagnosis.verdict is not Verdict.ADEQUATE:

@@ -7,17 +7,19 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from zlmreport import __version__
 from zlmreport.cli.terminal import print_json, print_problems
 from zlmreport.errors import InputError, Problem, ZlmreportError, as_problems
-from zlmreport.evaluation.evaluation import Evaluation
-from zlmreport.job.job import Job
 from zlmreport.job.loading import load
 from zlmreport.language import Language
-from zlmreport.model.diagnosis import Diagnosis
-from zlmreport.plugins import Registry
+
+if TYPE_CHECKING:
+    from zlmreport.evaluation.evaluation import Evaluation
+    from zlmreport.job.job import Job
+    from zlmreport.model.diagnosis import Diagnosis
+    from zlmreport.plugins import Registry
 
 _NOT_MET = 1
 SCHEMA = "zlmreport/summary/1"

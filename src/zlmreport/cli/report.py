@@ -7,20 +7,21 @@ import sys
 from argparse import Namespace
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import replace
-from getpass import getpass
+from typing import TYPE_CHECKING
 
 from zlmreport import pipeline
 from zlmreport.cli.arguments.documents import SIGN_PASSWORD
-from zlmreport.cli.capture import capture_if_watched
 from zlmreport.cli.job_lines import report
 from zlmreport.cli.jobs import Result, do_all, load_all
 from zlmreport.errors import InputError, Place
 from zlmreport.files import write
-from zlmreport.job.job import Job
 from zlmreport.job.loading import chosen_formats
 from zlmreport.pipeline import PDF
 from zlmreport.plugins import Registry, find_plugins
-from zlmreport.signing.signer import Signer, open_signer
+
+if TYPE_CHECKING:
+    from zlmreport.job.job import Job
+    from zlmreport.signing.signer import Signer
 
 _PLACE = Place("zlmreport --sign")
 
@@ -37,7 +38,9 @@ def _make(options: Namespace, registry: Registry, formats: tuple[str, ...], sign
     def made(result: Result, job: Job) -> Result:
         if signer:
             demand_something_to_sign(job, registry)
-        if not (options.quiet or options.json):
+        if job.source.instrument and not (options.quiet or options.json):
+            from zlmreport.cli.capture import capture_if_watched  # noqa: PLC0415 - only for live readings
+
             capture_if_watched(job, registry, result.path)
         outcome = pipeline.run(job, registry, signer)
         files = write(outcome.documents)
@@ -63,7 +66,11 @@ def _formats(named: str | None, registry: Registry) -> tuple[str, ...]:
 
 def signer_of(options: Namespace) -> AbstractContextManager[Signer | None]:
     """Return who signs, if anybody is asked to."""
-    return open_signer(options.sign, _password, _PLACE) if options.sign else nullcontext()
+    if not options.sign:
+        return nullcontext()
+    from zlmreport.signing.signer import open_signer  # noqa: PLC0415 - only to sign
+
+    return open_signer(options.sign, _password, _PLACE)
 
 
 def demand_something_to_sign(job: Job, registry: Registry) -> None:
@@ -84,4 +91,6 @@ def _password(of: str) -> str:
             _PLACE,
             f"the password of {of} is asked for at a terminal or stands in {SIGN_PASSWORD}: here is neither",
         )
+    from getpass import getpass  # noqa: PLC0415 - only at a terminal
+
     return getpass(f"Password of {of}: ", stream=sys.stderr)

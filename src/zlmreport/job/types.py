@@ -109,7 +109,7 @@ Date = Annotated[dt.date, BeforeValidator(_date)]
 class JobPart(BaseModel):
     """A part of a job: frozen, and closed to keys that it does not know."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
+    model_config = ConfigDict(defer_build=True, extra="forbid", frozen=True)
 
 
 class Options(BaseModel):
@@ -120,7 +120,7 @@ class Options(BaseModel):
     the job file; ``zlmreport schema`` shows the keys to editors.
     """
 
-    model_config = ConfigDict(extra="forbid", frozen=True, arbitrary_types_allowed=True)
+    model_config = ConfigDict(defer_build=True, extra="forbid", frozen=True, arbitrary_types_allowed=True)
 
 
 def _beside_the_naming_file(value: Any) -> Any:

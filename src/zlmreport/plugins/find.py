@@ -52,7 +52,8 @@ def find_plugins(
     """
     off = {name.strip() for name in environment.get(DISABLE, "").split(",")}
     installed = entry_points()
-    declared = _declared(installed.select(group=DECLARED))
+    releases = _Releases()
+    declared = _declared(installed.select(group=DECLARED), releases)
     memory = Memory.of_user(environment)
     candidates: list[Candidate] = []
     disabled: list[str] = []
@@ -60,10 +61,10 @@ def find_plugins(
         if point.name in off:
             disabled.append(point.name)
             continue
-        known = declared.get((_distribution(point), point.name))
-        candidate = Candidate(
-            _plugin(point), point.load, known if known is not None else memory.recall(point)
-        )
+        release = releases.of(point)
+        known = declared.get((release[0], point.name))
+        offers = known if known is not None else memory.recall(point)
+        candidate = Candidate(Plugin(point.name, point.module, *release), point.load, offers)
         if known is None:
             memory.watch(point, candidate)
         candidates.append(candidate)
@@ -83,17 +84,25 @@ def find_plugins(
     return registry
 
 
-def _plugin(point: EntryPoint) -> Plugin:
-    release = (point.dist.name, point.dist.version) if point.dist else ("", "")
-    return Plugin(point.name, point.module, *release)
+class _Releases:
+    """Names and versions of distributions: each is read from its metadata once, which takes its time."""
 
+    def __init__(self) -> None:
+        self._known: dict[int, tuple[str, str]] = {}
 
-def _distribution(point: EntryPoint) -> str:
-    return point.dist.name if point.dist else ""
+    def of(self, point: EntryPoint) -> tuple[str, str]:
+        """Return the distribution of an entry point and its version."""
+        if point.dist is None:
+            return "", ""
+        key = id(point.dist)  # all of them live as long as the entry points
+        if key not in self._known:
+            metadata = point.dist.metadata
+            self._known[key] = (metadata["Name"], metadata["Version"])
+        return self._known[key]
 
 
 def _declared(
-    points: Sequence[EntryPoint] | Collection[EntryPoint],
+    points: Collection[EntryPoint], releases: _Releases
 ) -> Mapping[tuple[str, str], Collection[Key]]:
     """Return what distributions declare, by distribution and name of the plugin.
 
@@ -104,7 +113,7 @@ def _declared(
     for point in points:
         try:
             for name, offers in point.load().items():
-                found[_distribution(point), name] = frozenset(
+                found[releases.of(point)[0], name] = frozenset(
                     (kind, identifier) for kind, identifiers in offers.items() for identifier in identifiers
                 )
         except (Exception, SystemExit):  # noqa: BLE001, S112 - whatever it is, the plugin is asked instead
