@@ -1,3 +1,74 @@
-"""Calibration certificates for machine axes, from measurements to the printed page."""
+"""Calibration certificates for machine axes, from measurements to the printed page.
 
-__version__ = "0.1.0"
+For notebooks and scripts: ``import zlmreport as z``. Micrometres and millimetres (arc seconds and degrees).
+A name loads its module when it is used.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING
+
+from zlmreport.version import __version__
+
+if TYPE_CHECKING:
+    from zlmreport.errors import AccessError, InputError, ZlmreportError
+    from zlmreport.notebook.documents import Certificate, Verification, certificate, verify
+    from zlmreport.notebook.models import Diagnosis, Model, fit
+    from zlmreport.notebook.readings import Readings, read, simulate
+    from zlmreport.notebook.readings import of_arrays as test
+    from zlmreport.notebook.results import Result, Value, evaluate
+    from zlmreport.notebook.table import Table
+
+__all__ = [
+    "AccessError",
+    "Certificate",
+    "Diagnosis",
+    "InputError",
+    "Model",
+    "Readings",
+    "Result",
+    "Table",
+    "Value",
+    "Verification",
+    "ZlmreportError",
+    "__version__",
+    "certificate",
+    "evaluate",
+    "fit",
+    "read",
+    "simulate",
+    "test",
+    "verify",
+]
+_ROOMS = {
+    "errors": "AccessError InputError ZlmreportError",
+    "notebook.documents": "Certificate Verification certificate verify",
+    "notebook.models": "Diagnosis Model fit",
+    "notebook.readings": "Readings read simulate test=of_arrays",
+    "notebook.results": "Result Value evaluate",
+    "notebook.table": "Table",
+}
+_HOMES = {
+    offered: (room, own or offered)
+    for room, names in _ROOMS.items()
+    for offered, _, own in (name.partition("=") for name in names.split())
+}
+
+if not TYPE_CHECKING:  # a type checker knows the names from above, and reports one that is not among them
+
+    def __getattr__(name: str) -> object:
+        """Load what a name stands for."""
+        if name not in _HOMES:
+            message = f"module {__name__!r} has no attribute {name!r}"
+            raise AttributeError(message)
+        if name == "certificate":  # a room has this name, and passes calls on
+            return import_module(f"{__name__}.{name}")
+        room, own = _HOMES[name]
+        value = globals()[name] = getattr(import_module(f"{__name__}.{room}"), own)
+        return value
+
+
+def __dir__() -> list[str]:
+    """Return the names of the face."""
+    return sorted(__all__)

@@ -10,7 +10,7 @@ import pytest
 
 from cli.commands import Shop
 from processes import PYTHON, ZLMREPORT, run
-from zlmreport import __version__
+from zlmreport.version import __version__
 
 COMMANDS = ["check", "init", "plugins", "schema"]
 

@@ -7,10 +7,10 @@ from pathlib import Path
 import pytest
 
 from job.jobs import SOUND
-from zlmreport import __version__
 from zlmreport.fleet import program
 from zlmreport.job.loading import load
 from zlmreport.plugins import find_plugins
+from zlmreport.version import __version__
 
 JOB = SOUND.replace("exemplary-text", "laser-csv").replace("exemplary:1", "nmtba").replace("E: 20", "P: 20")
 

@@ -15,20 +15,15 @@ from typing import Any, TypeAlias
 from zlmreport.plugin import (
     COVERAGE_PROBABILITY,
     Approach,
-    Axis,
     Certificate,
     CertificateSource,
-    Decision,
-    EvaluatedParameter,
-    Evaluation,
-    Language,
     MeasurementSet,
     NoBudget,
     Relationship,
     SourceFile,
-    Unit,
     Words,
     hookimpl,
+    report_evaluation,
 )
 
 SCHEMA = "zlmreport/results/1"
@@ -59,7 +54,7 @@ def _results(certificate: Certificate) -> Json:
         "schema": SCHEMA,
         "certificate": _certificate(certificate),
         "evaluations": [
-            _evaluation(evaluation, certificate.language) for evaluation in certificate.evaluations
+            report_evaluation(evaluation, certificate.language) for evaluation in certificate.evaluations
         ],
         **_as_found(certificate),
         **_uncertainty(certificate),
@@ -92,94 +87,12 @@ def _as_found(certificate: Certificate) -> Json:
     provenance = measurements.provenance
     return {
         "as_found": {
-            "evaluations": [_evaluation(evaluation, certificate.language) for evaluation in found],
+            "evaluations": [report_evaluation(evaluation, certificate.language) for evaluation in found],
             "measurements": _measurements(measurements),
             "source": provenance.source,
             "files": [_file(file) for file in provenance.files],
         }
     }
-
-
-def _evaluation(evaluation: Evaluation, language: Language) -> Json:
-    axis = evaluation.measurements.axis
-    return {
-        "standard": evaluation.standard,
-        "designation": evaluation.designation,
-        "parameters": [
-            _parameter(parameter, axis.deviation_unit, language) for parameter in evaluation.parameters
-        ],
-        "positions": [
-            _position(evaluation, index) for index in range(len(evaluation.measurements.target_positions))
-        ],
-        "findings": [
-            {
-                "requirement": finding.requirement.in_language(language),
-                "found": finding.found.in_language(language),
-                "met": finding.met,
-                "basis": finding.basis.value,
-            }
-            for finding in evaluation.findings
-        ],
-    }
-
-
-def _parameter(parameter: EvaluatedParameter, unit: Unit, language: Language) -> Json:
-    values: Json = {
-        "symbol": parameter.quantity.symbol,
-        "name": parameter.quantity.name.in_language(language),
-        "value": unit.from_si(parameter.value),
-        "unit": unit.ascii,
-    }
-    if parameter.expanded_uncertainty is not None:
-        values["expanded_uncertainty"] = unit.from_si(parameter.expanded_uncertainty)
-    if parameter.coverage_factor is not None:
-        values["coverage_factor"] = parameter.coverage_factor
-    if parameter.limit is not None:
-        values["limit"] = unit.from_si(parameter.limit)
-        values["conforms"] = parameter.conforms
-    if parameter.decision is not None:
-        values["decision"] = _decision(parameter.decision, unit)
-    return values
-
-
-def _decision(decision: Decision, unit: Unit) -> Json:
-    stated: Json = {"statement": decision.conformity.value}
-    if decision.acceptance_limit is not None:
-        stated["acceptance_limit"] = unit.from_si(decision.acceptance_limit)
-    if decision.rejection_limit is not None:
-        stated["rejection_limit"] = unit.from_si(decision.rejection_limit)
-    if decision.risk is not None:
-        stated["risk"] = decision.risk
-    return stated
-
-
-def _position(evaluation: Evaluation, index: int) -> Json:
-    measurements = evaluation.measurements
-    statistics = evaluation.statistics
-    row: Json = {"target": _target(measurements.axis, float(measurements.target_positions[index]))}
-    for approach in measurements.approaches:
-        row[f"n_{_DIRECTIONS[approach]}"] = int(statistics.count[approach.index, index])
-    columns = {
-        "mean_fwd": statistics.mean_positive,
-        "mean_bwd": statistics.mean_negative,
-        "mean": statistics.mean_bidirectional,
-        "s_fwd": statistics.s_positive,
-        "s_bwd": statistics.s_negative,
-        "reversal": statistics.reversal_value,
-        **{column.quantity.symbol: column.values for column in evaluation.columns},
-    }
-    expanded = evaluation.mean_uncertainty
-    if expanded is not None:
-        columns |= {
-            "U_mean_fwd": expanded.by_approach[Approach.POSITIVE.index],
-            "U_mean_bwd": expanded.by_approach[Approach.NEGATIVE.index],
-            "U_mean": expanded.bidirectional,
-        }
-    for symbol, values in columns.items():
-        value = float(values[index])
-        if not math.isnan(value):
-            row[symbol] = measurements.axis.deviation_unit.from_si(value)
-    return row
 
 
 def _uncertainty(certificate: Certificate) -> Json:
@@ -244,7 +157,7 @@ def _measurements(measurements: MeasurementSet) -> Json:
 def _missing(measurements: MeasurementSet) -> Iterator[Json]:
     for reading in measurements.missing():
         yield {
-            "target": _target(measurements.axis, reading.target_position),
+            "target": measurements.axis.typed(reading.target_position),
             "direction": _DIRECTIONS[reading.approach],
             "run": reading.run,
         }
@@ -253,7 +166,7 @@ def _missing(measurements: MeasurementSet) -> Iterator[Json]:
 def _excluded(measurements: MeasurementSet) -> Iterator[Json]:
     for each in measurements.provenance.exclusions:
         yield {
-            "target": _target(measurements.axis, each.target_position),
+            "target": measurements.axis.typed(each.target_position),
             "direction": _DIRECTIONS[each.approach],
             "run": each.run,
             "deviation": measurements.axis.deviation_unit.from_si(each.deviation),
@@ -295,11 +208,6 @@ def _source(source: CertificateSource) -> Json:
         "sha256": source.file.sha256,
         "size": source.file.size,
     }
-
-
-def _target(axis: Axis, position: float) -> float:
-    """Return a target position as it was typed: 15 digits undo the rounding of the way to SI and back."""
-    return float(f"{axis.position_unit.from_si(position):.15g}")
 
 
 @hookimpl

@@ -7,7 +7,6 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import pairwise
 
-from zlmreport import __version__
 from zlmreport.capture.history import History
 from zlmreport.capture.options import CaptureOptions
 from zlmreport.capture.records import Header
@@ -25,6 +24,7 @@ from zlmreport.job.choices import InstrumentChoice
 from zlmreport.job.job import Job
 from zlmreport.measurement.axis import Axis
 from zlmreport.planning.plan import Plan
+from zlmreport.version import __version__
 
 _SOURCE = "measurement.source"
 #: mm or °.

@@ -6,7 +6,6 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from zlmreport import __version__
 from zlmreport.certificate import (
     amendment,
     conditions,
@@ -24,6 +23,7 @@ from zlmreport.certificate.logo import Logo, read_logo
 from zlmreport.language import Words
 from zlmreport.presenting.marks import Marks
 from zlmreport.presenting.writer import Writer
+from zlmreport.version import __version__
 
 if TYPE_CHECKING:
     from zlmreport.certificate.linked import Linked

@@ -12,7 +12,6 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any, Self
 
-from zlmreport import __version__
 from zlmreport.cli.fleet_log import JsonLog, Progress, TextLog, by_word, of_job
 from zlmreport.cli.terminal import print_json, visible
 from zlmreport.errors import AccessError, InputError, Place
@@ -20,6 +19,7 @@ from zlmreport.fleet.desk import Happened, What
 from zlmreport.fleet.night import foretell, spend
 from zlmreport.fleet.plan import Due, Planned
 from zlmreport.job.fleet import FleetFile, load_fleet
+from zlmreport.version import __version__
 
 SCHEMA = "zlmreport/night/1"
 

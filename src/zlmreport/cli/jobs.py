@@ -9,11 +9,11 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from zlmreport import __version__
 from zlmreport.cli.terminal import print_json, print_problems
 from zlmreport.errors import InputError, Problem, ZlmreportError, as_problems
 from zlmreport.job.loading import load
 from zlmreport.language import Language
+from zlmreport.version import __version__
 
 if TYPE_CHECKING:
     from zlmreport.evaluation.evaluation import Evaluation

@@ -8,12 +8,12 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
-from zlmreport import __version__
 from zlmreport.cli.terminal import Colour, print_json, shown_path, table, visible
 from zlmreport.plugins import find_plugins
 from zlmreport.quantities.units import printed_symbol
 from zlmreport.verification.findings import Finding, Value, Verdict, Verification, is_number
 from zlmreport.verification.verify import verify
+from zlmreport.version import __version__
 
 _DOES_NOT_HOLD = 1
 _COLOURS = {Verdict.HOLDS: Colour.GREEN, Verdict.DIFFERS: Colour.RED, Verdict.OPEN: Colour.YELLOW}

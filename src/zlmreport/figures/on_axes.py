@@ -22,7 +22,7 @@ from matplotlib.text import Annotation
 
 from zlmreport.figures.canvas import Face
 from zlmreport.figures.figure import Figure
-from zlmreport.figures.layout import axis_title, lay_out_alone
+from zlmreport.figures.layout import axis_title, figure_size, lay_out_alone
 from zlmreport.figures.metrics import font_file
 from zlmreport.figures.shapes import Frame, Lettering, Marks, Outline, Shape
 from zlmreport.figures.sketch import legend_shapes, panel_shapes
@@ -36,6 +36,20 @@ if TYPE_CHECKING:
 _OF_AXES = frozenset({"frame", "tick", "tick x", "tick y"})
 _MARKERS = {Mark.UP: "^", Mark.DOWN: "v", Mark.DISC: "o"}
 _POINTS_PER_INCH = 72
+
+
+def new_axes(figure: Figure) -> list[Axes]:
+    """Return axes for a figure, one for each of its panels, in its size on a page."""
+    from matplotlib import pyplot as plt  # noqa: PLC0415 - it keeps what it makes
+
+    width, height = figure_size(figure)
+    _, axes = plt.subplots(
+        len(figure.panels),
+        1,
+        squeeze=False,
+        figsize=(width / _POINTS_PER_INCH, height / _POINTS_PER_INCH),
+    )
+    return list(axes[:, 0])
 
 
 def put(figure: Figure, axes: Axes | Sequence[Axes], language: Language = Language.ENGLISH) -> None:

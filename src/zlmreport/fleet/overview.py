@@ -6,7 +6,6 @@ from collections.abc import Iterator
 from dataclasses import replace
 from datetime import date
 
-from zlmreport import __version__
 from zlmreport.fleet import overview_words as words
 from zlmreport.fleet.overview_cells import Cells
 from zlmreport.fleet.overview_graph import Period
@@ -23,6 +22,7 @@ from zlmreport.typesetting.overview import (
     overview_style,
 )
 from zlmreport.typesetting.templates import render
+from zlmreport.version import __version__
 
 _MINUTE = 60
 

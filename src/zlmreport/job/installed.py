@@ -9,6 +9,22 @@ from zlmreport.errors import Place
 from zlmreport.job.types import Options
 
 
+class Named(Protocol):
+    """A plugin, by what jobs call it."""
+
+    @property
+    def identifier(self) -> str:
+        """As jobs name it."""
+
+
+class WithKeys(Named, Protocol):
+    """A plugin with keys of its own: a data source, a live instrument."""
+
+    @property
+    def options(self) -> type[Options]:
+        """Its own keys."""
+
+
 class LimitedQuantity(Protocol):
     """A parameter for which a job may state a tolerance."""
 
@@ -21,68 +37,24 @@ class LimitedQuantity(Protocol):
         """Whether a tolerance makes sense for it."""
 
 
-class InstalledSource(Protocol):
-    """A data source with its own keys."""
-
-    @property
-    def identifier(self) -> str:
-        """As jobs name it."""
-
-    @property
-    def options(self) -> type[Options]:
-        """Its own keys."""
-
-
-class InstalledStandard(Protocol):
-    """A standard with its own keys, and the parameters that a job may limit."""
-
-    @property
-    def identifier(self) -> str:
-        """As jobs name it."""
-
-    @property
-    def options(self) -> type[Options]:
-        """Its own keys."""
+class InstalledStandard(WithKeys, Protocol):
+    """A standard, and the parameters that a job may limit."""
 
     @property
     def quantities(self) -> Sequence[LimitedQuantity]:
         """Its parameters."""
 
 
-class InstalledRenderer(Protocol):
+class InstalledRenderer(Named, Protocol):
     """A file format."""
-
-    @property
-    def identifier(self) -> str:
-        """As jobs name it."""
 
     @property
     def suffix(self) -> str:
         """Of its files."""
 
 
-class InstalledInstrument(Protocol):
-    """A live instrument with its own keys."""
-
-    @property
-    def identifier(self) -> str:
-        """As jobs name it."""
-
-    @property
-    def options(self) -> type[Options]:
-        """Its own keys."""
-
-
-class InstalledProgram(Protocol):
-    """A writer of part programs or probing programs with its own keys."""
-
-    @property
-    def identifier(self) -> str:
-        """As jobs name it."""
-
-    @property
-    def options(self) -> type[Options]:
-        """Its own keys."""
+class InstalledProgram(WithKeys, Protocol):
+    """A writer of part programs or probing programs."""
 
     @property
     def suffix(self) -> str:
@@ -97,16 +69,8 @@ class NamedParameter(Protocol):
         """As jobs name it."""
 
 
-class InstalledEffect(Protocol):
-    """An effect with its own keys and the parameters that a job may give."""
-
-    @property
-    def identifier(self) -> str:
-        """As jobs name it."""
-
-    @property
-    def options(self) -> type[Options]:
-        """Its own keys."""
+class InstalledEffect(WithKeys, Protocol):
+    """An effect, and the parameters that a job may give."""
 
     @property
     def linear(self) -> Sequence[NamedParameter]:
@@ -127,7 +91,7 @@ class Installed(Protocol):
     """
 
     @property
-    def sources(self) -> Sequence[InstalledSource]:
+    def sources(self) -> Sequence[WithKeys]:
         """All data sources."""
 
     @property
@@ -151,10 +115,10 @@ class Installed(Protocol):
         """All writers of probing programs."""
 
     @property
-    def instruments(self) -> Sequence[InstalledInstrument]:
+    def instruments(self) -> Sequence[WithKeys]:
         """All live instruments."""
 
-    def source(self, identifier: str, named_at: Place | None = None) -> InstalledSource:
+    def source(self, identifier: str, named_at: Place | None = None) -> WithKeys:
         """Return a data source."""
 
     def standard(self, identifier: str, named_at: Place | None = None) -> InstalledStandard:
@@ -172,5 +136,5 @@ class Installed(Protocol):
     def probing_program(self, identifier: str, named_at: Place | None = None) -> InstalledProgram:
         """Return a writer of probing programs."""
 
-    def instrument(self, identifier: str, named_at: Place | None = None) -> InstalledInstrument:
+    def instrument(self, identifier: str, named_at: Place | None = None) -> WithKeys:
         """Return a live instrument."""

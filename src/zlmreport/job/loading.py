@@ -65,7 +65,7 @@ def load(
     keys = validate(JobKeys, tree, problems)
     source = _source(tree, _SOURCE, registry, problems)
     source_as_found = _source(tree, _SOURCE_AS_FOUND, registry, problems)
-    standards = list(_standards(tree, registry, problems))
+    standards = list(standard_choices(tree, registry, problems))
     effects = effect_choices(_at(tree, _EFFECTS), registry, problems, within=".".join(_EFFECTS))
     programs = program_choices(
         _at(tree, _PROGRAMS), registry.part_program, problems, within=".".join(_PROGRAMS)
@@ -119,8 +119,11 @@ def _source(
     return SourceChoice(source.identifier, options, plugin.place, instrument) if options else None
 
 
-def _standards(tree: Keys, registry: Installed, problems: list[Problem]) -> Iterator[StandardChoice]:
-    """Yield the standards with their own keys."""
+def standard_choices(tree: Keys, registry: Installed, problems: list[Problem]) -> Iterator[StandardChoice]:
+    """Yield the standards that a job's `evaluate` lists, with their own keys and no tolerances yet.
+
+    Mistakes are added to the problems: tolerances for what is no parameter among them.
+    """
     evaluate = _at(tree, ("evaluate",))
     first_named: dict[str, Place] = {}
     for item in evaluate.items if isinstance(evaluate, Items) else ():

@@ -9,14 +9,7 @@ from pydantic import BaseModel
 from pydantic.errors import PydanticInvalidForJsonSchema
 
 from zlmreport.job.evaluation_keys import DecisionRuleKeys, StandardKeys
-from zlmreport.job.installed import (
-    Installed,
-    InstalledEffect,
-    InstalledInstrument,
-    InstalledProgram,
-    InstalledSource,
-    InstalledStandard,
-)
+from zlmreport.job.installed import Installed, InstalledEffect, InstalledStandard, WithKeys
 from zlmreport.job.keys import JobKeys
 from zlmreport.job.measurement_keys import SourceKeys
 from zlmreport.job.plan_keys import ProgramKeys
@@ -35,12 +28,14 @@ def job_schema(registry: Installed) -> Schema:
     definitions = schema["$defs"]
     definitions[SourceKeys.__name__] = {
         "description": definitions[SourceKeys.__name__]["description"],
-        "oneOf": [_source(source, definitions) for source in registry.sources],
+        "oneOf": [_by_name("plugin", "data source", each, definitions) for each in registry.sources],
     }
     for name in [name for name in definitions if name.endswith(f".{LiveInstrumentKeys.__name__}")]:
         definitions[name] = {
             "description": definitions[name]["description"],
-            "oneOf": [_instrument(instrument, definitions) for instrument in registry.instruments],
+            "oneOf": [
+                _by_name("plugin", "live instrument", each, definitions) for each in registry.instruments
+            ],
         }
     definitions[StandardKeys.__name__] = {
         "description": definitions[StandardKeys.__name__]["description"],
@@ -68,7 +63,7 @@ def job_schema(registry: Installed) -> Schema:
             "description": definitions[keys.__name__]["description"],
             "anyOf": [
                 {"enum": [program.identifier for program in programs]},
-                *(_program(program, definitions) for program in programs),
+                *(_by_name("program", "part program", each, definitions) for each in programs),
             ],
         }
     formats = definitions["Output"]["properties"]["formats"]
@@ -84,16 +79,10 @@ def job_schema(registry: Installed) -> Schema:
     }
 
 
-def _source(source: InstalledSource, definitions: Schema) -> Schema:
-    """Return the schema of a data source's keys."""
-    key = {"const": source.identifier, "description": "Identifier of the data source."}
-    return _with_keys(_own_keys(source.options, source.identifier, definitions), {"plugin": key})
-
-
-def _instrument(instrument: InstalledInstrument, definitions: Schema) -> Schema:
-    """Return the schema of a live instrument's keys."""
-    key = {"const": instrument.identifier, "description": "Identifier of the live instrument."}
-    return _with_keys(_own_keys(instrument.options, instrument.identifier, definitions), {"plugin": key})
+def _by_name(key: str, what: str, plugin: WithKeys, definitions: Schema) -> Schema:
+    """Return the schema of a plugin's keys with the one that names it."""
+    named = {"const": plugin.identifier, "description": f"Identifier of the {what}."}
+    return _with_keys(_own_keys(plugin.options, plugin.identifier, definitions), {key: named})
 
 
 def _standard(standard: InstalledStandard, definitions: Schema) -> Schema:
@@ -109,12 +98,6 @@ def _standard(standard: InstalledStandard, definitions: Schema) -> Schema:
         },
     }
     return _with_keys(_own_keys(standard.options, standard.identifier, definitions), keys)
-
-
-def _program(program: InstalledProgram, definitions: Schema) -> Schema:
-    """Return the schema of a part program's keys."""
-    key = {"const": program.identifier, "description": "Identifier of the part program."}
-    return _with_keys(_own_keys(program.options, program.identifier, definitions), {"program": key})
 
 
 def _effect(effect: InstalledEffect, definitions: Schema) -> Schema:

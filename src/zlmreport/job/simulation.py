@@ -168,8 +168,17 @@ class SimulationFile:
         return place_of(self.tree, steps)
 
 
-def load_simulation(path: Path, registry: Installed) -> SimulationFile:
+def load_simulation(path: Path, registry: Installed, content: bytes | None = None) -> SimulationFile:
     """Read a simulation file and check all that can be checked without simulating.
+
+    Parameters
+    ----------
+    path
+        The file.
+    registry
+        The installed plugins.
+    content
+        What the file is to hold, instead of what it holds.
 
     Raises
     ------
@@ -178,7 +187,7 @@ def load_simulation(path: Path, registry: Installed) -> SimulationFile:
     AccessError
         If it, or a file that it names, cannot be read.
     """
-    composition = compose(path)
+    composition = compose(path, content)
     tree = composition.keys
     refuse_other_format(tree, SIMULATION)
     problems: list[Problem] = []

@@ -107,6 +107,13 @@ class Axis:
         """The unit in which deviations are read and printed."""
         return MICROMETRE if self.kind is AxisKind.LINEAR else ARCSECOND
 
+    def typed(self, position: float) -> float:
+        """Return a position (m or rad) in mm or degrees as it was typed.
+
+        15 digits undo the rounding of the way to SI and back.
+        """
+        return float(f"{self.position_unit.from_si(position):.15g}")
+
 
 def position_units(kind: AxisKind) -> Mapping[str, Unit]:
     """Return the units in which positions and deviations of an axis may be given."""

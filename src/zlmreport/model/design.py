@@ -144,7 +144,7 @@ def outside_of_measured(name: str, unit: Unit, positions: FloatArray, span: tupl
     # Positions come in decimal units: an end itself may be off by a rounding.
     slack = _ROUNDING * max(map(abs, span))
     return [
-        f"{name} = {unit.from_si(position):g} {unit.symbol} lies outside_of_measured of what was measured, "
+        f"{name} = {unit.from_si(position):g} {unit.symbol} lies outside of what was measured, "
         f"{first:g} to {last:g} {unit.symbol}"
         for position in positions.tolist()
         if not span[0] - slack <= position <= span[1] + slack

@@ -86,6 +86,7 @@ if TYPE_CHECKING:
     from zlmreport.evaluation.ranges import largest as largest_over_positions
     from zlmreport.evaluation.ranges import smallest as smallest_over_positions
     from zlmreport.evaluation.ranges import width as range_over_positions
+    from zlmreport.evaluation.report import report_evaluation
     from zlmreport.evaluation.requirements import Basis, Finding
     from zlmreport.evaluation.statistics import PositionStatistics
     from zlmreport.figures.alternatives import graph_of as graph_in_words
@@ -440,6 +441,7 @@ __all__ = [
     "readings_at_rate",
     "refractive_index",
     "report_error",
+    "report_evaluation",
     "report_model",
     "runs_in_words",
     "same_in_all_languages",
@@ -498,6 +500,7 @@ _ROOMS = {
         "largest_over_positions=largest mean_over_positions=average range_over_positions=width "
         "smallest_over_positions=smallest"
     ),
+    "zlmreport.evaluation.report": "report_evaluation",
     "zlmreport.evaluation.requirements": "Basis Finding",
     "zlmreport.evaluation.statistics": "PositionStatistics",
     "zlmreport.figures.alternatives": (

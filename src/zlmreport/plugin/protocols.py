@@ -100,6 +100,9 @@ class SourceContext:
 class DataSource(Protocol):
     """A reader of measurements.
 
+    One more attribute may stand beside these: ``suffixes`` of its files, ``(".csv",)``, by which a file that
+    nobody names a data source for finds its reader; its key ``file`` names the file then.
+
     Attributes
     ----------
     identifier

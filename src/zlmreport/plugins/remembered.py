@@ -16,8 +16,10 @@ from importlib.machinery import PathFinder
 from importlib.metadata import EntryPoint
 from pathlib import Path
 
-from zlmreport import __version__
+from zlmreport.errors import AccessError
+from zlmreport.files import Document, write
 from zlmreport.plugins.candidate import Candidate, Key
+from zlmreport.version import __version__
 
 _FILE = "plugins.json"
 
@@ -68,11 +70,8 @@ class Memory:
         }
         if self._path is None or {**known} == self._known:
             return
-        with contextlib.suppress(OSError):
-            self._path.parent.mkdir(parents=True, exist_ok=True)
-            fresh = self._path.with_name(f"{_FILE}.{os.getpid()}")
-            fresh.write_text(json.dumps(known), encoding="utf-8")
-            fresh.replace(self._path)
+        with contextlib.suppress(AccessError):
+            write([Document(self._path, json.dumps(known).encode())])
 
 
 def _read(path: Path) -> dict[str, list[Key]]:

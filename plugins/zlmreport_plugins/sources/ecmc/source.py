@@ -61,6 +61,7 @@ class Ecmc:
     identifier = "ecmc"
     title = Words(en="ecmc test log (.dat)", de="ecmc-Messprotokoll (.dat)")
     options: type[Options] = EcmcOptions
+    suffixes = (".dat",)
 
     def read(self, options: EcmcOptions, context: SourceContext) -> MeasurementSet:
         """Read a log; raise `InputError` with every defect and its place."""

@@ -96,6 +96,7 @@ class LaserCsv:
     identifier = "laser-csv"
     title = Words(en="Table of readings (CSV)", de="Messwerttabelle (CSV)")
     options: type[Options] = LaserCsvOptions
+    suffixes = (".csv", ".tsv", ".txt")
 
     def read(self, options: LaserCsvOptions, context: SourceContext) -> MeasurementSet:
         """Read a table; raise `InputError` with every defect and its place."""

@@ -171,6 +171,7 @@ class RenishawRtl:
     identifier = "renishaw-rtl"
     title = Words(en="Renishaw test file (.rtl, .rta)", de="Renishaw-Messdatei (.rtl, .rta)")
     options: type[Options] = RenishawRtlOptions
+    suffixes = (".rtl", ".rta")
 
     def read(self, options: RenishawRtlOptions, context: SourceContext) -> MeasurementSet:
         """Read a test file; raise `InputError` with every defect and its place."""

@@ -6,9 +6,9 @@ import argparse
 from collections.abc import Mapping
 from pathlib import Path
 
-from zlmreport import __version__
 from zlmreport.cli.arguments.parser import JSON_HELP, CommandParser, add_jobs, point, port, position
 from zlmreport.errors import did_you_mean
+from zlmreport.version import __version__
 
 #: Environment variable with the password of the key that signs.
 SIGN_PASSWORD = "ZLMREPORT_SIGN_PASSWORD"  # noqa: S105 (a name)

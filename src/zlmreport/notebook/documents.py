@@ -1,0 +1,172 @@
+"""Certificates for notebooks: made from jobs, and verified."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+from zlmreport import pipeline
+from zlmreport.certificate.document import Certificate as ComposedCertificate
+from zlmreport.errors import InputError, Place, did_you_mean
+from zlmreport.files import Document, write
+from zlmreport.job.job import Job
+from zlmreport.job.loading import load
+from zlmreport.notebook.readings import Readings, registry
+from zlmreport.notebook.results import Result
+from zlmreport.notebook.table import as_html
+from zlmreport.verification.findings import Verification as Verified
+from zlmreport.verification.verify import verify as verify_file
+
+
+class Certificate:
+    """The certificate of a job: ``z.certificate("job.yaml").save("x.pdf")``."""
+
+    def __init__(self, job: Job, composed: ComposedCertificate) -> None:
+        self._job = job
+        self._composed = composed
+
+    @property
+    def number(self) -> str:
+        """Its identification, also the stem of its files."""
+        return self._composed.number
+
+    @property
+    def data(self) -> Readings:
+        """The readings, corrected as the job says."""
+        return Readings(self._composed.measurements)
+
+    @cached_property
+    def results(self) -> tuple[Result, ...]:
+        """The evaluations by the standards of the job, with uncertainties and decisions."""
+        chosen = pipeline.standards(self._job, registry())
+        return tuple(
+            Result.of(evaluation, standard, options)
+            for evaluation, (standard, options) in zip(self._composed.evaluations, chosen, strict=True)
+        )
+
+    def save(self, path: str | Path, plugin: str = "") -> Path:
+        """Write the certificate, whole or not at all, and return where.
+
+        Parameters
+        ----------
+        path
+            A file whose suffix says the format, ``x.pdf``; or a folder, for all formats of the job.
+        plugin
+            Identifier of the renderer, where several write such files: ``pdf-typst``.
+
+        Raises
+        ------
+        InputError
+            If no renderer writes files of this suffix.
+        AccessError
+            If it cannot be written.
+        """
+        path = Path(path)
+        if path.suffix:
+            contents = self._rendered([plugin or _renderer_of(path)])
+            (document,) = [Document(path, content) for content in contents.values()]
+            return write([document])[0]
+        known = {each.identifier: each for each in registry().renderers}
+        write(
+            Document(path / pipeline.file_name(self._composed, known[identifier]), content)
+            for identifier, content in self._rendered(self._job.formats).items()
+        )
+        return path
+
+    def _rendered(self, identifiers: Any) -> dict[str, bytes]:
+        renderers = [registry().renderer(each, Place("save")) for each in identifiers]
+        contents = pipeline.render(self._composed, renderers, registry())
+        return {each: contents[each] for each in identifiers}
+
+    def __repr__(self) -> str:
+        """Return its number and standards."""
+        return f"<Certificate {self.number}: {', '.join(each.standard for each in self.results)}>"
+
+    def _repr_html_(self) -> str:
+        return "".join(each._repr_html_() for each in self.results)
+
+
+def _renderer_of(path: Path) -> str:
+    by_suffix: dict[str, str] = {}
+    for each in registry().renderers:
+        by_suffix.setdefault(each.suffix, each.identifier)
+    if path.suffix not in by_suffix:
+        message = f"no renderer writes {path.suffix} files; {did_you_mean(path.suffix, list(by_suffix))}"
+        raise InputError.at(Place(str(path)), message)
+    return by_suffix[path.suffix]
+
+
+def certificate(job: str | Path) -> Certificate:
+    """Return the certificate of a job: read, evaluated and composed, not printed yet.
+
+    Raises
+    ------
+    InputError
+        With all that is wrong with the job or its data.
+    AccessError
+        If a file cannot be read.
+    """
+    loaded = load(Path(job), registry())
+    return Certificate(loaded, pipeline.compose(loaded, registry()))
+
+
+class Verification:
+    """Whether a certificate holds: each of its numbers against its own data, evaluated again."""
+
+    def __init__(self, file: Path, found: Verified) -> None:
+        self.file = file
+        self._found = found
+
+    @property
+    def holds(self) -> bool:
+        """Whether nothing differs."""
+        return self._found.holds
+
+    @property
+    def number(self) -> str:
+        """Of the certificate, as it says itself."""
+        return self._found.identity.number
+
+    @property
+    def differences(self) -> tuple[str, ...]:
+        """What differs, in words."""
+        found = self._found
+        statements = (found.signature, *found.files, *found.pages, *found.document)
+        return (
+            *(f"{each.subject}: {each.detail}" for each in statements if each.verdict == "differs"),
+            *(
+                f"{'.'.join(each.path)}: {each.stated} is stated, {each.recomputed} computed"
+                for each in found.values
+                if each.verdict == "differs"
+            ),
+        )
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """What limits the comparison."""
+        return self._found.remarks
+
+    def __bool__(self) -> bool:
+        """Whether it holds."""
+        return self.holds
+
+    def __repr__(self) -> str:
+        """Return whether it holds."""
+        return f"<Verification of {self.number}: {'holds' if self.holds else 'does not hold'}>"
+
+    def _repr_html_(self) -> str:
+        rows = [(each,) for each in self.differences] or [("Every statement that could be compared holds.",)]
+        return as_html((f"{self.number} {'holds' if self.holds else 'does not hold'}",), rows)
+
+
+def verify(file: str | Path) -> Verification:
+    """Evaluate a certificate again from the data that it carries, and compare.
+
+    Raises
+    ------
+    AccessError, InputError
+        If it cannot be read, or is no such certificate.
+    """
+    path = Path(file)
+    return Verification(path, verify_file(path, registry()))

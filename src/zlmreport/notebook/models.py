@@ -1,0 +1,400 @@
+"""The error model of an axis for notebooks: fitted, diagnosed, and changed effect by effect."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from zlmreport.errors import InputError, Place, Problem
+from zlmreport.job.choices import EffectChoice, effect_choices
+from zlmreport.language import Language
+from zlmreport.measurement.approach import Approach
+from zlmreport.model.axis_model import AxisModel, ModelError, chosen_terms
+from zlmreport.model.design import at_positions, outside_of_measured
+from zlmreport.model.diagnosis import ErrorNumbers, diagnose, error_numbers
+from zlmreport.model.effect import unit_of
+from zlmreport.model.estimate import InstrumentError
+from zlmreport.model.fit import Assumptions, Fit
+from zlmreport.model.fit import fit as fit_model
+from zlmreport.model.observations import Observations, observations_of
+from zlmreport.model.outliers import outliers
+from zlmreport.model.report import report, report_error, report_model, verdict_statement
+from zlmreport.notebook.readings import Readings, registry, tree_of
+from zlmreport.notebook.results import drawn
+from zlmreport.notebook.table import Table, as_html
+from zlmreport.quantities.arrays import FloatArray, read_only_floats
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+_NAME = "fit"
+_COVERAGE_FACTOR = 2.0
+_SIDES = {Approach.POSITIVE: "up", Approach.NEGATIVE: "down"}
+
+
+@dataclass(frozen=True, slots=True)
+class Estimated:
+    """A parameter of the model, in its own unit; `given` if it was given and not estimated."""
+
+    effect: str
+    name: str
+    value: float
+    unit: str
+    expanded_uncertainty: float
+    coverage_factor: float
+    given: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Candidate:
+    """An effect that the model may lack.
+
+    Attributes
+    ----------
+    effect
+        Its identifier.
+    settings
+        The form of it that fits best, as its own keys in a job.
+    probability
+        Among all effects, nameless shapes and no effect.
+    p_value
+        Chance of so much an improvement without it.
+    rms_after
+        The error after adding it, µm or ″.
+    explains
+        What it takes away, in words.
+    indistinguishable_from
+        Effects that these readings cannot tell from it.
+    discriminate_by
+        The measurement that would; empty where there is nothing to tell apart.
+    """
+
+    effect: str
+    settings: Mapping[str, Any]
+    probability: float
+    p_value: float
+    rms_after: float
+    explains: str
+    indistinguishable_from: tuple[str, ...]
+    discriminate_by: str
+
+
+class Diagnosis:
+    """Whether a model describes the readings, and what it lacks."""
+
+    def __init__(self, values: Mapping[str, Any], statement: str) -> None:
+        self._values = values
+        self.statement = statement
+
+    @property
+    def verdict(self) -> str:
+        """``adequate``, ``missing`` or ``unexplained``."""
+        return str(self._values["verdict"])
+
+    @property
+    def candidates(self) -> tuple[Candidate, ...]:
+        """Effects that the model may lack, the best first."""
+        return tuple(
+            Candidate(
+                each["effect"],
+                each["settings"],
+                each["probability"],
+                each["p_value"],
+                each["rms_after"],
+                each["explains"],
+                tuple(each["indistinguishable_from"]),
+                each["discriminate_by"],
+            )
+            for each in self._values["candidates"]
+        )
+
+    @property
+    def failures(self) -> tuple[str, ...]:
+        """Where model and readings disagree, in sentences."""
+        return tuple(each["statement"] for each in self._values["failures"])
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the diagnosis as ``zlmreport model diagnose --json`` prints it."""
+        return dict(self._values)
+
+    def __repr__(self) -> str:
+        """Return the verdict in a sentence."""
+        return f"<Diagnosis: {self.statement}>"
+
+    def _repr_html_(self) -> str:
+        rows = [(each.effect, each.probability, each.rms_after, each.explains) for each in self.candidates]
+        unit = self._values["error"]["unit"]
+        return as_html(("Effect", "Probability", f"Error after, {unit}", "It explains"), rows, self.statement)
+
+
+class Model:
+    """An error model fitted to the readings of a test.
+
+    Attributes
+    ----------
+    data
+        The readings.
+    effects
+        Identifiers of its effects, in order.
+    """
+
+    def __init__(self, data: Readings, choices: Sequence[EffectChoice], assumptions: Assumptions) -> None:
+        self.data = data
+        self._choices = tuple(choices)
+        self._assumptions = assumptions
+        kind = data.measurements.axis.kind
+        self._model = AxisModel(chosen_terms(self._choices, registry().effect, kind))
+        self.effects: tuple[str, ...] = tuple(self._model.identifiers)
+
+    @cached_property
+    def _observed(self) -> Observations:
+        return observations_of(self.data.measurements)
+
+    @cached_property
+    def _kept(self) -> Observations:
+        """The readings without those that stand off."""
+        return self._observed.without(outliers(self._observed.design, self._observed.deviation).readings)
+
+    @cached_property
+    def fit(self) -> Fit:
+        """The same in SI, for those who go further down; no part of the stable interface."""
+        return fit_model(self._model, self._kept.design, self._kept.deviation, self._assumptions)
+
+    @cached_property
+    def _error(self) -> ErrorNumbers:
+        return error_numbers(self.fit)
+
+    @property
+    def rms(self) -> float:
+        """Root mean square of the residuals by degrees of freedom, µm or ″."""
+        return float(self._printed(self.fit.rms))
+
+    @property
+    def noise_rms(self) -> float | None:
+        """What the readings scatter when they are repeated, µm or ″; None without repeats."""
+        return None if self._error.noise_rms is None else float(self._printed(self._error.noise_rms))
+
+    @cached_property
+    def parameters(self) -> tuple[Estimated, ...]:
+        """The parameters of all effects with their uncertainties (k for 95 %)."""
+        return tuple(
+            Estimated(**{name: each[name] for name in Estimated.__slots__})
+            for each in report_model(self.fit)["parameters"]
+        )
+
+    def __getitem__(self, name: str) -> Estimated:
+        """Return a parameter: ``model["backlash.lost_motion"]``.
+
+        Raises
+        ------
+        KeyError
+            If the model has none of that name; with those that it has.
+        """
+        known = {f"{each.effect}.{each.name}": each for each in self.parameters}
+        if name not in known:
+            raise KeyError(f"the model has no parameter {name!r} (it has: {', '.join(known)})")
+        return known[name]
+
+    @property
+    def residuals(self) -> Table:
+        """What the model leaves of each reading: target (mm or °), direction, run, residual (µm or ″).
+
+        Readings that stand off from all others are set aside, and are missing here.
+        """
+        return self._by_reading("residual", self.fit.residual)
+
+    @property
+    def fitted(self) -> Table:
+        """What the model gives for each reading, as `residuals`."""
+        return self._by_reading("deviation", self.fit.fitted)
+
+    def _by_reading(self, name: str, values: FloatArray) -> Table:
+        design = self.fit.design
+        return Table(
+            target=design.axis.position_unit.from_si(design.position),
+            direction=np.where(design.direction > 0, "+", "-"),
+            run=design.run,
+            **{name: self._printed(values)},
+        )
+
+    @property
+    def covariance(self) -> FloatArray:
+        """Covariance of the estimated parameters, in their units, shape (p, p).
+
+        Rows and columns are the `parameters` that are not given and vary continuously, in their order.
+        """
+        known = self.fit.uncertainties
+        covariance = known.sigma**2 * known.inverse + known.systematic @ known.systematic.T
+        order, scale = zip(*self._columns(), strict=True) if len(covariance) else ((), ())
+        scales = np.array(scale)
+        return read_only_floats(covariance[np.ix_(order, order)] * scales[:, np.newaxis] * scales)
+
+    def _columns(self) -> list[tuple[int, float]]:
+        """Return for each estimated parameter its place in the fit's covariance, and its unit over SI."""
+        fit, design = self.fit, self.fit.design
+        solved = sum(int(np.count_nonzero(term.is_solved)) for term in fit.model.terms)
+        searched = {(place.term, place.column): solved + n for n, place in enumerate(fit.places)}
+        found, linear = [], 0
+        for number, term in enumerate(fit.model.terms):
+            places: list[int | None] = []
+            for is_solved in term.is_solved:
+                places.append(linear if is_solved else None)
+                linear += bool(is_solved)
+            places += [searched.get((number, column)) for column in range(len(term.effect.searched))]
+            for place, parameter in zip(places, (*term.effect.linear, *term.effect.searched), strict=True):
+                if place is not None:
+                    unit = unit_of(
+                        parameter.dimension, design.axis.kind, time_is_counted=design.time_is_counted
+                    )
+                    found.append((place, float(unit.per_si)))
+        return found
+
+    def at(self, positions: ArrayLike) -> Table:
+        """Return the deviation anywhere on the measured travel, with its expanded uncertainty.
+
+        At the mean time and the mean conditions of the test.
+
+        Parameters
+        ----------
+        positions
+            mm or degrees.
+
+        Returns
+        -------
+        Table
+            ``position``, ``up``, ``U_up``, ``down``, ``U_down``: µm or ″, of the directions measured.
+
+        Raises
+        ------
+        InputError
+            If a position lies outside of what was measured.
+        """
+        design = self.fit.design
+        unit = design.axis.position_unit
+        places = np.atleast_1d(np.asarray(unit.to_si(np.asarray(positions, dtype=np.float64))))
+        sentences = outside_of_measured(design.axis.name, unit, places, design.span)
+        if sentences:
+            raise InputError(Problem(Place("at"), sentence) for sentence in sentences)
+        table = Table(position=unit.from_si(places))
+        for approach in Approach:
+            if np.any(design.direction == approach):
+                found = self.fit.predict(at_positions(design, places, approach))
+                table[_SIDES[approach]] = self._printed(found.deviation)
+                table[f"U_{_SIDES[approach]}"] = self._printed(found.expanded_uncertainty)
+        return table
+
+    def diagnose(self) -> Diagnosis:
+        """Say whether the model describes the readings, and which installed effects it may lack."""
+        try:
+            found = diagnose(self._model, self._observed, registry().effects, self._assumptions)
+        except ModelError as error:
+            raise _refused(error) from error
+        return Diagnosis(report(found), verdict_statement(found).in_language(Language.ENGLISH))
+
+    def add(self, effect: str | Mapping[str, Any] | Candidate) -> Model:
+        """Return the model with an effect more, fitted anew; what the effect contains goes out.
+
+        Parameters
+        ----------
+        effect
+            Its name, ``{"polynomial": {"order": 5}}`` as in a job, or a candidate of a diagnosis.
+        """
+        if isinstance(effect, Candidate):
+            effect = {effect.effect: effect.settings}
+        (choice,) = _chosen([effect])
+        replaced = {choice.identifier, *registry().effect(choice.identifier).contains}
+        kept = [each for each in self._choices if each.identifier not in replaced]
+        return _fitted(self.data, [*kept, choice], self._assumptions)
+
+    def remove(self, *effects: str) -> Model:
+        """Return the model without some effects, fitted anew."""
+        unknown = [each for each in effects if each not in self.effects]
+        if unknown:
+            known = ", ".join(self.effects)
+            raise KeyError(f"the model has no effect {unknown[0]!r} (it has: {known})")
+        kept = [each for each in self._choices if each.identifier not in effects]
+        return _fitted(self.data, kept, self._assumptions)
+
+    def plot(self, ax: Axes | None = None) -> Axes | list[Axes]:
+        """Draw the estimate with its uncertainty over the travel on axes of matplotlib; return the axes."""
+        from zlmreport.figures.model_diagram import ModelDiagram, estimate  # noqa: PLC0415 - drawn on demand
+
+        return drawn(estimate(ModelDiagram(self.fit, self._error)), ax)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return effects, parameters and error as the results file has them."""
+        error = report_error(self._error, self.fit.design.axis)
+        return {**report_model(self.fit), "error": error}
+
+    def _printed(self, value: Any) -> Any:
+        return self.data.measurements.axis.deviation_unit.from_si(value)
+
+    def __repr__(self) -> str:
+        """Return the effects and the error."""
+        return f"<Model of {', '.join(self.effects) or 'no effect'}: rms {self.rms:.4g} {self.data.unit}>"
+
+    def _repr_html_(self) -> str:
+        head = ("Effect", "Parameter", "Value", "U", "Unit")
+        rows = [(e.effect, e.name, e.value, e.expanded_uncertainty, e.unit) for e in self.parameters]
+        return as_html(head, rows, f"Error {self.rms:.4g} {self.data.unit}")
+
+
+def fit(
+    data: Readings, effects: Sequence[str | Mapping[str, Any]], *, instrument_uncertainty: float = 0.0
+) -> Model:
+    """Fit an error model to readings.
+
+    Parameters
+    ----------
+    data
+        The readings.
+    effects
+        Names of installed effects, or ``{name: {parameter: value}}`` as in a job.
+    instrument_uncertainty
+        Expanded uncertainty of the instrument (k = 2), µm or ″.
+
+    Raises
+    ------
+    InputError
+        If there is no such effect, or the effects make no sense on these readings.
+
+    Examples
+    --------
+    >>> import zlmreport as z
+    >>> data = z.simulate(
+    ...     axis={"name": "X", "travel": [0, 1000]}, targets={"count": 21}, noise={"reading": 0.3},
+    ...     effects=[{"backlash": {"lost_motion": 4}}], seed=1,
+    ... )
+    >>> model = z.fit(data, ["offset", "backlash"])
+    >>> round(model["backlash.lost_motion"].value)
+    4
+    """
+    common = data.measurements.axis.deviation_unit.to_si(instrument_uncertainty) / _COVERAGE_FACTOR
+    return _fitted(data, _chosen(effects), Assumptions(instrument=InstrumentError(common=common)))
+
+
+def _fitted(data: Readings, choices: Sequence[EffectChoice], assumptions: Assumptions) -> Model:
+    model = Model(data, choices, assumptions)
+    try:
+        _ = model.fit  # what cannot be fitted fails here, and not when it is looked at
+    except ModelError as error:
+        raise _refused(error) from error
+    return model
+
+
+def _chosen(effects: Sequence[str | Mapping[str, Any]]) -> tuple[EffectChoice, ...]:
+    listed = tree_of({"effects": list(effects)}, _NAME).entries["effects"].value
+    problems: list[Problem] = []
+    choices = effect_choices(listed, registry(), problems, within="effects")
+    if problems:
+        raise InputError(Problem(Place(_NAME), each.message) for each in problems)
+    return choices
+
+
+def _refused(error: ModelError) -> InputError:
+    return InputError(Problem(Place(_NAME), sentence) for sentence in error.sentences)

@@ -1,0 +1,339 @@
+"""Readings of an axis for notebooks: read from files and frames, given as arrays, or simulated."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cache, cached_property
+from pathlib import Path
+from typing import Any, TypeVar
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from pydantic import BaseModel
+
+from zlmreport.errors import InputError, Place, Problem, did_you_mean
+from zlmreport.job.loading import axis_in_si, load
+from zlmreport.job.measurement_keys import AxisKeys
+from zlmreport.job.parse import parse
+from zlmreport.job.simulation import load_simulation
+from zlmreport.job.tree import Keys
+from zlmreport.job.validate import validate
+from zlmreport.measurement.approach import Approach
+from zlmreport.measurement.axis import Axis
+from zlmreport.measurement.collect import Reading, collect
+from zlmreport.measurement.measurement_set import CONDITIONS, MeasurementSet
+from zlmreport.measurement.provenance import Provenance
+from zlmreport.notebook.table import Table, columns_of
+from zlmreport.plugin.protocols import SourceContext
+from zlmreport.plugins import Registry, find_plugins
+from zlmreport.quantities.arrays import FloatArray, read_only_floats
+from zlmreport.simulation.files import description_of
+from zlmreport.simulation.simulate import simulate as simulate_test
+
+_DIRECTIONS = {
+    **dict.fromkeys(("+", "1", "+1", "1.0", "up", "forward", "↑"), Approach.POSITIVE),
+    **dict.fromkeys(("-", "−", "-1", "-1.0", "down", "reverse", "backward", "↓"), Approach.NEGATIVE),
+}
+_JOBS = frozenset({".yaml", ".yml"})
+_NEEDED = ("target", "direction")
+
+Model = TypeVar("Model", bound=BaseModel)
+
+
+@cache
+def registry() -> Registry:
+    """Return the installed plugins; they are looked up once."""
+    return find_plugins()
+
+
+def tree_of(values: Mapping[str, Any], name: str) -> Keys:
+    """Return keys given in Python as those of a file: so they are checked, and complained of, alike."""
+    return parse(json.dumps(values, default=_plain).encode(), name)
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, np.ndarray | np.generic):
+        return value.tolist()
+    if isinstance(value, Path):
+        return str(value)
+    raise TypeError(f"{value!r} is nothing that a key can have")
+
+
+def checked(model: type[Model], values: Mapping[str, Any], name: str) -> Model:
+    """Return keys given in Python as their model.
+
+    Raises
+    ------
+    InputError
+        With all that is wrong with them.
+    """
+    problems: list[Problem] = []
+    found = validate(model, tree_of(values, name), problems)
+    if problems or found is None:
+        raise InputError(Problem(Place(name), each.message) for each in problems)
+    return found
+
+
+@dataclass(frozen=True, eq=False)
+class Readings:
+    """The readings of one test of one axis, in the order in which they were taken.
+
+    Attributes
+    ----------
+    measurements
+        The same in SI, for those who go further down; no part of the stable interface.
+    """
+
+    measurements: MeasurementSet
+
+    @property
+    def unit(self) -> str:
+        """Of the deviations: ``um``, on a rotary axis ``arcsec``."""
+        return self.measurements.axis.deviation_unit.ascii
+
+    @cached_property
+    def targets(self) -> FloatArray:
+        """Target positions, rising, shape (targets,), mm or degrees."""
+        return read_only_floats(
+            self.measurements.axis.position_unit.from_si(self.measurements.target_positions)
+        )
+
+    @cached_property
+    def grid(self) -> FloatArray:
+        """Deviations as standards take them, shape (approach, target, run), m or rad; NaN where missing."""
+        return read_only_floats(self.measurements.deviations())
+
+    @property
+    def up(self) -> FloatArray:
+        """Deviations of the positive approach, shape (runs, targets), µm or ″; NaN where missing."""
+        return self._of(Approach.POSITIVE)
+
+    @property
+    def down(self) -> FloatArray:
+        """Deviations of the negative approach, shape (runs, targets), µm or ″; NaN where missing."""
+        return self._of(Approach.NEGATIVE)
+
+    def _of(self, approach: Approach) -> FloatArray:
+        return read_only_floats(self.measurements.axis.deviation_unit.from_si(self.grid[approach.index].T))
+
+    def to_frame(self) -> Table:
+        """Return a row for each reading: target, direction, run, deviation, time in s, conditions."""
+        found = self.measurements
+        table = Table(
+            target=self.targets[found.target],
+            direction=np.where(found.approach > 0, "+", "-"),
+            run=found.run,
+            deviation=found.axis.deviation_unit.from_si(found.deviation),
+        )
+        if found.time is not None:
+            table["time"] = found.time
+        for name, log in found.conditions.items():
+            kind = CONDITIONS.get(name)
+            table[name] = (log - kind.unit.zero) / kind.unit.si if kind else log
+        return table
+
+    def __repr__(self) -> str:
+        """Return the axis and how many readings there are."""
+        targets, runs = len(self.targets), len(self.measurements.runs)
+        missing = len(self.measurements.missing())
+        left_out = f", {missing} missing" if missing else ""
+        return f"<Readings of axis {self.measurements.axis.name}: {targets} targets, {runs} runs{left_out}>"
+
+    def _repr_html_(self) -> str:
+        return self.to_frame()._repr_html_()
+
+
+def read(source: Any, *, plugin: str = "", axis: str | Mapping[str, Any] = "X", **keys: Any) -> Readings:
+    """Read the measurements of an axis.
+
+    Parameters
+    ----------
+    source
+        A file of measurements (``x.csv``, ``x.rtl``); a job (``job.yaml``), whose readings are then corrected
+        as it says; or columns by name: a frame of pandas or polars, a mapping of arrays, with the columns of
+        a measurement file (``target`` mm, ``direction``, ``run``, ``deviation`` µm or ``position`` mm,
+        ``time`` s, conditions).
+    plugin
+        The data source that reads the file, if its suffix does not tell: ``laser-csv``.
+    axis
+        Its name, or its keys as in a job: ``{"name": "C", "kind": "rotary"}``.
+    **keys
+        Further keys of the data source as in a job: ``layout="wide"``.
+
+    Raises
+    ------
+    InputError
+        With every defect of the data and its place.
+    AccessError
+        If a file cannot be read.
+    """
+    columns = columns_of(source)
+    if columns is not None:
+        return Readings(_of_columns(columns, axis_of(axis)))
+    path = Path(source)
+    if path.suffix.casefold() in _JOBS and not plugin:
+        from zlmreport import pipeline  # noqa: PLC0415 - it brings all that a certificate needs
+
+        return Readings(pipeline.read(load(path, registry()), registry()))
+    name = "read"
+    reader = registry().source(plugin, Place(name)) if plugin else _reader_of(path)
+    options = checked(reader.options, {"file": str(path), **keys}, name)
+    return Readings(reader.read(options, SourceContext(axis_of(axis), Place(name))))
+
+
+def axis_of(axis: str | Mapping[str, Any]) -> Axis:
+    """Return an axis by its name, or by its keys as in a job."""
+    return axis_in_si(checked(AxisKeys, {"name": axis} if isinstance(axis, str) else axis, "axis"))
+
+
+def _reader_of(path: Path) -> Any:
+    """Return the data source for files of a suffix."""
+    suffix = path.suffix.casefold()
+    by_suffix = {each: source for source in registry().sources for each in getattr(source, "suffixes", ())}
+    if suffix in by_suffix:
+        return by_suffix[suffix]
+    known = [source.identifier for source in registry().sources]
+    raise InputError.at(
+        Place(str(path)),
+        f"its suffix does not tell who reads it; name the data source: plugin='{known[0]}' "
+        f"({did_you_mean(suffix, [*known, *by_suffix])})",
+    )
+
+
+def _of_columns(columns: Mapping[str, NDArray[Any]], axis: Axis) -> MeasurementSet:
+    place = Place("columns")
+    value = next((name for name in ("deviation", "position") if name in columns), "")
+    missing = [name for name in _NEEDED if name not in columns]
+    if missing or not value:
+        wanted = ", ".join([*missing, *([] if value else ["deviation or position"])])
+        raise InputError.at(place, f"there is no column {wanted} (there are: {', '.join(columns)})")
+    problems: list[Problem] = []
+    readings = list(_rows(columns, value, axis, problems))
+    return collect(readings, axis, Provenance("columns"), place=place, problems=problems)
+
+
+def _rows(
+    columns: Mapping[str, NDArray[Any]], value: str, axis: Axis, problems: list[Problem]
+) -> Iterator[Reading]:
+    position, deviation = axis.position_unit, axis.deviation_unit
+    target = position.to_si(np.asarray(columns["target"], dtype=np.float64))
+    found = np.asarray(columns[value], dtype=np.float64)
+    found = deviation.to_si(found) if value == "deviation" else position.to_si(found) - target
+    runs = np.asarray(columns.get("run", np.ones(len(target))), dtype=np.float64)
+    seconds = _seconds(columns["time"]) if "time" in columns else np.full(len(target), np.nan)
+    known = {*_NEEDED, "run", "time", value}
+    logs = {name: _log(name, log) for name, log in columns.items() if name not in known}
+    for row, spelt in enumerate(columns["direction"].tolist()):
+        place = Place("columns", row + 1)
+        approach = _DIRECTIONS.get(str(spelt).strip().casefold())
+        if approach is None:
+            problems.append(Problem(place, f"{str(spelt)[:40]!r} is no direction; write '+' or '-'"))
+            continue
+        conditions = {name: float(log[row]) for name, log in logs.items()}
+        yield Reading(
+            place,
+            float(target[row]),
+            approach,
+            float(runs[row]),
+            float(found[row]),
+            float(seconds[row]),
+            conditions,
+        )
+
+
+def _seconds(times: NDArray[Any]) -> FloatArray:
+    if times.dtype.kind == "M":
+        return np.asarray((times - times.min()) / np.timedelta64(1, "s"), dtype=np.float64)
+    return np.asarray(times, dtype=np.float64)
+
+
+def _log(name: str, values: NDArray[Any]) -> FloatArray:
+    log = np.asarray(values, dtype=np.float64)
+    return log * CONDITIONS[name].unit.si + CONDITIONS[name].unit.zero if name in CONDITIONS else log
+
+
+def of_arrays(
+    targets: ArrayLike, up: ArrayLike, down: ArrayLike | None = None, *, axis: str | Mapping[str, Any] = "X"
+) -> Readings:
+    """Return readings that are given as arrays, taken run by run: upwards, then downwards.
+
+    Parameters
+    ----------
+    targets : (targets,) array
+        Target positions, mm or degrees.
+    up, down : (runs, targets) arrays
+        Deviations of the positive and of the negative approach, µm or ″; NaN for a missing reading. A
+        single run may be of shape (targets,); without `down` the test is unidirectional.
+    axis
+        Its name, or its keys as in a job.
+
+    Raises
+    ------
+    InputError
+        If the arrays do not fit together, or hold what no reading can be.
+    """
+    place = Place("test")
+    of = axis_of(axis)
+    positions = np.asarray(targets, dtype=np.float64)
+    found = {Approach.POSITIVE: up, Approach.NEGATIVE: down}
+    grids = {
+        approach: np.atleast_2d(np.asarray(values, dtype=np.float64))
+        for approach, values in found.items()
+        if values is not None
+    }
+    for approach, grid in grids.items():
+        if grid.ndim != 2 or grid.shape[1:] != positions.shape:
+            name = "up" if approach > 0 else "down"
+            raise InputError.at(
+                place,
+                f"{name} has the shape {grid.shape}; (runs, {len(positions)}) is expected, a "
+                "row for each run, a column for each target",
+            )
+    order = np.argsort(positions, kind="stable")
+    readings = [
+        Reading(
+            Place("test", run + 1),
+            float(of.position_unit.to_si(positions[index])),
+            approach,
+            run + 1,
+            float(of.deviation_unit.to_si(grid[run, index])),
+        )
+        for run in range(max(map(len, grids.values())))
+        for approach, grid in grids.items()
+        if run < len(grid)
+        for index in order[:: int(approach)]
+    ]
+    return Readings(collect(readings, of, Provenance("arrays"), place=place))
+
+
+def simulate(specification: str | Path | Mapping[str, Any] | None = None, **keys: Any) -> Readings:
+    """Return readings of an axis that is not there.
+
+    Parameters
+    ----------
+    specification
+        A simulation file (``spec.yaml``), or its keys.
+    **keys
+        The same, or keys that stand instead of the file's: ``seed=2``.
+
+    Raises
+    ------
+    InputError
+        With all that is wrong with the keys.
+    AccessError
+        If the file cannot be read.
+    """
+    name, content = "simulate", None
+    if isinstance(specification, str | Path):
+        name = str(specification)
+        if keys:
+            beside = Path(name).with_name("simulate")
+            content = json.dumps({"extends": Path(name).name, **keys}, default=_plain).encode()
+            name = str(beside)
+    else:
+        given = {"schema": "zlmreport/simulation/1", "seed": 1, **(specification or {}), **keys}
+        content = json.dumps(given, default=_plain).encode()
+    file = load_simulation(Path(name), registry(), content)
+    return Readings(simulate_test(description_of(file, registry().effect)).measurements)

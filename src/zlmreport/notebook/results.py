@@ -1,0 +1,299 @@
+"""Readings evaluated by a standard, for notebooks."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cache, cached_property
+from typing import TYPE_CHECKING, Any, Self
+
+import numpy as np
+
+from zlmreport.errors import InputError, Place, Problem
+from zlmreport.evaluation.decision import decided, decision_rule
+from zlmreport.evaluation.evaluate import evaluate as evaluate_by
+from zlmreport.evaluation.evaluation import Arithmetic, Evaluation, Parameter
+from zlmreport.evaluation.report import position_columns, report_evaluation
+from zlmreport.evaluation.statistics import position_statistics
+from zlmreport.figures.figure import Figure
+from zlmreport.job.evaluation_keys import DecisionRuleKeys, StandardKeys
+from zlmreport.job.loading import standard_choices
+from zlmreport.language import Language
+from zlmreport.notebook.readings import Readings, checked, registry, tree_of
+from zlmreport.notebook.table import Table, as_html
+from zlmreport.plugin.protocols import Standard
+from zlmreport.quantities.arrays import read_only_floats
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+_NAME = "evaluate"
+
+
+@dataclass(frozen=True, slots=True)
+class Value:
+    """A parameter of the axis.
+
+    Attributes
+    ----------
+    symbol, name
+        As the results file and the standard call it: ``A``, ``E_fwd``.
+    value
+        µm or ″, unrounded.
+    unit
+        ``um`` or ``arcsec``.
+    expanded_uncertainty, coverage_factor
+        U = k·u and k; None where no budget was evaluated, as it is for a job.
+    limit
+        The tolerance that was given; None without one.
+    statement
+        What the decision rule says: ``pass``, ``fail`` and so on; None without a limit.
+    conforms
+        Whether the limit counts as kept; None without one, or where nothing is decided.
+    """
+
+    symbol: str
+    name: str
+    value: float
+    unit: str
+    expanded_uncertainty: float | None = None
+    coverage_factor: float | None = None
+    limit: float | None = None
+    statement: str | None = None
+    conforms: bool | None = None
+
+    def __float__(self) -> float:
+        """Return the value, µm or ″."""
+        return self.value
+
+
+class Result:
+    """A test evaluated by a standard: ``result["A"].value``, ``result.positions``, ``result.plot()``."""
+
+    def __init__(
+        self, data: Readings, standard: Standard, options: Any, limits: Mapping[str, float], rule: str
+    ) -> None:
+        self.data = data
+        self._standard = standard
+        self._options = options
+        self._limits = limits
+        self._rule = rule
+
+    @classmethod
+    def of(cls, evaluation: Evaluation, standard: Standard, options: Any) -> Self:
+        """Return an evaluation that was made already, with its uncertainties and decisions."""
+        result = cls(Readings(evaluation.measurements), standard, options, {}, "simple")
+        result.__dict__["evaluation"] = evaluation
+        return result
+
+    @cached_property
+    def evaluation(self) -> Evaluation:
+        """The same in SI, with findings, for those who go further down; no part of the stable interface."""
+        bare = evaluate_by(self._standard, self.data.measurements, self._options, self._limits)
+        return decided(bare, decision_rule(self._rule))
+
+    @cached_property
+    def arithmetic(self) -> Arithmetic:
+        """What the formulas of the standard give, in SI; no part of the stable interface."""
+        return self._standard.arithmetic(position_statistics(self.data.grid), self._options)
+
+    @property
+    def standard(self) -> str:
+        """Identifier of the standard, edition included."""
+        return self._standard.identifier
+
+    def __getitem__(self, symbol: str) -> Value:
+        """Return a parameter by its symbol.
+
+        Raises
+        ------
+        KeyError
+            If the standard has no such parameter, or this test does not define it; with those there are.
+        """
+        for each in self.parameters:
+            if each.symbol == symbol:
+                return each
+        known = ", ".join(each.symbol for each in self.parameters)
+        raise KeyError(f"{self.standard} gives no {symbol!r} for this test (it gives: {known})")
+
+    def __iter__(self) -> Iterator[Value]:
+        """Yield the parameters in the order of the standard."""
+        return iter(self.parameters)
+
+    @cached_property
+    def parameters(self) -> tuple[Value, ...]:
+        """The parameters that this test defines, in the order of the standard."""
+        if self._limits or "evaluation" in self.__dict__:
+            return tuple(map(self._value, self.evaluation.parameters))
+        found = self.arithmetic.parameters
+        parameters = (Parameter(each, float(found[each.symbol])) for each in self._standard.quantities)
+        return tuple(self._value(each) for each in parameters if each.value == each.value)
+
+    def _value(self, parameter: Parameter) -> Value:
+        unit = self.data.measurements.axis.deviation_unit
+        expanded, limit, decision = parameter.expanded_uncertainty, parameter.limit, parameter.decision
+        return Value(
+            parameter.quantity.symbol,
+            parameter.quantity.name.in_language(Language.ENGLISH),
+            unit.from_si(parameter.value),
+            unit.ascii,
+            None if expanded is None else unit.from_si(expanded),
+            parameter.coverage_factor,
+            None if limit is None else unit.from_si(limit),
+            None if decision is None else decision.conformity.value,
+            parameter.conforms,
+        )
+
+    @cached_property
+    def positions(self) -> Table:
+        """A row for each target position: ``target`` (mm or °), ``mean_fwd``, ``reversal`` … (µm or ″).
+
+        Columns of the results file; NaN where the test does not define a value.
+        """
+        unit = self.data.measurements.axis.deviation_unit
+        columns = {
+            symbol: read_only_floats(unit.from_si(values))
+            for symbol, values in position_columns(self.evaluation).items()
+            if not np.all(np.isnan(values))
+        }
+        return Table(target=self.data.targets, **columns)
+
+    def to_frame(self) -> Table:
+        """Return the table by position; ``pandas.DataFrame(result.to_frame())`` makes a frame of it."""
+        return self.positions
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the evaluation as the results file has it, with its findings."""
+        return report_evaluation(self.evaluation)
+
+    @property
+    def findings(self) -> tuple[str, ...]:
+        """What the standard asks of a test and this test does not meet, in sentences."""
+        return tuple(
+            f"{each.requirement.in_language(Language.ENGLISH)}: {each.found.in_language(Language.ENGLISH)}"
+            for each in self.evaluation.findings
+            if each.met is False
+        )
+
+    @property
+    def graphs(self) -> tuple[str, ...]:
+        """The keys of the graphs that the standard prescribes, the first of which `plot` draws."""
+        return tuple(each.key for each in self._figures)
+
+    @cached_property
+    def _figures(self) -> tuple[Figure, ...]:
+        return tuple(self._standard.figures(self.evaluation, self._options))
+
+    def plot(self, ax: Axes | None = None, graph: str = "") -> Axes | list[Axes]:
+        """Draw a prescribed graph on axes of matplotlib; return the axes, a list of them for several panels.
+
+        Parameters
+        ----------
+        ax
+            Axes to draw on; a figure of its own is made without them.
+        graph
+            One of `graphs`; the first without it.
+        """
+        known = {figure.key: figure for figure in self._figures}
+        if graph and graph not in known:
+            raise KeyError(f"{self.standard} has no graph {graph!r} (it has: {', '.join(known)})")
+        return drawn(known[graph] if graph else self._figures[0], ax)
+
+    def __repr__(self) -> str:
+        """Return the parameters in one line."""
+        values = ", ".join(f"{each.symbol} = {each.value:.4g} {each.unit}" for each in self.parameters)
+        return f"<{self.standard}: {values}>"
+
+    def _repr_html_(self) -> str:
+        columns: dict[str, list[Any]] = {
+            "Parameter": [each.name for each in self],
+            "Symbol": [each.symbol for each in self],
+            "Value": [each.value for each in self],
+            "Unit": [each.unit for each in self],
+            "U": [each.expanded_uncertainty for each in self],
+            "Limit": [each.limit for each in self],
+            "Statement": [each.statement for each in self],
+        }
+        told = {name: column for name, column in columns.items() if any(cell is not None for cell in column)}
+        return as_html(tuple(told), zip(*told.values(), strict=True), self._standard.designation)
+
+
+def evaluate(
+    data: Readings,
+    standard: str,
+    *,
+    tolerances: Mapping[str, float] | None = None,
+    decision_rule: str = "simple",
+    **keys: Any,
+) -> Result:
+    """Evaluate readings by a standard.
+
+    Parameters
+    ----------
+    data
+        The readings.
+    standard
+        Identifier of an installed standard, edition included: ``iso230-2:2014``.
+    tolerances
+        Limits by the symbols of the results file, µm or ″.
+    decision_rule
+        ``simple``, ``guard-band`` …; without the uncertainty budget of a job only the first decides.
+    **keys
+        The standard's own keys as in a job.
+
+    Raises
+    ------
+    InputError
+        If no plugin provides the standard, or it has no such keys or parameters.
+
+    Examples
+    --------
+    >>> import zlmreport as z
+    >>> up, down = [[0, 1.2, 2.1], [0.1, 1.0, 2.3]], [[-1, 0.4, 1.0], [-1.1, 0.2, 0.9]]
+    >>> data = z.test([0, 50, 100], up, down)
+    >>> result = z.evaluate(data, "iso230-2:2014", tolerances={"A": 8})
+    >>> round(result["B"].value, 3), result["A"].conforms
+    (1.25, True)
+    """
+    limits = {} if tolerances is None else {symbol: float(limit) for symbol, limit in tolerances.items()}
+    chosen, options = _standard(standard, tuple(limits.items()), tuple(sorted(keys.items(), key=str)))
+    to_si = data.measurements.axis.deviation_unit.to_si
+    if decision_rule != "simple":
+        checked(DecisionRuleKeys, {"rule": decision_rule}, _NAME)
+    result = Result(
+        data, chosen, options, {symbol: to_si(limit) for symbol, limit in limits.items()}, decision_rule
+    )
+    _ = result.arithmetic  # what cannot be evaluated fails here, and not when it is looked at
+    return result
+
+
+def _standard(
+    identifier: str, limits: tuple[tuple[str, float], ...], keys: tuple[tuple[str, Any], ...]
+) -> tuple[Standard, Any]:
+    try:
+        return _known_standard(identifier, limits, keys)
+    except TypeError:  # a key whose value has no hash
+        return _known_standard.__wrapped__(identifier, limits, keys)
+
+
+@cache
+def _known_standard(
+    identifier: str, limits: tuple[tuple[str, float], ...], keys: tuple[tuple[str, Any], ...]
+) -> tuple[Standard, Any]:
+    """Return a standard with its keys checked; asked for again, the same."""
+    asked = {"standard": identifier, "tolerances": dict(limits), **dict(keys)}
+    checked(StandardKeys, asked, _NAME)
+    problems: list[Problem] = []
+    found = list(standard_choices(tree_of({"evaluate": [asked]}, _NAME), registry(), problems))
+    if problems:
+        raise InputError(Problem(Place(_NAME), each.message) for each in problems)
+    return registry().standard(identifier), found[0].options
+
+
+def drawn(figure: Figure, ax: Axes | None) -> Axes | list[Axes]:
+    """Return axes with a figure on them: those given, or axes of a new figure of matplotlib."""
+    from zlmreport.figures import on_axes  # noqa: PLC0415 - it brings matplotlib
+
+    axes = on_axes.new_axes(figure) if ax is None else [ax]
+    on_axes.put(figure, axes)
+    return axes if len(axes) > 1 else axes[0]

@@ -1,0 +1,282 @@
+"""What ``import zlmreport as z`` offers: users' units, checks as of a job, the numbers of a certificate."""
+
+from __future__ import annotations
+
+import doctest
+import json
+import subprocess
+import sys
+from importlib import import_module
+from pathlib import Path
+
+import matplotlib as mpl
+import numpy as np
+import pandas as pd
+import polars as pl
+import pytest
+
+import zlmreport as z
+from environments import ROOT
+
+JOB = ROOT / "configs" / "linear-axis" / "certificate.yaml"
+TARGETS = [0.0, 100.0, 250.0]
+UP = [[0.0, 1.2, 2.1], [0.1, 1.0, 2.3]]
+DOWN = [[-1.0, 0.4, 1.0], [-1.1, 0.2, 0.9]]
+
+
+def data() -> z.Readings:
+    return z.test(TARGETS, UP, DOWN)
+
+
+def simulated(**keys: object) -> z.Readings:
+    return z.simulate(
+        axis={"name": "X", "travel": [0, 1000]},
+        targets={"count": 21},
+        noise={"reading": 0.3},
+        effects=[{"backlash": {"lost_motion": 4}}],
+        **keys,
+    )
+
+
+def test_every_name_of_the_face_is_there() -> None:
+    assert [name for name in z.__all__ if not hasattr(z, name)] == []
+
+
+def test_the_face_loads_nothing_before_it_is_used() -> None:
+    program = "import sys, zlmreport; print(*sorted(m for m in sys.modules if m.startswith('zlmreport')))"
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    assert done.stdout.split() == ["zlmreport", "zlmreport.version"]
+
+
+@pytest.mark.parametrize("first", ["zlmreport.certificate.document", "zlmreport.notebook.documents"])
+def test_the_function_certificate_is_there_beside_the_room_of_its_name(first: str) -> None:
+    import_module(first)
+    assert z.certificate(JOB).number == "EXAMPLE-2026-0001"
+
+
+@pytest.mark.parametrize("module", ["results", "models"])
+def test_the_examples_in_the_documentation_are_true(module: str) -> None:
+    assert doctest.testmod(import_module(f"zlmreport.notebook.{module}")).failed == 0
+
+
+def test_arrays_come_back_as_they_were_given() -> None:
+    assert data().targets.tolist() == TARGETS
+    np.testing.assert_allclose(data().up, UP, atol=1e-12)
+    np.testing.assert_allclose(data().down, DOWN, atol=1e-12)
+
+
+def test_targets_may_come_in_any_order() -> None:
+    turned = z.test(TARGETS[::-1], np.array(UP)[:, ::-1], np.array(DOWN)[:, ::-1])
+    np.testing.assert_allclose(turned.up, UP, atol=1e-12)
+
+
+def test_a_reading_that_is_not_a_number_is_missing() -> None:
+    found = z.test(TARGETS, [[0.0, np.nan, 2.0], [0.0, 1.0, 2.0]], DOWN)
+    assert np.isnan(found.up[0, 1])
+    assert "1 missing" in repr(found)
+
+
+def test_arrays_that_do_not_fit_together_are_refused_with_the_shape_that_would() -> None:
+    with pytest.raises(z.InputError, match=r"up has the shape \(1, 2\); \(runs, 3\) is expected"):
+        z.test(TARGETS, [[0.0, 1.0]])
+
+
+def test_a_rotary_axis_is_read_in_degrees_and_arc_seconds() -> None:
+    found = z.test([0, 90, 180], UP, axis={"name": "C", "kind": "rotary"})
+    assert found.unit == "arcsec"
+    assert found.targets.tolist() == pytest.approx([0, 90, 180])
+
+
+def test_a_job_gives_the_numbers_of_its_certificate(tmp_path: Path) -> None:
+    path = z.certificate(JOB).save(tmp_path / "x.json")
+    stated = json.loads(path.read_bytes())["evaluations"][0]["parameters"]
+    result = z.evaluate(z.read(JOB), "iso230-2:2014")
+    assert {each.symbol: each.value for each in result} == {each["symbol"]: each["value"] for each in stated}
+
+
+def test_a_result_that_is_looked_at_in_two_ways_is_one() -> None:
+    bare, limited = (z.evaluate(data(), "iso230-2:2014", tolerances=each) for each in (None, {"A": 9}))
+    assert [each.value for each in bare] == [each.value for each in limited]
+    assert bare.to_dict()["parameters"][0]["value"] == bare["A"].value
+
+
+@pytest.mark.parametrize(("limit", "conforms"), [(9, True), (1, False)])
+def test_a_limit_is_decided(limit: float, *, conforms: bool) -> None:
+    assert z.evaluate(data(), "iso230-2:2014", tolerances={"A": limit})["A"].conforms is conforms
+
+
+def test_a_parameter_that_the_test_does_not_define_is_answered_with_those_it_does() -> None:
+    result = z.evaluate(z.test(TARGETS, UP), "iso230-2:2014")
+    with pytest.raises(KeyError, match="gives no 'B' for this test"):
+        result["B"]
+
+
+@pytest.mark.parametrize(
+    ("keys", "message"),
+    [
+        ({"standard": "iso230-2:2O14"}, "did you mean 'iso230-2:2014'"),
+        ({"standard": "nmtba", "tolerances": {"Q": 1}}, "'Q' is no parameter of nmtba"),
+        ({"standard": "nmtba", "tolerances": {"P": -1}}, "is not a number greater than 0"),
+        ({"standard": "nmtba", "decision_rule": "hope"}, "'hope' is unknown"),
+        ({"standard": "nmtba", "toleranzen": 1}, "unknown key 'toleranzen'"),
+    ],
+)
+def test_what_is_asked_is_checked_as_in_a_job(keys: dict[str, object], message: str) -> None:
+    with pytest.raises(z.InputError, match=message):
+        z.evaluate(data(), **keys)
+
+
+@pytest.mark.parametrize("frame", [pd.DataFrame, pl.DataFrame, dict], ids=["pandas", "polars", "dict"])
+def test_a_frame_goes_out_and_comes_in(frame: type) -> None:
+    found = z.read(frame(z.read(JOB).to_frame()), axis="Y")
+    again, stated = (z.evaluate(each, "nmtba") for each in (found, z.read(JOB)))
+    assert [each.value for each in again] == pytest.approx([each.value for each in stated])
+
+
+def test_positions_of_a_frame_are_actual_positions() -> None:
+    found = z.read({"target": [0, 1], "direction": [1, 1], "position": [0.001, 1.0]})
+    np.testing.assert_allclose(found.up, [[1.0, 0.0]], atol=1e-9)
+
+
+def test_conditions_of_a_frame_are_kept_in_their_units() -> None:
+    readings = {"target": [0, 1], "direction": ["up", "up"], "deviation": [0, 1]}
+    found = z.read({**readings, "air_temperature": [21, 22]})
+    assert found.to_frame()["air_temperature"].tolist() == pytest.approx([21, 22])
+    assert found.measurements.conditions["air_temperature"][0] == pytest.approx(294.15)
+
+
+@pytest.mark.parametrize(
+    ("columns", "message"),
+    [
+        ({"target": [0]}, "no column direction, deviation or position"),
+        ({"target": [0], "direction": ["x"], "deviation": [0]}, "columns:1:1: 'x' is no direction"),
+    ],
+)
+def test_a_frame_that_lacks_something_is_refused(columns: dict[str, list[object]], message: str) -> None:
+    with pytest.raises(z.InputError, match=message):
+        z.read(columns)
+
+
+def test_a_file_that_nobody_reads_by_its_suffix_needs_a_data_source() -> None:
+    with pytest.raises(z.InputError, match="name the data source"):
+        z.read("x.unknown")
+
+
+def test_a_file_of_measurements_is_read_by_its_suffix(tmp_path: Path) -> None:
+    path = tmp_path / "x.csv"
+    path.write_text("Soll,direction,deviation\n0,+,1\n5,+,2\n", encoding="utf-8")
+    assert z.read(path, columns={"target": "Soll"}).up.tolist() == [[1.0, 2.0]]
+
+
+def test_the_same_seed_gives_the_same_readings() -> None:
+    one, same, other = simulated(), simulated(seed=1), simulated(seed=2)
+    assert np.array_equal(one.up, same.up)
+    assert not np.array_equal(one.up, other.up)
+
+
+def test_keys_stand_instead_of_those_of_a_simulation_file(tmp_path: Path) -> None:
+    path = tmp_path / "spec.yaml"
+    path.write_text(
+        "schema: zlmreport/simulation/1\nseed: 1\naxis: {name: X, travel: [0, 10]}\ntargets: {count: 5}\n",
+        encoding="utf-8",
+    )
+    assert len(z.simulate(path).up) == 5
+    assert len(z.simulate(path, runs=2).up) == 2
+
+
+def test_a_model_says_its_numbers_in_users_units() -> None:
+    model = z.fit(simulated(), ["offset", "backlash"])
+    lost_motion = model["backlash.lost_motion"]
+    assert (lost_motion.value, lost_motion.unit) == (pytest.approx(4, abs=0.2), "um")
+    assert model.rms == pytest.approx(0.3, rel=0.2)
+    table = model.at([10, 500])
+    assert (table["up"] - table["down"]).tolist() == pytest.approx([lost_motion.value] * 2)
+
+
+def test_the_covariance_is_that_of_the_parameters() -> None:
+    model = z.fit(simulated(), ["offset", "backlash", {"scale-error": {"slope": 0}}])
+    estimated = [each for each in model.parameters if not each.given]
+    deviations = np.sqrt(np.diag(model.covariance))
+    expected = [each.expanded_uncertainty / each.coverage_factor for each in estimated]
+    assert deviations.tolist() == pytest.approx(expected)
+
+
+def test_residuals_are_readings_less_model() -> None:
+    found = simulated()
+    model = z.fit(found, ["offset", "backlash"])
+    together = model.residuals["residual"] + model.fitted["deviation"]
+    assert np.sort(together).tolist() == pytest.approx(np.sort(found.to_frame()["deviation"]).tolist())
+
+
+def test_what_is_missing_is_found_and_added() -> None:
+    model = z.fit(simulated(seed=2), ["offset"])
+    diagnosis = model.diagnose()
+    assert (diagnosis.verdict, diagnosis.candidates[0].effect) == ("missing", "backlash")
+    whole = model.add(diagnosis.candidates[0])
+    assert whole.diagnose().verdict == "adequate"
+    assert whole.remove("backlash").effects == model.effects
+
+
+def test_nothing_is_said_beyond_what_was_measured() -> None:
+    with pytest.raises(z.InputError, match="lies outside of what was measured"):
+        z.fit(simulated(), ["offset"]).at([2000])
+
+
+def test_an_unknown_effect_is_answered_with_the_nearest() -> None:
+    with pytest.raises(z.InputError, match="did you mean 'backlash'"):
+        z.fit(data(), ["backlsh"])
+
+
+def test_graphs_are_drawn_on_axes() -> None:
+    from matplotlib.figure import Figure
+
+    mpl.use("Agg")
+    ax = Figure().subplots()
+    result = z.evaluate(data(), "iso230-2:2014")
+    assert result.plot(ax) is ax
+    assert ax.get_xlabel() == "Target position in mm"
+    assert z.fit(simulated(), ["offset"]).plot().get_ylabel() == "Deviation in µm"
+
+
+def test_a_graph_that_there_is_not_is_answered_with_those_there_are() -> None:
+    with pytest.raises(KeyError, match="has no graph 'x'"):
+        z.evaluate(data(), "iso230-2:2014").plot(graph="x")
+
+
+def test_each_result_shows_itself_in_a_notebook() -> None:
+    model = z.fit(simulated(), ["offset"])
+    result = z.evaluate(data(), "nmtba", tolerances={"P": 9})
+    for each in (data(), result, model, model.diagnose(), model.residuals):
+        page = each._repr_html_()
+        assert page.startswith("<table>")
+        assert "nan" not in page
+
+
+def test_texts_in_a_table_are_no_markup() -> None:
+    table = z.Table(name=np.array(["<b>"]))
+    assert "&lt;b&gt;" in table._repr_html_()
+
+
+def test_a_folder_gets_all_formats_of_the_job(tmp_path: Path) -> None:
+    job = tmp_path / "job.yaml"
+    job.write_text(
+        "schema: zlmreport/job/1\ncertificate: {number: R-1, kind: report}\naxis: {name: X}\n"
+        "measurement: {source: {plugin: laser-csv, file: x.csv}}\nevaluate: [nmtba]\n"
+        "output: {formats: [json, html]}\n",
+        encoding="utf-8",
+    )
+    (tmp_path / "x.csv").write_text("target,direction,deviation\n0,+,1\n5,+,2\n", encoding="utf-8")
+    z.certificate(job).save(tmp_path / "out")
+    assert sorted(path.name for path in (tmp_path / "out").iterdir()) == ["R-1.html", "R-1.json"]
+
+
+def test_a_format_that_nobody_writes_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(z.InputError, match=r"no renderer writes \.docx files"):
+        z.certificate(JOB).save(tmp_path / "x.docx")
+
+
+def test_a_certificate_is_verified(tmp_path: Path) -> None:
+    found = z.verify(z.certificate(JOB).save(tmp_path / "x.pdf"))
+    assert found.holds
+    assert found.number == "EXAMPLE-2026-0001"
+    assert found.differences == ()
