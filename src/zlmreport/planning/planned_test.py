@@ -31,7 +31,7 @@ _ROUNDING = 1e-9
 #: Readings beyond the number of parameters that a diagnosis needs.
 _FEWEST_DEGREES = 6
 #: What is taken for granted of an axis where the job names no model.
-_USUAL_MODEL = ("offset", "scale-error", "backlash")
+USUAL_MODEL = ("offset", "scale-error", "backlash")
 
 
 @dataclass(frozen=True, slots=True)
@@ -158,5 +158,5 @@ def _model(job: Job, effects: Sequence[Effect]) -> AxisModel:
     by_identifier = {effect.identifier: effect for effect in effects}
     if job.effects:
         return AxisModel(chosen_terms(job.effects, by_identifier.__getitem__, job.axis.kind))
-    usual = [by_identifier[identifier] for identifier in _USUAL_MODEL if identifier in by_identifier]
+    usual = [by_identifier[identifier] for identifier in USUAL_MODEL if identifier in by_identifier]
     return AxisModel(tuple(Term(effect) for effect in usual))

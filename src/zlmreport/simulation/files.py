@@ -20,6 +20,7 @@ from zlmreport.model.axis_model import Term, chosen_terms
 from zlmreport.model.effect import Effect, unit_of
 from zlmreport.planning.methods import Method
 from zlmreport.planning.plan import Plan
+from zlmreport.planning.planned_test import USUAL_MODEL
 from zlmreport.planning.targets import target_generator, target_positions
 from zlmreport.quantities.arrays import FloatArray, read_only_floats
 from zlmreport.quantities.units import Scale, Unit
@@ -33,7 +34,6 @@ POSITION_DIGITS, _DEVIATION_DIGITS, _TIME_DIGITS = 4, 3, 1
 _CONDITION_DIGITS = 4
 #: More digits of mm or ° than anybody types, and fewer than a double rounds at.
 _MEANT_DIGITS = 9
-_USUAL_MODEL = ("offset", "scale-error", "backlash")
 _PLAIN = re.compile(r"[A-Za-z]([A-Za-z0-9._-]*[A-Za-z0-9])?")
 _DIRECTIONS = {Approach.POSITIVE: "+", Approach.NEGATIVE: "-"}
 
@@ -255,7 +255,7 @@ def _job_lines(
     file: SimulationFile, folder: Path, source: Mapping[str, Any], dwell: float | None = None
 ) -> Iterator[str]:
     keys = file.keys
-    effects = keys.model.effects if keys.model else _USUAL_MODEL
+    effects = keys.model.effects if keys.model else USUAL_MODEL
     axis = {
         key: os.path.relpath(value, folder) if isinstance(value, Path) else value
         for key, value in keys.axis.model_dump(exclude_defaults=True).items()
