@@ -20,10 +20,9 @@ from zlmreport.model.residuals import Failure, ResidualTest
 from zlmreport.model.study import Study
 from zlmreport.testing.designs import full_designs
 from zlmreport.web.app import Workbench
-from zlmreport.web.diagnosed import diagnosed
 from zlmreport.web.effect_page import sketch
 from zlmreport.web.texts import TEXTS, texts
-from zlmreport.web.view import view
+from zlmreport.web.view import diagnosed, view
 
 
 @pytest.fixture(scope="module")

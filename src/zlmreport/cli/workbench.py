@@ -17,8 +17,7 @@ _PLACE = Place("zlmreport workbench")
 def run(options: Namespace) -> int:
     """Serve the page of a job until the user ends it."""
     try:
-        from zlmreport.web.app import Workbench  # noqa: PLC0415 - an extra that need not be there
-        from zlmreport.web.serve import serve  # noqa: PLC0415
+        from zlmreport.web.app import Workbench, serve  # noqa: PLC0415 - an extra that need not be there
     except ModuleNotFoundError as error:
         package = (error.name or "").partition(".")[0]
         if package not in {"starlette", "uvicorn"}:

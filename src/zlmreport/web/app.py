@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import socket
+import webbrowser
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import uvicorn
 from pydantic import ValidationError
 from starlette.applications import Starlette
 from starlette.concurrency import run_in_threadpool
@@ -14,7 +17,7 @@ from starlette.requests import Request as HttpRequest
 from starlette.responses import FileResponse, HTMLResponse, JSONResponse, Response
 from starlette.routing import Route
 
-from zlmreport.errors import InputError, Place, ZlmreportError
+from zlmreport.errors import AccessError, InputError, Place, ZlmreportError
 from zlmreport.language import Language, Words
 from zlmreport.plugins import Registry
 from zlmreport.typesetting.contexts import WorkbenchContext
@@ -25,7 +28,7 @@ from zlmreport.web.certificates import Certificates
 from zlmreport.web.changes import ConflictError, NothingToUndoError, Request, change
 from zlmreport.web.diagnoses import Diagnoses
 from zlmreport.web.effect_page import effect_page
-from zlmreport.web.guard import Door, Guard
+from zlmreport.web.guard import HOST, Door, Guard
 from zlmreport.web.texts import texts
 from zlmreport.web.view import view
 
@@ -186,3 +189,47 @@ class Workbench:
             return self.bench.loaded().job.keys.certificate.language
         except ZlmreportError:
             return Language.ENGLISH
+
+
+def serve(workbench: Workbench, port: int, ready: Callable[[str], None], *, open_browser: bool) -> None:
+    """Listen on the loopback address until the user ends it.
+
+    Parameters
+    ----------
+    workbench
+        What answers.
+    port
+        On which; 0 for any free one.
+    ready
+        Is told the address as soon as somebody may open it.
+    open_browser
+        Whether to open it at once.
+    """
+    with _listening(port) as listener:
+        door = Door.at(listener.getsockname()[1])
+        server = uvicorn.Server(uvicorn.Config(workbench.app(door), log_level="warning", access_log=False))
+        workbench.diagnoses.warm_up()
+        ready(door.address)  # the socket listens already: who comes early waits
+        if open_browser:
+            webbrowser.open(door.address)
+        try:
+            server.run(sockets=[listener])
+        finally:
+            workbench.diagnoses.end()
+            workbench.certificates.end()
+
+
+def _listening(port: int) -> socket.socket:
+    """Return a socket on the loopback address, and on no other."""
+    listener = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
+    listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    try:
+        listener.bind((HOST, port))
+        listener.listen()
+    except OSError as error:
+        listener.close()
+        reason = (error.strerror or str(error)).lower()
+        raise AccessError.at(
+            Place("zlmreport workbench"), f"port {port} cannot be used: {reason}; choose another with --port"
+        ) from error
+    return listener

@@ -1,4 +1,9 @@
-"""Keeps one diagnosis under way: of the job as it is now; one of a job that has changed is ended."""
+"""Keeps one diagnosis under way, in a process of its own: ``python -m zlmreport.web.diagnoses JOB.yaml``.
+
+A diagnosis keeps a processor busy for a second, or for minutes on thousands of readings. Apart, it slows no
+page down, and is ended when the job has changed or nobody waits for it. A line of standard input asks for a
+diagnosis of the job as it is on the disk; a line of JSON answers.
+"""
 
 from __future__ import annotations
 
@@ -13,7 +18,13 @@ from pathlib import Path
 from threading import Lock, Thread
 from typing import Any
 
-_COMMAND = (sys.executable, "-m", "zlmreport.web.worker")
+from zlmreport.errors import ZlmreportError
+from zlmreport.language import Language
+from zlmreport.plugins import Registry, find_plugins
+from zlmreport.web.bench import Bench
+from zlmreport.web.view import diagnosed
+
+_COMMAND = (sys.executable, "-m", "zlmreport.web.diagnoses")
 
 
 @dataclass(slots=True)
@@ -106,3 +117,32 @@ class Diagnoses:
         for pipe in (worker.stdin, worker.stdout):
             if pipe is not None:
                 pipe.close()
+
+
+def main() -> None:
+    """Answer until nobody asks."""
+    path, *plugins = map(Path, sys.argv[1:])
+    registry = find_plugins(files=plugins)
+    bench = Bench(path, registry)
+    for _ in sys.stdin:
+        print(json.dumps(answer(bench, registry)), flush=True)  # noqa: T201 - the answer
+
+
+def answer(bench: Bench, registry: Registry) -> dict[str, Any]:
+    """Return the diagnosis of the job in all languages, and of which state of the job it is."""
+    try:
+        loaded = bench.loaded()
+        diagnosis = loaded.study.diagnosis(registry.effects)
+    except ZlmreportError as error:
+        return {"stamp": bench.stamp(), "problems": [str(each) for each in error.problems]}
+    return {
+        "stamp": loaded.stamp,
+        "diagnosis": {
+            language.value: diagnosed(diagnosis, loaded.study, registry.effects, language)
+            for language in Language
+        },
+    }
+
+
+if __name__ == "__main__":
+    main()

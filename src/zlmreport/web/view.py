@@ -1,15 +1,20 @@
-"""All that the page shows of a job, as values for a browser."""
+"""All that the page shows of a job and of its diagnosis, as values for a browser."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
-from zlmreport.certificate.linked import graphs
+from zlmreport.certificate.linked import failure_values, graphs
 from zlmreport.job.job import Job
 from zlmreport.language import Language, Words, same
+from zlmreport.model.diagnosis import Diagnosis
+from zlmreport.model.effect import Effect
+from zlmreport.model.study import Study
+from zlmreport.presenting.diagnosis import CandidateRow, DiagnosisRows
 from zlmreport.web.bench import Bench, Loaded
 from zlmreport.web.journal import UNDO, Entry, Journal, undoable
-from zlmreport.web.panels import Panels
+from zlmreport.web.panels import Panels, error_values, parameter_values
 
 _READING = Words(en="{target} {arrow}, run {run}", de="{target} {arrow}, Durchlauf {run}")
 _ARROWS = {"+": "↑", "-": "↓"}
@@ -88,3 +93,41 @@ def _subject(job: Job, language: Language) -> str:
     named = " ".join(part for part in (machine.manufacturer, machine.model) if part)
     parts = (_AXIS.given(axis=job.axis.name).in_language(language), named, machine.serial or "")
     return ", ".join(part for part in parts if part)
+
+
+def diagnosed(
+    diagnosis: Diagnosis, study: Study, effects: Sequence[Effect], language: Language
+) -> dict[str, Any]:
+    """Return a diagnosis in one language."""
+    rows = DiagnosisRows.of(diagnosis, language, {each.identifier: each.title for each in effects})
+    return {
+        "verdict": diagnosis.verdict.value,
+        "statement": rows.statement,
+        "failures": [failure_values(each, diagnosis, study) for each in rows.failures],
+        "candidates": [_candidate(each, rows) for each in rows.candidates],
+        "serious": sum(each.is_serious for each in rows.candidates),
+        "hidden": [
+            {"effects": list(each.effects), "reason": each.reason}
+            for each in (*rows.hidden, *rows.not_tested)
+        ],
+        "notExcluded": list(rows.not_excluded),
+        "remarks": list(rows.remarks),
+    }
+
+
+def _candidate(row: CandidateRow, diagnosed: DiagnosisRows) -> dict[str, Any]:
+    return {
+        "effect": row.effect,
+        "title": row.title,
+        "argument": row.argument,
+        "probability": f"{row.probability} %",
+        "share": row.candidate.probability,
+        "p": row.p,
+        "rmsBefore": diagnosed.error.rms,
+        "rmsAfter": row.error.rms,
+        "error": error_values(row.error),
+        "parameters": [parameter_values(each) for each in row.parameters],
+        "explains": row.explains,
+        "equals": list(row.equals),
+        "tell": row.tell_apart_by,
+    }
