@@ -3,7 +3,7 @@
 import pytest
 
 from certificate.documents import COMPLETE, having, job, without
-from zlmreport.certificate.place import place_of_work
+from zlmreport.certificate.cover import place_of_work
 from zlmreport.language import Language
 
 CUSTOMER = COMPLETE["customer"]["address"]

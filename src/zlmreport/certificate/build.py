@@ -7,19 +7,18 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from zlmreport.certificate import (
-    amendment,
     conditions,
     cover,
-    opinions,
     origin,
     readings,
     results,
     uncertainty,
 )
 from zlmreport.certificate.attachments import sources
+from zlmreport.certificate.cover import lines
 from zlmreport.certificate.document import Certificate, Letterhead, PageWords, Party, Section
-from zlmreport.certificate.identity import lines
 from zlmreport.certificate.logo import Logo, read_logo
+from zlmreport.certificate.statements import document_title, opinion_sections, running_title
 from zlmreport.language import Words
 from zlmreport.presenting.marks import Marks
 from zlmreport.presenting.writer import Writer
@@ -77,7 +76,7 @@ def build(
     made_from = sources(job, files, logo.file if logo else None)
     return Certificate(
         number=certificate.number,
-        title=writer.say(amendment.title(certificate)),
+        title=writer.say(document_title(certificate)),
         subtitle=writer.say(_SUBTITLE.given(axis=job.axis.name)),
         language=certificate.language,
         issued=certificate.issued,
@@ -90,11 +89,11 @@ def build(
             *_uncertainty(job, evaluated, as_found, writer),
             *_readings(job, measurements, as_found, writer),
             origin.section(made_from, read, GENERATOR, plugins, writer),
-            *opinions.section(job.keys, writer),
+            *opinion_sections(job.keys, writer),
             *_model(modelled, writer),
         ),
         page_words=PageWords(
-            number=writer.say(amendment.running_title(certificate)),
+            number=writer.say(running_title(certificate)),
             page=writer.say(Words(en="page", de="Seite")),
             of=writer.say(Words(en="of", de="von")),
             end=writer.say(Words(en="End of document", de="Ende des Dokuments")),

@@ -1,14 +1,13 @@
-"""How, when and under which conditions a set of readings was taken: the axis as left, or as found."""
+"""Facts of the measurement and its surroundings: a name, a value that may not be stated, whose it is."""
 
 from __future__ import annotations
 
 import datetime as dt
-from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from collections.abc import Iterable, Iterator
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from zlmreport.certificate.facts import Fact
 from zlmreport.language import Words
 from zlmreport.measurement.measurement_set import CONDITION_NAMES, CONDITIONS, MeasurementSet
 
@@ -166,3 +165,28 @@ def _logged(values: FloatArray | None, unit: str, writer: Writer) -> str | None:
     if unit == "hPa":
         return f"{writer.span(values / _PASCAL_PER_HECTOPASCAL, 1)} hPa"
     return f"{writer.span(values * _PERCENT, 1)} %"
+
+
+class Fact(NamedTuple):
+    """A fact.
+
+    Attributes
+    ----------
+    name
+        What is stated_facts.
+    value
+        In the document's language; None or empty where the job does not state it.
+    keys
+        Dotted job keys that the value comes from: a mark stands behind the name if others supplied one.
+    """
+
+    name: Words
+    value: str | None
+    keys: tuple[str, ...] = ()
+
+
+def stated_facts(facts: Iterable[Fact], writer: Writer) -> tuple[tuple[str, str], ...]:
+    """Return the facts that have a value, named and marked in the document's language."""
+    return tuple(
+        (writer.say(fact.name) + writer.marks.after(*fact.keys), fact.value) for fact in facts if fact.value
+    )

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from zlmreport.certificate.place import place_of_work
+from zlmreport.certificate.cover import place_of_work
 from zlmreport.errors import InputError, Problem
 
 if TYPE_CHECKING:

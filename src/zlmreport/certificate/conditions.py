@@ -6,10 +6,26 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from zlmreport.certificate import corrections, step_gauge
-from zlmreport.certificate.circumstances import date, environment_facts, measurement_facts, with_unit
-from zlmreport.certificate.document import Block, Facts, Paragraph, Section
-from zlmreport.certificate.facts import Fact, stated
+from zlmreport.certificate import step_gauge
+from zlmreport.certificate.circumstances import (
+    Fact,
+    date,
+    environment_facts,
+    measurement_facts,
+    stated_facts,
+    with_unit,
+)
+from zlmreport.certificate.document import (
+    Align,
+    Block,
+    Cell,
+    Column,
+    Facts,
+    Paragraph,
+    RowGroup,
+    Section,
+    Table,
+)
 from zlmreport.language import Words
 from zlmreport.measurement.axis import AxisKind
 
@@ -36,6 +52,13 @@ _NO_INFLUENCE = Words(
     en="The laboratory names no environmental condition that influenced the results.",
     de="Das Laboratorium nennt keine Umgebungsbedingung, die die Ergebnisse beeinflusst hat.",
 )
+_CAPTION = Words(en="Corrections applied to the readings", de="An den Messwerten angebrachte Korrektionen")
+_ALL_CORRECTED = Words(
+    en="Every deviation in this document is a corrected one. The readings as they were displayed are in the"
+    " files that the section on their origin names.",
+    de="Jede Abweichung in diesem Dokument ist korrigiert. Die angezeigten Messwerte stehen in den Dateien,"
+    " die der Abschnitt über ihre Herkunft nennt.",
+)
 
 
 def section(job: Job, measurements: MeasurementSet, writer: Writer) -> Section:
@@ -51,11 +74,13 @@ def section(job: Job, measurements: MeasurementSet, writer: Writer) -> Section:
         (Words(en="Environment", de="Umgebung"), environment),
     )
     blocks: list[Block] = [
-        Facts(pairs, writer.say(heading)) for heading, facts in groups if (pairs := stated(facts, writer))
+        Facts(pairs, writer.say(heading))
+        for heading, facts in groups
+        if (pairs := stated_facts(facts, writer))
     ]
-    if keys.certificate.kind == "certificate" and not stated(environment, writer):
+    if keys.certificate.kind == "certificate" and not stated_facts(environment, writer):
         blocks.append(Paragraph(writer.say(_NO_INFLUENCE)))
-    blocks.extend(corrections.blocks(measurements, writer))
+    blocks.extend(correction_blocks(measurements, writer))
     blocks.extend(step_gauge.graph(job))
     return Section("conditions", writer.say(_TITLE), tuple(blocks))
 
@@ -168,3 +193,27 @@ def _uncertainty(instrument: Instrument, writer: Writer) -> str | None:
     if not written or isinstance(fixed, str):
         return written or None
     return f"U = {written} (k = 2)"
+
+
+def correction_blocks(measurements: MeasurementSet, writer: Writer) -> Iterator[Block]:
+    """Yield what was corrected, in its order; nothing where the readings are as they were read."""
+    corrections = measurements.provenance.corrections
+    if not corrections:
+        return
+    columns = (
+        Column(writer.say(Words(en="Correction", de="Korrektion"))),
+        Column(writer.say(Words(en="By", de="Nach"))),
+        Column(writer.say(Words(en="From", de="Aus")) + writer.marks.after("environment", "corrections")),
+        Column(writer.say(Words(en="Largest", de="Größte")), writer.deviation_unit.symbol, Align.RIGHT),
+    )
+    rows: tuple[tuple[Cell, ...], ...] = tuple(
+        (
+            writer.say(each.name),
+            writer.say(each.method),
+            writer.say(each.inputs),
+            writer.deviation(each.largest),
+        )
+        for each in corrections
+    )
+    yield Table(writer.say(_CAPTION), columns, (RowGroup(rows),))
+    yield Paragraph(writer.say(_ALL_CORRECTED))

@@ -3,29 +3,25 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from zlmreport.certificate import amendment, conformity, statements, uncertainty
-from zlmreport.certificate.document import (
-    Block,
-    Column,
-    Facts,
-    Notice,
-    RowGroup,
-    Symbol,
-    Table,
-)
-from zlmreport.certificate.facts import stated
-from zlmreport.certificate.identity import identity
+from zlmreport.certificate import conformity, statements, uncertainty
+from zlmreport.certificate.circumstances import Fact, date, days, stated_facts
+from zlmreport.certificate.conditions import MACHINE_KINDS, axis_in_words
+from zlmreport.certificate.document import Block, Column, Facts, Notice, RowGroup, Symbol, Table
 from zlmreport.certificate.readings import missing_readings
 from zlmreport.certificate.results import Evaluated, section_key
+from zlmreport.certificate.statements import amendment_notice, in_a_line
 from zlmreport.certificate.values import Values
 from zlmreport.evaluation.quantity import Group
-from zlmreport.language import Words
+from zlmreport.job.document_keys import Location
+from zlmreport.language import Words, same
 
 if TYPE_CHECKING:
     from zlmreport.evaluation.evaluation import Evaluation, Parameter
     from zlmreport.job.job import Job
+    from zlmreport.job.keys import JobKeys
     from zlmreport.measurement.measurement_set import MeasurementSet
     from zlmreport.presenting.writer import Writer
 
@@ -36,8 +32,8 @@ def blocks(
     """Return the blocks under the title."""
     evaluations = tuple(each.evaluation for each in evaluated)
     return (
-        *amendment.notice(job.keys.certificate, writer),
-        Facts(stated(identity(job, evaluations, writer), writer)),
+        *amendment_notice(job.keys.certificate, writer),
+        Facts(stated_facts(identity(job, evaluations, writer), writer)),
         _results(evaluations, writer),
         uncertainty.statement(evaluated[0].budget, writer),
         *conformity.rule_paragraph(job.keys.decision_rule, evaluations, writer),
@@ -107,3 +103,147 @@ def _shortfalls(evaluations: tuple[Evaluation, ...], writer: Writer) -> Iterator
             de="Anforderungen der Normen, die die Messung nicht erfüllt",
         )
         yield Notice(writer.say(heading), items)
+
+
+def identity(job: Job, evaluations: tuple[Evaluation, ...], writer: Writer) -> Iterator[Fact]:
+    """Yield the facts, in the order of the page."""
+    keys = job.keys
+    machine, customer, person = keys.machine, keys.customer, keys.certificate.authorised_by
+    if customer:
+        address = ", ".join(lines(customer.address))
+        yield Fact(
+            Words(en="Customer", de="Auftraggeber"),
+            ", ".join(filter(None, (customer.name, address))),
+            ("customer.name", "customer.address"),
+        )
+    named = " ".join(filter(None, (machine.manufacturer, machine.model)))
+    kind = writer.say(MACHINE_KINDS[machine.kind])
+    yield Fact(
+        Words(en="Item calibrated", de="Gegenstand"),
+        f"{named} ({kind})" if named else kind,
+        ("machine.manufacturer", "machine.model", "machine.kind"),
+    )
+    yield Fact(Words(en="Serial number", de="Seriennummer"), machine.serial, ("machine.serial",))
+    yield Fact(Words(en="Axis", de="Achse"), axis_in_words(job, writer), ("axis.name", "axis.kind"))
+    yield Fact(
+        Words(en="Evaluated by", de="Ausgewertet nach"),
+        ", ".join(evaluation.designation for evaluation in evaluations),
+        ("evaluate.standard",),
+    )
+    place = place_of_work(keys)
+    if place:
+        yield Fact(Words(en="Place of the work", de="Ort der Arbeiten"), writer.say(place.words), place.keys)
+    received = date(keys.dates.received, writer)
+    yield Fact(Words(en="Received", de="Eingang"), received, ("dates.received",))
+    if keys.as_found:
+        yield Fact(
+            Words(en="Date of measurement as found", de="Datum der Messung vorher"),
+            days(keys.as_found.measurement, writer),
+            ("as_found.measurement.date", "as_found.measurement.end"),
+        )
+    yield Fact(
+        Words(en="Date of measurement", de="Datum der Messung"),
+        days(keys.measurement, writer),
+        ("measurement.date", "measurement.end"),
+    )
+    yield Fact(Words(en="Date of issue", de="Ausstellungsdatum"), date(keys.certificate.issued, writer))
+    if keys.next_due:
+        yield Fact(
+            Words(
+                en="Next calibration due, as agreed with the customer",
+                de="Nächste Kalibrierung, wie mit dem Auftraggeber vereinbart",
+            ),
+            writer.date(keys.next_due.date),
+        )
+    if person:
+        yield Fact(Words(en="Authorised by", de="Freigegeben durch"), in_a_line(person))
+
+
+def lines(address: str | None) -> tuple[str, ...]:
+    """Part an address into lines, at its commas or line breaks."""
+    if not address:
+        return ()
+    return tuple(
+        part for piece in address.split("\n") for part in (part.strip() for part in piece.split(",")) if part
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class PlaceOfWork:
+    """A place of work.
+
+    Attributes
+    ----------
+    kind
+        ``laboratory``, ``customer``, ``laboratory branch``, ``customer branch`` or ``other``.
+    address
+        In one line or several; empty where the job states none.
+    words
+        What the page says: whose place it is, and its address.
+    keys
+        The job keys that state it.
+    """
+
+    kind: str
+    address: str
+    words: Words
+    keys: tuple[str, ...]
+
+
+_KINDS = {
+    "laboratory": Words(en="in the laboratory", de="im Laboratorium"),
+    "customer": Words(en="at the customer's", de="beim Auftraggeber"),
+    "laboratory branch": Words(
+        en="at a branch of the laboratory", de="in einer Zweigstelle des Laboratoriums"
+    ),
+    "customer branch": Words(en="at a branch of the customer", de="in einer Zweigstelle des Auftraggebers"),
+}
+_AT = Words(en="{kind}: {address}", de="{kind}: {address}")
+_WHERE_IT_STANDS = Words(
+    en="where the machine stands: {location}", de="am Aufstellort der Maschine: {location}"
+)
+_ASSUMED = Words(
+    en="at the customer's: {address} (no other place is stated)",
+    de="beim Auftraggeber: {address} (kein anderer Ort angegeben)",
+)
+
+
+def place_of_work(keys: JobKeys) -> PlaceOfWork | None:
+    """Return where the work was done; None where the job gives no hint of it.
+
+    A machine is calibrated where it stands. A job that does not say where the work was done is therefore
+    taken to mean the machine's location, or else, on a certificate, the customer's address; the page says
+    which.
+    """
+    match keys.location:
+        case Location(kind=kind, address=address):
+            return _of_kind(kind, address or _own_address(kind, keys))
+        case str(location):
+            return PlaceOfWork("other", location, same(_in_a_line(location)), ("location",))
+    if keys.machine.location:
+        words = _WHERE_IT_STANDS.given(location=keys.machine.location)
+        return PlaceOfWork("other", keys.machine.location, words, ("machine.location",))
+    if keys.certificate.kind == "certificate" and keys.customer and keys.customer.address:
+        address = keys.customer.address
+        return PlaceOfWork(
+            "customer", address, _ASSUMED.given(address=_in_a_line(address)), ("customer.address",)
+        )
+    return None
+
+
+def _of_kind(kind: str, address: str) -> PlaceOfWork:
+    words = _KINDS.get(kind)
+    if words is None:
+        words = same(_in_a_line(address))
+    elif address:
+        words = _AT.given(kind=words, address=_in_a_line(address))
+    return PlaceOfWork(kind, address, words, ("location",))
+
+
+def _own_address(kind: str, keys: JobKeys) -> str:
+    party = keys.laboratory if kind == "laboratory" else keys.customer
+    return party.address or "" if party else ""
+
+
+def _in_a_line(address: str) -> str:
+    return ", ".join(line.strip().removesuffix(",") for line in address.splitlines() if line.strip())

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from zlmreport.certificate.document import Block, Facts, Graph, Notice, Paragraph, Section
 from zlmreport.certificate.linked import Linked, linked
 from zlmreport.certificate.model_tables import ModelTables
-from zlmreport.certificate.opinions import OPINION
+from zlmreport.certificate.statements import OPINION
 from zlmreport.figures.model_diagram import ModelDiagram, estimate
 from zlmreport.figures.model_residuals import fall_chart, over_condition, over_position, over_run, over_time
 from zlmreport.language import Words

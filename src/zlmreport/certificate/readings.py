@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from zlmreport.certificate import exclusions
 from zlmreport.certificate.document import Align, Block, Column, Notice, RowGroup, Section, Symbol, Table
+from zlmreport.certificate.statements import exclusion_notice
 from zlmreport.language import Words
 from zlmreport.measurement.approach import Approach
 
@@ -54,7 +54,7 @@ def section(measurements: MeasurementSet, writer: Writer, key: str = "measuremen
     """
     blocks: list[Block] = [
         *missing_readings(measurements, writer),
-        *exclusions.notice(measurements, writer, f"{key.removesuffix('source')}excluded"),
+        *exclusion_notice(measurements, writer, f"{key.removesuffix('source')}excluded"),
     ]
     columns = [
         (approach, index) for approach in measurements.approaches for index in range(len(measurements.runs))

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
+from zlmreport.certificate.circumstances import Fact
 from zlmreport.certificate.document import Graph
-from zlmreport.certificate.facts import Fact
 from zlmreport.figures.gauge_calibration import gauge_calibration
 from zlmreport.language import Words
 from zlmreport.quantities.formatting import fixed_number

@@ -6,9 +6,9 @@ import shutil
 from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from zlmreport.certificate import exclusions
 from zlmreport.certificate.conformity import STATEMENTS
 from zlmreport.certificate.readings import missing_readings
+from zlmreport.certificate.statements import exclusion_notice
 from zlmreport.certificate.values import limit
 from zlmreport.cli.terminal import Colour, shown_path, table
 from zlmreport.language import Language
@@ -138,7 +138,7 @@ def _missing(result: Result, writer: Writer) -> Iterator[str]:
     for notice in missing_readings(result.evaluations[0].measurements, writer):
         yield f"  {Colour.YELLOW.of('missing')}  {notice.heading}"
         yield from (f"           {item}" for item in notice.items)
-    for notice in exclusions.notice(result.evaluations[0].measurements, writer):
+    for notice in exclusion_notice(result.evaluations[0].measurements, writer):
         yield f"  {Colour.YELLOW.of('aside')}    {notice.heading}"
         yield from (f"           {item}" for item in notice.items)
 

@@ -22,6 +22,8 @@ if TYPE_CHECKING:
     from zlmreport.certificate.attachments import Attachment, Relationship
     from zlmreport.certificate.attachments import Source as CertificateSource
     from zlmreport.certificate.conformity import STATEMENTS as CONFORMITY_STATEMENTS
+    from zlmreport.certificate.cover import lines as address_lines
+    from zlmreport.certificate.cover import place_of_work
     from zlmreport.certificate.document import (
         Align,
         Block,
@@ -43,8 +45,6 @@ if TYPE_CHECKING:
         Table,
         Verdict,
     )
-    from zlmreport.certificate.identity import lines as address_lines
-    from zlmreport.certificate.place import place_of_work
     from zlmreport.certificate.statements import ONLY_THIS_ITEM
     from zlmreport.correction.refractive_index import (
         STANDARD_HUMIDITY,
@@ -473,8 +473,7 @@ _ROOMS = {
         "Align Block Cell Certificate Column Explained Facts Formulas Graph Letterhead Mark Notice "
         "PageWords Paragraph RowGroup Section Symbol Table Verdict"
     ),
-    "zlmreport.certificate.identity": "address_lines=lines",
-    "zlmreport.certificate.place": "place_of_work",
+    "zlmreport.certificate.cover": "address_lines=lines place_of_work",
     "zlmreport.certificate.statements": "ONLY_THIS_ITEM",
     "zlmreport.correction.refractive_index": (
         "STANDARD_HUMIDITY STANDARD_PRESSURE index_change refractive_index"
