@@ -12,8 +12,9 @@ from environments import HOUSE_STANDARD, ROOT, Distribution, Environment, build
 #: The matrices are small: more threads only wait for each other. For what the tests start, too.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
-hypothesis.settings.register_profile("workstation", deadline=None)
-hypothesis.settings.register_profile("ci", deadline=None, derandomize=True, print_blob=True)
+hypothesis.settings.register_profile("workstation", deadline=None, max_examples=30)
+hypothesis.settings.register_profile("ci", deadline=None, max_examples=30, derandomize=True, print_blob=True)
+hypothesis.settings.register_profile("thorough", deadline=None, max_examples=1000)  # --hypothesis-profile
 hypothesis.settings.load_profile("ci" if os.environ.get("CI") else "workstation")
 
 

@@ -65,7 +65,10 @@ datetime.datetime, datetime.date = Wrong, WrongDate
 
 from zlmreport.cli import main
 
-sys.exit(main())
+job, folder, *runs = sys.argv[1:]
+for number, formats in enumerate(runs):
+    if code := main([job, "--quiet", "--output", f"{folder}/{number}", "--format", formats]):
+        sys.exit(code)
 """
 
 
@@ -84,18 +87,22 @@ class Circumstances:
 
 
 CIRCUMSTANCES = {
-    "another process": Circumstances(),
-    "another day and time zone": Circumstances(
-        {"TZ": "Pacific/Kiritimati", "SOURCE_DATE_EPOCH": "1000000000"}, clock=400 * 86400.5
+    "another day, language and order of sets": Circumstances(
+        {
+            "TZ": "Pacific/Kiritimati",
+            "SOURCE_DATE_EPOCH": "1000000000",
+            "PYTHONHASHSEED": "1",
+            "LC_ALL": "C",
+            "LANG": "C",
+            "LANGUAGE": "de",
+            "PYTHONUTF8": "0",
+        },
+        clock=400 * 86400.5,
     ),
-    "another language and order of sets": Circumstances(
-        {"LC_ALL": "C", "LANG": "C", "LANGUAGE": "de", "PYTHONUTF8": "0", "PYTHONHASHSEED": "1"}
-    ),
-    "another folder": Circumstances(place="a folder ü/of old", within=True),
-    "all of it": Circumstances(
-        {"TZ": "America/Anchorage", "LC_ALL": "POSIX", "PYTHONHASHSEED": "2", "HOME": "/nonexistent"},
+    "another folder, long ago": Circumstances(
+        {"TZ": "America/Anchorage", "LC_ALL": "C.UTF-8", "PYTHONHASHSEED": "2", "HOME": "/nonexistent"},
         clock=-9000 * 86400.5,
-        place="another",
+        place="a folder ü/of old",
         within=True,
     ),
 }
@@ -109,15 +116,14 @@ def _made(folder: Path, circumstances: Circumstances) -> dict[str, str]:
     date = len(circumstances.place) * 1e8
     for path in configs.rglob("*"):
         os.utime(path, (date, date))
-    for number, formats in enumerate(RUNS):
-        done = run(
-            *(PYTHON, "-c", _WITH_CLOCK, str(circumstances.clock)),
-            *(job.name if circumstances.within else job, "--quiet"),
-            *("--output", folder / "out" / str(number), "--format", ",".join(formats)),
-            env={"PYTHONHASHSEED": "0", **os.environ, **circumstances.variables},
-            cwd=job.parent if circumstances.within else folder,
-        )
-        assert (done.returncode, done.stderr) == (0, "")
+    done = run(
+        *(PYTHON, "-c", _WITH_CLOCK, str(circumstances.clock)),
+        *(job.name if circumstances.within else job, folder / "out"),
+        *map(",".join, RUNS),
+        env={"PYTHONHASHSEED": "0", **os.environ, **circumstances.variables},
+        cwd=job.parent if circumstances.within else folder,
+    )
+    assert (done.returncode, done.stderr) == (0, "")
     return {
         f"{path.parent.name}/{path.name}": sha256(path.read_bytes()).hexdigest()
         for path in (folder / "out").glob("*/*")

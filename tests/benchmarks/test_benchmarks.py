@@ -14,26 +14,44 @@ from weasyprint import HTML
 import processes
 
 BENCHMARKS = Path(__file__).parents[2] / "benchmarks"
+#: What is measured in processes of its own is run in this one, on a small job; commands are taken to last a
+#: second, and the plain recipe is followed once.
+_IN_ONE_PROCESS = f"""
+import runpy, sys
+from concurrent.futures import ThreadPoolExecutor
+sys.path.insert(0, {str(BENCHMARKS)!r})
+import measure, sample
+measure.own_process = lambda: ThreadPoolExecutor(1)
+measure.cost_of_command = lambda command: measure.Cost(1.0, 0.5)
+sample.TARGETS, sample.RUNS = 5, 2
+import typst_side_by_side, memory, capturing
+typst_side_by_side._by_plain_recipe = lambda words: (measure.Cost(1.0, 0.5), b"")
+typst_side_by_side.pages_of_same_document = lambda words, *pdfs: (4,) * len(pdfs)
+memory._plain_recipe = lambda *certificates: (100.0, 101.0)
+capturing.LINES = dict([*capturing.LINES.items()][:1])
+runpy.run_path({str(BENCHMARKS)!r}, run_name="__main__")
+"""
 
 
 def run(*arguments: str | Path) -> CompletedProcess[str]:
     return processes.run(processes.PYTHON, BENCHMARKS, *arguments)
 
 
-@pytest.mark.parametrize("name", ["warm", "cold", "evaluation", "typst", "capture", "memory"])
-def test_a_benchmark_measures_on_the_smallest_sizes(name: str, tmp_path: Path) -> None:
+def test_benchmarks_measure_on_the_smallest_sizes(tmp_path: Path) -> None:
     file = tmp_path / "results.json"
-    done = run(name, "--rounds", "1", "--tests", "20", "--certificates", "2", "--json", file)
+    names = ("warm", "cold", "evaluation", "typst", "capture", "memory")
+    sizes = ("--rounds", "1", "--tests", "20", "--certificates", "2")
+    done = processes.run(processes.PYTHON, "-c", _IN_ONE_PROCESS, *names, *sizes, "--json", file)
     assert done.returncode == 0, done.stderr
-    lines = json.loads(file.read_text("utf-8"))["results"][name]
+    results = json.loads(file.read_text("utf-8"))["results"]
+    assert tuple(results) == names
+    lines = [line for name in names for line in results[name]]
     assert all(math.isfinite(line["value"]) for line in lines)
     assert all(line["name"] in done.stdout for line in lines)
-
-
-def test_a_benchmark_that_there_is_not_is_refused_with_those_there_are() -> None:
-    done = run("speed")
-    assert done.returncode == 2
-    assert "'speed' is none of warm, cold, evaluation, typst" in done.stderr
+    values = {line["name"]: line["value"] for line in lines}
+    assert values["zlmreport JOB / plain recipe"] == 1.0
+    assert values["pages by zlmreport"] > 1
+    assert values["plain recipe, growth"] == 1.0
 
 
 def test_a_pdf_that_lacks_a_number_of_the_document_is_not_compared(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -22,11 +22,11 @@ _ARGUMENTS = ["--no-sandbox", "--disable-gpu", "--disable-background-networking"
 _ADDRESS = re.compile(r"http://127\.0\.0\.1:\d+/\?token=\S+")
 
 
-@pytest.fixture
+@pytest.fixture(scope="module")
 def chromium() -> Iterator[Browser]:
     """Return the system's browser, without a window.
 
-    Each test starts its own: Playwright keeps an event loop running in the thread as long as it lives, and
+    It ends with the module: Playwright keeps an event loop running in the thread as long as it lives, and
     other tests that the same process takes in turn have loops of their own.
     """
     path = next((found for name in _NAMES if (found := shutil.which(name))), None)

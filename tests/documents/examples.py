@@ -74,11 +74,11 @@ def compare(block: Block, shell: Shell) -> None:
             )
 
 
-def run_page(page: Path, folder: Path, console: Console = compare) -> None:
-    """Execute every example of a page in a folder."""
+def run_page(page: Path, folder: Path, console: Console = compare, *commands: Path) -> None:
+    """Execute every example of a page in a folder; commands are found in those folders first."""
     shutil.copytree(ROOT / "configs", folder / "configs")
     page_blocks = blocks(page)
-    with opened(folder) as shell:
+    with opened(folder, *commands) as shell:
         for block in page_blocks:
             run_block(block, folder, shell, console)
 

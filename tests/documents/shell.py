@@ -14,17 +14,23 @@ import processes
 _MARK = "\x1e"
 
 
+VARIABLES = {
+    "COLUMNS": "80",
+    "NO_COLOR": "1",
+    "LC_ALL": "C.UTF-8",
+    # WeasyPrint leaves a colour profile open.
+    "PYTHONWARNINGS": "error,ignore::ResourceWarning",
+}
+
+
 @contextmanager
-def shell(folder: Path) -> Iterator[Shell]:
-    """Start a bash in a folder; what it has started in the background ends with it, too."""
-    variables = {
-        "PATH": f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}",
-        "COLUMNS": "80",
-        "NO_COLOR": "1",
-        "LC_ALL": "C.UTF-8",
-        # WeasyPrint leaves a colour profile open.
-        "PYTHONWARNINGS": "error,ignore::ResourceWarning",
-    }
+def shell(folder: Path, *commands: Path) -> Iterator[Shell]:
+    """Start a bash in a folder; what it has started in the background ends with it, too.
+
+    Commands are found in the folders that are given, then in the environment.
+    """
+    found = [*map(str, commands), str(Path(sys.executable).parent), os.environ["PATH"]]
+    variables = {**VARIABLES, "PATH": os.pathsep.join(found)}
     with processes.started(
         *("bash", "--noprofile", "--norc"),
         cwd=folder,

@@ -8,7 +8,7 @@ import pytest
 
 from documents.examples import run_block
 from documents.pages import DOCS, blocks
-from documents.shell import Shell
+from documents.shell import shell as opened
 from environments import Distribution, Environment
 
 #: Warnings are errors in the project's commands; pip's own are its own.
@@ -29,7 +29,7 @@ def test_the_guide_leads_to_a_certificate(
     monkeypatch.setattr("sys.executable", str(reader.python))
     monkeypatch.setenv("PIP_NO_BUILD_ISOLATION", "0")  # a negative option: 0 switches isolation off
     monkeypatch.setenv("PIP_DISABLE_PIP_VERSION_CHECK", "1")
-    with Shell(tmp_path) as shell:
+    with opened(tmp_path) as shell:
         shell.run(_PIP_MAY_WARN)
         for block in blocks(DOCS / "how-to" / "add-a-standard.md"):
             run_block(block, tmp_path, shell)

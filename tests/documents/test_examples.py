@@ -2,18 +2,30 @@
 
 from __future__ import annotations
 
+import os
 import re
+from collections.abc import Iterator
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import pytest
 
-from documents.examples import EXECUTED, commands, matches, patched, run_page
+from documents.examples import EXECUTED, commands, compare, matches, patched, run_page
 from documents.pages import ROOT, Block, blocks, name
+from documents.shell import VARIABLES
+from documents.warm import warm_command
+
+
+@pytest.fixture(scope="module")
+def command() -> Iterator[Path]:
+    """Return the folder of a command line that has imported what it needs."""
+    with TemporaryDirectory() as folder, warm_command(Path(folder), env=os.environ | VARIABLES) as command:
+        yield command
 
 
 @pytest.mark.parametrize("page", EXECUTED, ids=name)
-def test_the_examples_of_a_page_work(page: Path, tmp_path: Path) -> None:
-    run_page(page, tmp_path)
+def test_the_examples_of_a_page_work(page: Path, command: Path, tmp_path: Path) -> None:
+    run_page(page, tmp_path, compare, command)
 
 
 @pytest.mark.parametrize("page", EXECUTED, ids=name)

@@ -61,7 +61,7 @@ def test_any_text_of_characters_that_mean_something_in_yaml(text: str) -> None:
     _load(text.encode())
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=100, deadline=None)
 @given(st.integers(0, len(_LINES) - 1), st.integers(0, 8), _KEYS, _VALUES)
 def test_any_value_for_any_key(number: int, indentation: int, key: str, value: str) -> None:
     lines = [*_LINES]

@@ -6,7 +6,7 @@ import json
 import re
 from html.parser import HTMLParser
 from io import BytesIO
-from itertools import cycle, islice
+from itertools import cycle
 from pathlib import Path
 
 import pikepdf
@@ -56,18 +56,19 @@ sys.exit(code)
 """
 
 
-@pytest.fixture(scope="module", params=[0, 3])
-def made(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The folder of a job with an attack in every text, and of its files in the folder `out`.
+@pytest.fixture(scope="module")
+def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder of a job with attacks in every text, and of its files in the folder `out`.
 
-    The attacks take turns; the second time, each text gets another one.
+    The attacks take turns, and where there is room, a text has two.
     """
     folder = tmp_path_factory.mktemp("hostile")
-    attacks = islice(cycle(ATTACKS), request.param, None)
-    texts = {
-        path: f"text{n:03d} {attack}"
-        for n, (path, attack) in enumerate(zip(text_keys(), attacks, strict=False))
-    }
+    attacks = cycle(ATTACKS)
+    texts = {}
+    for n, (path, room) in enumerate(text_keys().items()):
+        text = f"text{n:03d} {next(attacks)}"
+        second = f" {ATTACKS[(n + 3) % len(ATTACKS)]}"
+        texts[path] = text + second if len(text + second) <= room else text
     (folder / "job.yaml").write_text(job_with(texts.__getitem__), encoding="utf-8")
     header, rows = READINGS.split("\n", 1)
     quoted = next(attacks).replace('"', '""')

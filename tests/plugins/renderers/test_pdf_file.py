@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import sys
 from dataclasses import replace
-from hashlib import sha256
 from io import BytesIO
 from pathlib import Path
 from typing import Any
@@ -121,39 +120,23 @@ def test_the_logo_is_printed() -> None:
     assert [image.image.size for image in reader.pages[0].images if image.image] == [(30, 10)]
 
 
-def test_it_is_the_same_twice() -> None:
-    certificate = samples.certificate()
-    assert PdfRenderer().render(certificate) == PdfRenderer().render(certificate)
-
-
-_IN_ANOTHER_PROCESS = """
+_WATCHED = """
 import sys
 opened = []
 from typesetting import samples
 from zlmreport_plugins.renderers.pdf import PdfRenderer
-certificate = samples.certificate(customer="<img src='file:///etc/passwd'> <link href='http://example.com/'>")
-PdfRenderer().render(certificate)
+customer = "<img src='file:///etc/passwd'> <link href='http://example.com/'>"
+PdfRenderer().render(samples.certificate(standards=1))
 sys.addaudithook(lambda event, arguments: opened.append((event, str(arguments[0])))
     if event in {"open", "socket.connect", "socket.getaddrinfo", "urllib.Request"} else None)
-content = PdfRenderer().render(certificate)
-found = [entry for entry in opened if not entry[1].startswith((sys.base_prefix, sys.prefix))]
-from hashlib import sha256
-print(sha256(content).hexdigest(), found)
+PdfRenderer().render(samples.certificate(standards=1, customer=customer))
+print([entry for entry in opened if not entry[1].startswith((sys.base_prefix, sys.prefix))])
 """
 
 
-def _in_another_process(zone: str, seed: str) -> str:
-    environment = {**os.environ, "TZ": zone, "PYTHONHASHSEED": seed, "PYTHONPATH": str(TESTS)}
-    return run(PYTHON, "-c", _IN_ANOTHER_PROCESS, env=environment, check=True).stdout.strip()
-
-
-def test_it_is_the_same_in_other_processes_and_time_zones_and_opens_no_file() -> None:
-    certificate = samples.certificate(
-        customer="<img src='file:///etc/passwd'> <link href='http://example.com/'>"
-    )
-    digest = sha256(PdfRenderer().render(certificate)).hexdigest()
-    assert _in_another_process("Pacific/Kiritimati", "1") == f"{digest} []"
-    assert _in_another_process("America/Anchorage", "2") == f"{digest} []"
+def test_it_opens_no_file() -> None:
+    watched = run(PYTHON, "-c", _WATCHED, env={**os.environ, "PYTHONPATH": str(TESTS)}, check=True)
+    assert watched.stdout == "[]\n"
 
 
 def test_without_pango_the_user_is_told_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:

