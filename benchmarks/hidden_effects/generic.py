@@ -13,7 +13,6 @@ from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 import numpy as np
-from zlmreport.physics.refractive_index import index_change
 
 from hidden_effects import kernel_search
 from hidden_effects.cases import Case
@@ -23,6 +22,7 @@ from hidden_effects.sizes import base_columns, beyond
 from hidden_effects.sparse import sparse
 from hidden_effects.stepwise import stepwise
 from hidden_effects.trial import Trial
+from zlmreport.correction.refractive_index import index_change
 from zlmreport.model.design import Design
 from zlmreport.model.observations import Observations
 from zlmreport.planning.methods import Method

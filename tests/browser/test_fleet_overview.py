@@ -11,9 +11,9 @@ from playwright.sync_api import Page
 
 from fleet.histories import entry, history, parameter, quarters
 from zlmreport.fleet.overview import overview
-from zlmreport.fleet.overview_names import Names
-from zlmreport.fleet.overview_state import state_of
+from zlmreport.fleet.overview_cells import Names
 from zlmreport.fleet.records import State
+from zlmreport.fleet.state import state_of
 from zlmreport.language import Language
 from zlmreport.plugins import find_plugins
 

@@ -13,12 +13,12 @@ from job.jobs import SOUND
 from offers import offering
 from testing.exemplary import ExemplaryRenderer, ExemplarySource, ExemplaryStandard
 from zlmreport.certificate.document import Certificate
-from zlmreport.fleet import night, program, work
-from zlmreport.fleet.desk import Happened, What
+from zlmreport.fleet import making, night
+from zlmreport.fleet.issuing import Happened, What
 from zlmreport.fleet.ledger import Ledger
+from zlmreport.fleet.making import Failed, Made, Task
 from zlmreport.fleet.plan import Planned
 from zlmreport.fleet.records import Entry
-from zlmreport.fleet.work import Failed, Made, Task
 from zlmreport.job.fleet import FleetFile, load_fleet
 from zlmreport.plugins import Plugin, collect
 
@@ -72,7 +72,7 @@ class Here:
 
     def results(self, tasks: Iterable[Task]) -> Iterator[tuple[Task, Made | Failed]]:
         for task in tasks:
-            yield task, work.work(task)
+            yield task, making.work(task)
 
 
 @dataclass(slots=True)
@@ -161,6 +161,6 @@ class Fleet:
 def without_processes(monkeypatch: pytest.MonkeyPatch) -> None:
     """Let nights be spent in this process, with exemplary plugins of known versions."""
     monkeypatch.setattr(night, "_executor", lambda *_: Here())
-    monkeypatch.setattr(work, "_registry", lambda _: REGISTRY)
-    monkeypatch.setattr(work, "_versions", lambda _: VERSIONS)
-    monkeypatch.setattr(program, "versions", lambda **_: VERSIONS)
+    monkeypatch.setattr(making, "_registry", lambda _: REGISTRY)
+    monkeypatch.setattr(making, "_versions", lambda _: VERSIONS)
+    monkeypatch.setattr(night, "program_versions", lambda **_: VERSIONS)

@@ -21,10 +21,10 @@ from typing import Any
 import pytest
 
 from fleet.fleets import FLEET, Fleet, without_processes
-from zlmreport.fleet import shelf
-from zlmreport.fleet.desk import What
-from zlmreport.fleet.ledger import Ledger
-from zlmreport.fleet.ledger_night import Night
+from zlmreport import files
+from zlmreport.fleet import issuing
+from zlmreport.fleet.issuing import What
+from zlmreport.fleet.ledger import Ledger, Night
 from zlmreport.fleet.records import State
 
 ISSUED_BEFORE = ("a", "b", "c", "d")
@@ -106,8 +106,8 @@ def counting(patch: pytest.MonkeyPatch, last: int) -> Callable[[], int]:
         return counted
 
     for owner, name in (
-        (shelf, "_sync"),
-        (shelf.Laid, "name"),
+        (files, "sync_folder"),
+        (issuing.Laid, "name"),
         (Night, "issue"),
         (Night, "add"),
         (Night, "end"),

@@ -16,7 +16,7 @@ from fleet.fleets import FLEET, Fleet, Witness
 from processes import PYTHON, group
 from zlmreport.errors import AccessError
 from zlmreport.fleet import cluster, night
-from zlmreport.fleet.desk import What
+from zlmreport.fleet.issuing import What
 
 pytest.importorskip("distributed")
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from job.jobs import REGISTRY, SOUND
-from zlmreport.fleet.layout import designation, folder_of
+from zlmreport.fleet.records import designation, folder_of
 from zlmreport.job.keys import JobKeys
 from zlmreport.job.loading import load
 

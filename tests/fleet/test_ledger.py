@@ -14,9 +14,8 @@ from fleet.fleets import FLEET, Fleet, without_processes
 from fleet.servers import server
 from zlmreport.errors import AccessError, InputError
 from zlmreport.fleet.basis import Basis, KnownFile, Look
-from zlmreport.fleet.desk import What
-from zlmreport.fleet.ledger import Ledger, Night
-from zlmreport.fleet.ledger_night import NumberTakenError
+from zlmreport.fleet.issuing import What
+from zlmreport.fleet.ledger import Ledger, Night, NumberTakenError
 from zlmreport.fleet.records import Entry, RecordedParameter, State
 
 NIGHTS = ("2026-11-20T02:00:00+00:00", "2026-11-21T02:00:00+00:00")

@@ -9,8 +9,9 @@ import pytest
 
 from fleet.fleets import FLEET, VERSIONS, Fleet, without_processes
 from zlmreport.errors import AccessError, InputError
-from zlmreport.fleet import program, work
-from zlmreport.fleet.desk import What
+from zlmreport.fleet import making
+from zlmreport.fleet import night as nights
+from zlmreport.fleet.issuing import What
 from zlmreport.fleet.ledger import Ledger
 from zlmreport.fleet.plan import Due
 from zlmreport.fleet.records import State
@@ -49,7 +50,7 @@ def test_the_ledger_keeps_what_a_certificate_states(fleet: Fleet) -> None:
 
 def test_what_is_unchanged_is_not_made_again(fleet: Fleet, monkeypatch: pytest.MonkeyPatch) -> None:
     fleet.spend()
-    monkeypatch.setattr(work, "work", lambda _: pytest.fail("nothing is due"))
+    monkeypatch.setattr(making, "work", lambda _: pytest.fail("nothing is due"))
     assert fleet.spend().what == {"x": What.UNCHANGED, "y": What.UNCHANGED}
     assert len(fleet.entries()) == 2
 
@@ -175,13 +176,13 @@ def test_a_job_that_is_no_yaml_fails_alone(fleet: Fleet) -> None:
 
 
 def test_a_plugin_that_raises_fails_its_job_alone(fleet: Fleet, monkeypatch: pytest.MonkeyPatch) -> None:
-    def made(*arguments: object) -> work.Made:
+    def made(*arguments: object) -> making.Made:
         if "x.yaml" in str(arguments[0]):
             raise ZeroDivisionError
         return whole(*arguments)
 
-    whole = work._made
-    monkeypatch.setattr(work, "_made", made)
+    whole = making._made
+    monkeypatch.setattr(making, "_made", made)
     night = fleet.spend()
     assert night.what == {"x": What.FAILED, "y": What.ISSUED}
     assert "ZeroDivisionError" in night.of("x").problems[0].message
@@ -247,8 +248,8 @@ def test_a_file_that_the_job_extends_is_watched(fleet: Fleet) -> None:
 def test_a_new_release_of_a_plugin_is_named(fleet: Fleet, monkeypatch: pytest.MonkeyPatch) -> None:
     fleet.spend()
     newer = VERSIONS | {"exemplary-plugins": "1.3 code"}
-    monkeypatch.setattr(program, "versions", lambda **_: newer)
-    monkeypatch.setattr(work, "_versions", lambda _: newer)
+    monkeypatch.setattr(nights, "program_versions", lambda **_: newer)
+    monkeypatch.setattr(making, "_versions", lambda _: newer)
     happened = fleet.spend().of("x")
     assert happened.why.startswith("exemplary-plugins changed from 1.2 to 1.3 since ")
     assert happened.what is What.CONFIRMED
@@ -256,12 +257,12 @@ def test_a_new_release_of_a_plugin_is_named(fleet: Fleet, monkeypatch: pytest.Mo
 
 def test_a_plugin_that_no_job_uses_changes_nothing(fleet: Fleet, monkeypatch: pytest.MonkeyPatch) -> None:
     fleet.spend()
-    monkeypatch.setattr(program, "versions", lambda **_: VERSIONS | {"another": "1.0 code"})
+    monkeypatch.setattr(nights, "program_versions", lambda **_: VERSIONS | {"another": "1.0 code"})
     assert fleet.spend().what["x"] is What.UNCHANGED
 
 
 def test_a_worker_with_another_release_is_refused(fleet: Fleet, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(work, "_versions", lambda _: VERSIONS | {"zlmreport": "0.0.9 code"})
+    monkeypatch.setattr(making, "_versions", lambda _: VERSIONS | {"zlmreport": "0.0.9 code"})
     happened = fleet.spend().of("x")
     assert "this worker has zlmreport 0.0.9, and the night began with 0.1.0" in happened.problems[0].message
 

@@ -14,9 +14,9 @@ import pytest
 
 from fleet.histories import entry, history, parameter, quarters
 from zlmreport.fleet.overview import overview
-from zlmreport.fleet.overview_names import Names, with_unit
-from zlmreport.fleet.overview_state import Night, state_of
+from zlmreport.fleet.overview_cells import Names, with_unit
 from zlmreport.fleet.records import Entry, State
+from zlmreport.fleet.state import Night, state_of
 from zlmreport.language import Language
 from zlmreport.plugins import find_plugins
 

@@ -8,10 +8,10 @@ from collections.abc import Sequence
 from xml.etree import ElementTree as ET
 
 from fleet.histories import entry, history, parameter, quarters
-from zlmreport.fleet.overview_graph import HEIGHT, WIDTH, Period, small_graph
+from zlmreport.fleet.drifts import trends
+from zlmreport.fleet.overview_cells import HEIGHT, WIDTH, Period, small_graph
 from zlmreport.fleet.records import Entry
 from zlmreport.fleet.trend import series_of, standing
-from zlmreport.fleet.trend_fleet import trends
 
 PERIOD = Period(quarters(8)[0], quarters(8)[-1])
 

@@ -10,7 +10,7 @@ import pytest
 from fleet.deadly import PLUGIN
 from fleet.fleets import Fleet, Witness
 from zlmreport.fleet import night, pool
-from zlmreport.fleet.desk import What
+from zlmreport.fleet.issuing import What
 from zlmreport.fleet.records import State
 
 

@@ -11,9 +11,9 @@ import pytest
 from environments import ROOT
 from fleet.exposition import Family, parse
 from fleet.histories import entry, history, parameter, quarters
-from zlmreport.fleet.overview_state import Night, state_of
 from zlmreport.fleet.prometheus import metrics
 from zlmreport.fleet.records import Entry, State
+from zlmreport.fleet.state import Night, state_of
 
 NIGHT = Night(
     datetime(2026, 11, 21, 2, tzinfo=UTC), datetime(2026, 11, 21, 2, tzinfo=UTC) + timedelta(seconds=94.5)

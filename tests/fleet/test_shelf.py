@@ -6,8 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from zlmreport.fleet.basis import KnownFile, Look
-from zlmreport.fleet.shelf import Finished, is_intact, laid, tidy
+from zlmreport.fleet.basis import KnownFile, Look, is_intact
+from zlmreport.fleet.issuing import laid, tidy
+from zlmreport.fleet.making import Finished
 
 FILES = (Finished(".pdf", "m/X/CAL-1.pdf", b"pages"), Finished(".json", "m/X/CAL-1.json", b"{}"))
 

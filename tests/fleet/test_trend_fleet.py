@@ -8,9 +8,7 @@ import numpy as np
 import pytest
 
 from fleet.histories import entry, history, parameter, quarters
-from zlmreport.fleet.records import Entry
-from zlmreport.fleet.trend import series_of, standing
-from zlmreport.fleet.trend_fleet import (
+from zlmreport.fleet.drifts import (
     FALSE_SHARE,
     Trend,
     chosen_by_benjamini_hochberg,
@@ -18,7 +16,8 @@ from zlmreport.fleet.trend_fleet import (
     named_in_families,
     trends,
 )
-from zlmreport.fleet.trend_line import line_through
+from zlmreport.fleet.records import Entry
+from zlmreport.fleet.trend import line_through, series_of, standing
 
 #: The fifteen p-values of the paper of Benjamini and Hochberg (1995), section 4.
 PUBLISHED = [

@@ -12,8 +12,7 @@ import pytest
 
 from environments import ROOT
 from fleet.histories import entry, history, parameter, quarters
-from zlmreport.fleet.trend import Series, series_of, standing
-from zlmreport.fleet.trend_line import DAYS_PER_YEAR, Line, forecast, line_through
+from zlmreport.fleet.trend import DAYS_PER_YEAR, Line, Series, forecast, line_through, series_of, standing
 from zlmreport.model.distributions import t_quantile
 
 #: t(0.975; 4), from tables.

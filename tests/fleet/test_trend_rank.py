@@ -8,7 +8,7 @@ from itertools import combinations, permutations
 import numpy as np
 import pytest
 
-from zlmreport.fleet.trend_rank import rank_p_value
+from zlmreport.fleet.trend import rank_p_value
 
 
 def surplus(values: tuple[float, ...]) -> int:

@@ -15,7 +15,7 @@ from typing import Any, Self
 from zlmreport.cli.fleet_log import JsonLog, Progress, TextLog, by_word, of_job
 from zlmreport.cli.terminal import print_json, visible
 from zlmreport.errors import AccessError, InputError, Place
-from zlmreport.fleet.desk import Happened, What
+from zlmreport.fleet.issuing import Happened, What
 from zlmreport.fleet.night import foretell, spend
 from zlmreport.fleet.plan import Due, Planned
 from zlmreport.job.fleet import FleetFile, load_fleet

@@ -12,7 +12,7 @@ from typing import Any, TextIO
 
 from zlmreport.cli.terminal import visible
 from zlmreport.errors import Problem
-from zlmreport.fleet.desk import Happened, What
+from zlmreport.fleet.issuing import Happened, What
 
 _WORD = 9
 _BAR, _USUAL_WIDTH = 30, 80

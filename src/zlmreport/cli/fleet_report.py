@@ -12,9 +12,9 @@ from zlmreport.files import Document, write
 from zlmreport.fleet.basis import path_in
 from zlmreport.fleet.ledger import Ledger
 from zlmreport.fleet.overview import overview
-from zlmreport.fleet.overview_names import Names
-from zlmreport.fleet.overview_state import FleetState, Night, state_of
+from zlmreport.fleet.overview_cells import Names
 from zlmreport.fleet.prometheus import metrics
+from zlmreport.fleet.state import FleetState, Night, state_of
 from zlmreport.job.fleet import FleetFile, job_files, load_fleet
 from zlmreport.language import Language
 from zlmreport.plugins import find_plugins

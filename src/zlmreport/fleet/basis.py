@@ -1,13 +1,25 @@
-"""What a certificate was made from, and what of it has changed since."""
+"""What a certificate was made from, files and programs, and what of it has changed since."""
 
 from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Iterator, Mapping
+import os
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from importlib.machinery import PathFinder
+from importlib.metadata import entry_points
 from pathlib import Path
 from typing import Any, Self
+
+from pydantic import BaseModel
+
+from zlmreport.certificate.document import Certificate
+from zlmreport.job.fleet import FleetFile
+from zlmreport.job.job import Job
+from zlmreport.plugin import kinds
+from zlmreport.plugins import FILES, Registry
+from zlmreport.plugins.find import GROUP
 
 #: Files younger than this when a certificate is begun may change while it is made without looking different
 #: afterwards, on file systems whose clock has a coarse tick; seconds.
@@ -77,6 +89,21 @@ class KnownFile:
         return cls(role, path, sha256, Look(*look) if look else None)
 
 
+def is_intact(path: Path, file: KnownFile) -> bool:
+    """Whether a file is as it was issued; one that was only added to, as a signature is, counts as such."""
+    if file.look is None:
+        return sha256_of(path) == file.sha256
+    with path.open("rb") as opened:
+        begin = opened.read(file.look.size)
+    return hashlib.sha256(begin).hexdigest() == file.sha256
+
+
+def sha256_of(path: Path) -> str:
+    """Return the digest of a file's bytes, hexadecimal."""
+    with path.open("rb") as opened:
+        return hashlib.file_digest(opened, "sha256").hexdigest()
+
+
 @dataclass(frozen=True, slots=True)
 class Basis:
     """Everything that a certificate depends on.
@@ -86,7 +113,7 @@ class Basis:
     files
         The job, what it extends, readings, tables, pictures.
     programs
-        The program and the plugins that took part, with their versions, as `zlmreport.fleet.program` says.
+        The program and the plugins that took part, with their versions, as `program_versions` says.
     formats
         Identifiers of the renderers.
     defaults
@@ -154,8 +181,7 @@ class Disk:
         """Return the digest of a file; None if it cannot be read."""
         if path not in self._digests:
             try:
-                with (self.folder / path).open("rb") as opened:
-                    self._digests[path] = hashlib.file_digest(opened, "sha256").hexdigest()
+                self._digests[path] = sha256_of(self.folder / path)
             except OSError:
                 self._digests[path] = None
         return self._digests[path]
@@ -206,3 +232,124 @@ def _changed_program(name: str, before: str, now: str | None) -> str:
 def path_in(folder: Path, path: Path) -> str:
     """Return a path as a ledger keeps it: relative to a folder, or from the root."""
     return str(path.relative_to(folder) if path.is_relative_to(folder) else path.absolute())
+
+
+OWN = "zlmreport"
+#: The packages of the program itself: code, built-in plugins, templates and fonts.
+_OWN_PACKAGES = (OWN, "zlmreport_plugins", "zlmreport_templates")
+#: All plugins together: a diagnosis tries every effect that is installed.
+_ALL = "the set of plugins"
+
+
+def program_versions(
+    environment: Mapping[str, str] = os.environ, files: Sequence[Path] = ()
+) -> Mapping[str, str]:
+    """Return the version of the program and of every plugin: its release, and a digest of its code.
+
+    The digest is what tells a plugin that is still being written from what it was yesterday.
+
+    Parameters
+    ----------
+    environment
+        As `zlmreport.plugins.find_plugins` reads it.
+    files
+        Plugins in files of their own.
+    """
+    packages: dict[str, set[str]] = {OWN: set(_OWN_PACKAGES)}
+    releases: dict[str, str] = {}
+    for point in entry_points(group=GROUP):
+        name = point.dist.name if point.dist else point.name
+        packages.setdefault(name, set()).add(point.module.partition(".")[0])
+        releases[name] = point.dist.version if point.dist else ""
+    found = {
+        name: f"{releases.get(name, '')} {_digest(_code_of(sorted(own)))}" for name, own in packages.items()
+    }
+    named = [Path(name) for name in environment.get(FILES, "").split(os.pathsep) if name]
+    for path in dict.fromkeys(each.resolve() for each in (*named, *files)):
+        found[str(path)] = f" {_digest([path])}"
+    combined = hashlib.sha256(repr(sorted(found.items())).encode()).hexdigest()
+    return {**dict(sorted(found.items())), _ALL: f" {combined[:16]}"}
+
+
+def release(version: str) -> str:
+    """Return the release in a version; without one, that there is none."""
+    return version.partition(" ")[0] or "of no release"
+
+
+def programs_of(job: Job, formats: Iterable[str], registry: Registry) -> frozenset[str]:
+    """Return the names of what takes part in a job, as `program_versions` has them."""
+    keys: list[tuple[kinds.Kind[Any], str]] = [
+        (kinds.SOURCE, each.identifier) for each in (job.source, job.source_as_found) if each
+    ]
+    keys.extend((kinds.STANDARD, choice.identifier) for choice in job.standards)
+    keys.extend((kinds.RENDERER, identifier) for identifier in formats)
+    plugins = [registry.origin(kind, identifier) for kind, identifier in keys]
+    names = {plugin.distribution or plugin.module for plugin in plugins}
+    return frozenset(names | {OWN} | ({_ALL} if job.effects else set()))
+
+
+def _code_of(packages: Iterable[str]) -> Iterator[Path]:
+    """Yield the files of packages, in order, without importing any."""
+    for package in packages:
+        spec = PathFinder.find_spec(package)
+        for folder in (spec.submodule_search_locations or ()) if spec else ():
+            for root, folders, files in os.walk(folder):
+                folders[:] = sorted(name for name in folders if name != "__pycache__")
+                yield from (Path(root, name) for name in sorted(files))
+        if spec and spec.origin and not spec.submodule_search_locations:
+            yield Path(spec.origin)
+
+
+def _digest(files: Iterable[Path]) -> str:
+    digest = hashlib.sha256()
+    for path in files:
+        digest.update(path.name.encode() + b"\0" + path.read_bytes())
+    return digest.hexdigest()[:16]
+
+
+def files_behind(certificate: Certificate, job: Job, fleet: FleetFile, begun: float) -> Iterator[KnownFile]:
+    """Yield every file that a certificate was made from, once; those that nobody wrote are none.
+
+    Parameters
+    ----------
+    certificate
+        It names what its readers say that they read.
+    job
+        It names files, too, whose reader may not say that it read them.
+    fleet
+        The fleet file.
+    begun
+        When the work on it began, s: a file written after that may be another than the one that was read.
+    """
+    folder = fleet.path.parent
+    own = job.files[
+        1 if fleet.defaults else 0
+    ].path  # the first extends the defaults, too, and nobody wrote it
+    seen: set[str] = set()
+    stated = [(each.role.key, each.file.path, each.file.sha256) for each in certificate.sources]
+    for role, path, sha256 in (*stated, *(("file", path, "") for path in _named(job))):
+        if path is None or not path.is_file() or path_in(folder, path) in seen:
+            continue
+        seen.add(path_in(folder, path))
+        look = Look.at(path)
+        digest = sha256 or hashlib.sha256(path.read_bytes()).hexdigest()
+        kind = "job" if path == own else role
+        yield KnownFile(kind, path_in(folder, path), digest, look if look.is_settled(begun) else None)
+
+
+def _named(job: Job) -> Iterator[Path]:
+    """Yield every path among the values of a job."""
+    options = [each.options for each in (job.source, job.source_as_found, *job.standards) if each]
+    for group in (job.keys, *options):
+        yield from _paths(group)
+
+
+def _paths(value: object) -> Iterator[Path]:
+    if isinstance(value, Path):
+        yield value
+    elif isinstance(value, BaseModel):
+        for name in type(value).model_fields:
+            yield from _paths(getattr(value, name))
+    elif isinstance(value, list | tuple):
+        for each in value:
+            yield from _paths(each)

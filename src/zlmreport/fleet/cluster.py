@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any, Self
 
 from zlmreport.errors import AccessError, InputError, Place, Problem
-from zlmreport.fleet.work import Failed, Made, Task, work
+from zlmreport.fleet.making import Failed, Made, Task, work
 
 #: For which a scheduler may be silent, and be without workers, s.
 _PATIENCE = 30

@@ -9,15 +9,13 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Protocol
 
-from zlmreport.fleet import program
-from zlmreport.fleet.basis import Basis, KnownFile
+from zlmreport.fleet.basis import Basis, KnownFile, program_versions
 from zlmreport.fleet.cluster import Cluster
-from zlmreport.fleet.desk import Desk, Happened, What
+from zlmreport.fleet.issuing import Desk, Happened, What, tidy
 from zlmreport.fleet.ledger import Ledger
+from zlmreport.fleet.making import Failed, Task, defaults_digest
 from zlmreport.fleet.plan import Due, Evening, Planned, plan, reasons
 from zlmreport.fleet.pool import Pool
-from zlmreport.fleet.shelf import tidy
-from zlmreport.fleet.work import Failed, Task, defaults_digest
 from zlmreport.job.fleet import FleetFile, job_files
 
 _MADE = frozenset({Due.CERTIFICATE, Due.COMPARISON})
@@ -37,7 +35,7 @@ def evening(fleet: FleetFile, jobs: tuple[Path, ...], ledger: Ledger, plugins: t
     """Return what is known before a night."""
     now = Basis(
         files=(),
-        programs=program.versions(files=plugins),
+        programs=program_versions(files=plugins),
         formats=tuple(identifier for identifier, _ in fleet.formats),
         defaults=defaults_digest(fleet),
     )

@@ -1,24 +1,32 @@
-"""The overview of a fleet: one page of HTML that somebody opens each morning."""
+"""The overview of a fleet: one page of HTML that somebody opens each morning.
+
+What needs somebody, worst first; every machine with its axes and their latest values; how to read it all.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import replace
-from datetime import date
+from collections import defaultdict
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from datetime import date, timedelta
+from itertools import groupby
 
 from zlmreport.fleet import overview_words as words
-from zlmreport.fleet.overview_cells import Cells
-from zlmreport.fleet.overview_graph import Period
-from zlmreport.fleet.overview_legend import legend
-from zlmreport.fleet.overview_machines import machines
-from zlmreport.fleet.overview_names import Names
-from zlmreport.fleet.overview_needs import needs
-from zlmreport.fleet.overview_state import FleetState, Night
+from zlmreport.fleet.drifts import FALSE_SHARE, LEAST_DATES, Trend
+from zlmreport.fleet.overview_cells import Cells, Names, Period, small_graph
+from zlmreport.fleet.records import Entry, RecordedParameter, State
+from zlmreport.fleet.state import Failure, FleetState, Night
+from zlmreport.fleet.trend import Calibration, Series, line_through
 from zlmreport.language import Language, Words
 from zlmreport.typesetting.overview import (
+    OverviewCellContext,
     OverviewContext,
+    OverviewGroupContext,
+    OverviewLegendContext,
     OverviewSectionContext,
+    OverviewTableContext,
     TileContext,
+    drawing,
     overview_style,
 )
 from zlmreport.typesetting.templates import render
@@ -103,3 +111,249 @@ def _sections(state: FleetState, cells: Cells) -> Iterator[OverviewSectionContex
     yield OverviewSectionContext("machines", cells.say(words.MACHINES), "", "", shown)
     reading = (render(legend(cells)),)
     yield OverviewSectionContext("reading", cells.say(words.READING), "", "", reading)
+
+
+@dataclass(frozen=True, slots=True)
+class _Kind:
+    """A kind of thing that needs somebody: its anchor, and the words and columns of its table."""
+
+    key: str
+    title: Words
+    caption: Words
+    columns: tuple[Words, ...]
+
+
+_FAILED = _Kind("failed", words.FAILED, words.FAILED_CAPTION, (words.JOB, words.MESSAGE, words.SINCE))
+_LIMIT_COLUMNS = (
+    *(words.AXIS, words.PARAMETER, words.VALUE, words.LIMIT),
+    *(words.COURSE, words.CERTIFICATE),
+)
+_NOT_MET = _Kind("not-met", words.NOT_MET, words.NOT_MET_CAPTION, _LIMIT_COLUMNS)
+_UNDECIDED = _Kind("undecided", words.UNDECIDED, words.UNDECIDED_CAPTION, _LIMIT_COLUMNS)
+_DRIFTING = _Kind(
+    "drifting",
+    words.DRIFTING,
+    words.DRIFTING_CAPTION,
+    (
+        *(words.AXIS, words.PARAMETER, words.VALUE, words.LIMIT),
+        *(words.COURSE, words.DRIFT, words.REACHED),
+    ),
+)
+_DRAFTS = _Kind(
+    "drafts",
+    words.DRAFTS,
+    words.DRAFTS_CAPTION,
+    (words.CERTIFICATE, words.REASON, words.JOB, words.SINCE),
+)
+
+
+def needs(state: FleetState, cells: Cells) -> Iterator[OverviewTableContext]:
+    """Yield a table of each kind of thing that needs somebody; none where there is nothing of the kind."""
+    if state.failures:
+        yield _failures(state.failures, cells)
+    if state.not_met:
+        yield _limits(_NOT_MET, state.not_met, cells)
+    if state.undecided:
+        yield _limits(_UNDECIDED, state.undecided, cells)
+    if state.drifting:
+        yield _drifts(state.drifting, cells)
+    if state.drafts:
+        yield _drafts(state.drafts, cells)
+
+
+def _failures(failures: Sequence[Failure], cells: Cells) -> OverviewTableContext:
+    groups = [
+        OverviewGroupContext(
+            OverviewCellContext(failure.entry.job, note=_subject(failure.entry)),
+            (
+                (
+                    OverviewCellContext(failure.entry.message, style="message"),
+                    OverviewCellContext(failure.since[:10], style="date"),
+                ),
+            ),
+        )
+        for failure in failures
+    ]
+    return _table(_FAILED, groups, cells)
+
+
+def _limits(kind: _Kind, trends: Sequence[Trend], cells: Cells) -> OverviewTableContext:
+    groups = [
+        OverviewGroupContext(
+            cells.axis(each[0]),
+            tuple(
+                (
+                    cells.parameter(trend),
+                    cells.value(trend),
+                    cells.limit(trend),
+                    cells.course(trend),
+                    cells.certificate(trend.series.calibrations[-1].entry),
+                )
+                for trend in each
+            ),
+        )
+        for each in _by_axis(trends)
+    ]
+    return _table(kind, groups, cells)
+
+
+def _drifts(trends: Sequence[Trend], cells: Cells) -> OverviewTableContext:
+    groups = []
+    for of_axis in _by_axis(trends):
+        limited = [each for each in of_axis if each.series.latest.limit is not None]
+        others = [each for each in of_axis if each.series.latest.limit is None]
+        # An axis of which nothing is limited still shows its first parameter.
+        shown = limited or of_axis[:1]
+        head = cells.axis(of_axis[0])
+        also = cells.symbols(each for each in others if each not in shown)
+        if also:
+            note = cells.say(words.ALSO.given(symbols=also))
+            head = OverviewCellContext(head.content, note=f"{head.note}; {note}")
+        rows = tuple(
+            (
+                cells.parameter(trend),
+                cells.value(trend),
+                cells.limit(trend),
+                cells.course(trend),
+                cells.drift(trend),
+                cells.reached(trend),
+            )
+            for trend in shown
+        )
+        groups.append(OverviewGroupContext(head, rows))
+    return _table(_DRIFTING, groups, cells)
+
+
+def _drafts(drafts: Sequence[Entry], cells: Cells) -> OverviewTableContext:
+    groups = [
+        OverviewGroupContext(
+            OverviewCellContext(entry.number, note=_subject(entry), links=cells.links(entry)),
+            (
+                (
+                    OverviewCellContext(entry.message, style="message"),
+                    OverviewCellContext(entry.job),
+                    OverviewCellContext(entry.night[:10], style="date"),
+                ),
+            ),
+        )
+        for entry in drafts
+    ]
+    return _table(_DRAFTS, groups, cells)
+
+
+def _by_axis(trends: Sequence[Trend]) -> list[list[Trend]]:
+    """Return trends by their axes, in the order in which the axes come first."""
+    found: defaultdict[tuple[str, str], list[Trend]] = defaultdict(list)
+    for each in trends:
+        found[each.series.machine, each.series.axis].append(each)
+    return list(found.values())
+
+
+def _subject(entry: Entry) -> str:
+    return ", ".join(each for each in (entry.machine, entry.axis) if each)
+
+
+def _table(kind: _Kind, groups: Sequence[OverviewGroupContext], cells: Cells) -> OverviewTableContext:
+    return OverviewTableContext(
+        key=kind.key,
+        style=kind.key,
+        title=cells.say(kind.title),
+        count=str(len(groups)),
+        caption=cells.say(kind.caption),
+        headings=tuple(OverviewCellContext(cells.say(column)) for column in kind.columns),
+        groups=tuple(groups),
+    )
+
+
+_COLUMNS = (
+    *(words.AXIS, words.PARAMETER, words.VALUE, words.LIMIT),
+    *(words.STATE, words.COURSE, words.DRIFT),
+)
+
+
+def machines(state: FleetState, cells: Cells) -> Iterator[OverviewTableContext]:
+    """Yield a table of each machine."""
+    by_machine = groupby(state.trends, key=lambda trend: trend.series.machine)
+    for number, (machine, of_machine) in enumerate(by_machine, start=1):
+        by_axis = groupby(of_machine, key=lambda trend: trend.series.axis)
+        yield OverviewTableContext(
+            key=f"machine-{number}",
+            style="machine",
+            title=machine or cells.say(words.NO_MACHINE),
+            count="",
+            caption=cells.say(words.MACHINE_CAPTION.given(first=cells.period.first.isoformat())),
+            headings=tuple(OverviewCellContext(cells.say(column)) for column in _COLUMNS),
+            groups=tuple(_axis(list(of_axis), cells) for _, of_axis in by_axis),
+        )
+
+
+def _axis(trends: Sequence[Trend], cells: Cells) -> OverviewGroupContext:
+    latest = max((trend.series.calibrations[-1] for trend in trends), key=lambda each: each.measured)
+    measured = words.MEASURED.given(date=latest.measured.isoformat())
+    return OverviewGroupContext(
+        OverviewCellContext(trends[0].series.axis, note=cells.say(measured), links=cells.links(latest.entry)),
+        tuple(
+            (
+                cells.parameter(trend),
+                cells.value(trend),
+                cells.limit(trend),
+                cells.state(trend),
+                cells.course(trend),
+                cells.drift(trend),
+            )
+            for trend in _shown(trends)
+        ),
+    )
+
+
+def _shown(trends: Sequence[Trend]) -> tuple[Trend, ...]:
+    """Return the parameters with a limit, and the first of each standard that limits none."""
+    limited = {each.series.standard for each in trends if each.series.latest.limit is not None}
+    first = {
+        standard: next(of_standard)
+        for standard, of_standard in groupby(trends, key=lambda each: each.series.standard)
+    }
+    return tuple(
+        each
+        for each in trends
+        if each.series.latest.limit is not None
+        or (each.series.standard not in limited and each is first[each.series.standard])
+    )
+
+
+_FIRST = date(2000, 1, 1)
+_SAMPLE = (8.4, 9.9, 11.2, 13.5, 14.6, 17.0, 18.4, 20.6)
+_UNCERTAINTY, _LIMIT = 1.5, 20.0
+
+
+def legend(cells: Cells) -> OverviewLegendContext:
+    """Return the legend."""
+    terms = (
+        (words.TERM_VALUE, words.MEANING_VALUE),
+        (words.TERM_BAND, words.MEANING_BAND),
+        (words.TERM_LIMIT, words.MEANING_LIMIT),
+        (words.TERM_DRIFT, words.MEANING_DRIFT),
+    )
+    method = words.DRIFT_METHOD.given(least=LEAST_DATES, share=round(100 * FALSE_SHARE))
+    sample = _sample()
+    calibrations = sample.series.calibrations
+    period = Period(calibrations[0].measured, calibrations[-1].measured)
+    return OverviewLegendContext(
+        drawing=drawing(small_graph(sample, period, cells.say(words.SAMPLE))),
+        terms=tuple((cells.say(term), cells.say(meaning)) for term, meaning in terms),
+        paragraphs=(cells.say(method), cells.say(words.FORECAST_METHOD)),
+    )
+
+
+def _sample() -> Trend:
+    entry = Entry("", "", "", "", "", "", "", State.MADE)
+    calibrations = tuple(
+        Calibration(
+            _FIRST + timedelta(days=91 * quarter),
+            entry,
+            RecordedParameter("", "", value, "um", _UNCERTAINTY, _LIMIT, value <= _LIMIT),
+        )
+        for quarter, value in enumerate(_SAMPLE)
+    )
+    series = Series("", "", "", "", "um", calibrations)
+    return Trend(series, line_through(series), drifts=True)

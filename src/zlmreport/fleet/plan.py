@@ -9,10 +9,9 @@ from enum import Enum
 from pathlib import Path
 
 from zlmreport.errors import Place, Problem, ZlmreportError
-from zlmreport.fleet.basis import Basis, Disk, KnownFile, changes, path_in
+from zlmreport.fleet.basis import Basis, Disk, KnownFile, changes, is_intact, path_in
 from zlmreport.fleet.ledger import Issued, Standing
 from zlmreport.fleet.records import State
-from zlmreport.fleet.shelf import is_intact
 from zlmreport.job.fleet import FleetFile, number_of
 
 

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Self
 
 from zlmreport.errors import Place, Problem
-from zlmreport.fleet.work import Failed, Made, Task, warm, work
+from zlmreport.fleet.making import Failed, Made, Task, warm, work
 
 #: Certificates after which a worker makes room for a new one: no library is trusted to leak nothing.
 LIFE = 500

@@ -11,8 +11,8 @@ from dataclasses import dataclass, field
 from datetime import UTC, date, datetime
 from types import MappingProxyType
 
-from zlmreport.fleet.overview_state import FleetState
-from zlmreport.fleet.trend_fleet import Trend
+from zlmreport.fleet.drifts import Trend
+from zlmreport.fleet.state import FleetState
 from zlmreport.quantities.units import ANGLES, ARCSECOND, LENGTHS, MICROMETRE, Unit
 
 _NO_LABELS: Mapping[str, str] = MappingProxyType({})

@@ -10,23 +10,38 @@ import hashlib
 import threading
 import time
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path, PurePosixPath
 
 from zlmreport import pipeline
+from zlmreport.certificate.document import Certificate
 from zlmreport.errors import InputError, Place, Problem, as_problems
-from zlmreport.fleet import program
-from zlmreport.fleet.basis import Basis
-from zlmreport.fleet.draft import MARK, drafted
-from zlmreport.fleet.layout import folder_of
-from zlmreport.fleet.records import RecordedParameter
-from zlmreport.fleet.shelf import Finished
-from zlmreport.fleet.sources import files_behind
-from zlmreport.fleet.stated import Subject, parameters_of
+from zlmreport.fleet.basis import Basis, files_behind, program_versions, programs_of, release
+from zlmreport.fleet.records import RecordedParameter, Subject, folder_of, parameters_of
 from zlmreport.job.fleet import FleetFile, load_fleet
 from zlmreport.job.job import Job
 from zlmreport.job.loading import chosen_formats, load
+from zlmreport.language import Words
 from zlmreport.plugins import Registry, find_plugins
+
+#: Before the suffix of a draft's file.
+MARK = ".draft"
+
+_TITLE = Words(en="Draft, not issued: {title}", de="Entwurf, nicht ausgestellt: {title}")
+
+
+def drafted(certificate: Certificate) -> Certificate:
+    """Return a certificate as a draft: its number stands already for a document with another content."""
+
+    def marked(title: str) -> str:
+        return _TITLE.given(title=title).in_language(certificate.language)
+
+    words = certificate.page_words
+    return replace(
+        certificate,
+        title=marked(certificate.title),
+        page_words=replace(words, number=marked(words.number)),
+    )
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,6 +72,30 @@ class Task:
     folder: str
     plugins: tuple[Path, ...]
     programs: Mapping[str, str]
+
+
+@dataclass(frozen=True, slots=True)
+class Finished:
+    """A file that is to be on the disk.
+
+    Attributes
+    ----------
+    role
+        Suffix of its format: ``.pdf``.
+    path
+        Relative to the folder of certificates.
+    content
+        Its bytes.
+    """
+
+    role: str
+    path: str
+    content: bytes
+
+    @property
+    def sha256(self) -> str:
+        """Digest of its bytes, hexadecimal."""
+        return hashlib.sha256(self.content).hexdigest()
 
 
 @dataclass(frozen=True, slots=True)
@@ -165,9 +204,9 @@ def _digest(content: bytes) -> str:
 def _programs(task: Task, job: Job, registry: Registry) -> dict[str, str]:
     """Return the versions of what takes part; refuse to work with other releases than the night's."""
     here = _versions(task.plugins)
-    names = sorted(program.used(job, job.formats, registry))
+    names = sorted(programs_of(job, job.formats, registry))
     for name in names:
-        own, begun_with = (program.release(each.get(name, "")) for each in (here, task.programs))
+        own, begun_with = (release(each.get(name, "")) for each in (here, task.programs))
         if own != begun_with:
             raise InputError.at(
                 Place(str(task.job)),
@@ -184,7 +223,7 @@ def _registry(plugins: tuple[Path, ...]) -> Registry:
 
 @functools.cache
 def _versions(plugins: tuple[Path, ...]) -> Mapping[str, str]:
-    return program.versions(files=plugins)
+    return program_versions(files=plugins)
 
 
 @functools.lru_cache(maxsize=4)

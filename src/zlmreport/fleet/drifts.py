@@ -14,9 +14,7 @@ from collections import defaultdict
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
-from zlmreport.fleet.trend import Series
-from zlmreport.fleet.trend_line import Forecast, Line, forecast, line_through
-from zlmreport.fleet.trend_rank import rank_p_value
+from zlmreport.fleet.trend import Forecast, Line, Series, forecast, line_through, rank_p_value
 
 #: Of the axes that are named, no larger share is named by accident, in the long run.
 FALSE_SHARE = 0.05

@@ -1,19 +1,109 @@
-"""Opening the database of a ledger, whichever it is."""
+"""The database of a ledger, in SQLite or PostgreSQL: its tables, and the lock for one night at a time.
+
+The lock is gone when its holder is, however that ended.
+"""
 
 from __future__ import annotations
 
 import contextlib
+import fcntl
+import hashlib
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from sqlalchemy import URL, Connection, Engine, create_engine, event, insert, make_url, select
+from sqlalchemy import (
+    JSON,
+    URL,
+    Boolean,
+    Column,
+    Connection,
+    Double,
+    Engine,
+    ForeignKey,
+    Index,
+    Integer,
+    MetaData,
+    String,
+    Table,
+    Text,
+    create_engine,
+    event,
+    func,
+    insert,
+    make_url,
+    select,
+)
 from sqlalchemy.exc import ArgumentError, IntegrityError, NoSuchModuleError, SQLAlchemyError
 from sqlalchemy.pool import StaticPool
 
 from zlmreport.errors import AccessError, InputError, Place, ZlmreportError
-from zlmreport.fleet.ledger_tables import FORMAT, FORMATS, METADATA
+
+#: Of these tables; a program that knows another refuses the ledger.
+FORMAT = 1
+
+METADATA = MetaData()
+
+FORMATS = Table("ledger_format", METADATA, Column("format", Integer, primary_key=True, autoincrement=False))
+
+#: Each run of a fleet; one that never ended was interrupted.
+NIGHTS = Table(
+    "nights",
+    METADATA,
+    Column("id", Integer, primary_key=True),
+    Column("fleet", String, nullable=False),
+    Column("began", String, nullable=False),
+    Column("ended", String),
+    Column("host", String, nullable=False),
+    Column("process", Integer, nullable=False),
+)
+
+#: What became of a job in a night in which something became of it; rows are only ever added.
+ENTRIES = Table(
+    "entries",
+    METADATA,
+    Column("id", Integer, primary_key=True),
+    Column("fleet", String, nullable=False),
+    Column("night", ForeignKey("nights.id"), nullable=False),
+    Column("job", String, nullable=False),
+    Column("number", String, nullable=False),
+    Column("machine", String, nullable=False),
+    Column("axis", String, nullable=False),
+    Column("measured", String, nullable=False),
+    Column("digest", String, nullable=False),
+    Column("state", String, nullable=False),
+    Column("message", Text, nullable=False),
+    Column("files", JSON, nullable=False),
+    Column("basis", JSON),
+    Index("entries_of_jobs", "fleet", "job", "id"),
+)
+
+#: What a certificate states.
+PARAMETERS = Table(
+    "parameters",
+    METADATA,
+    Column("entry", ForeignKey("entries.id"), primary_key=True),
+    Column("row", Integer, primary_key=True),
+    Column("standard", String, nullable=False),
+    Column("symbol", String, nullable=False),
+    Column("value", Double, nullable=False),
+    Column("unit", String, nullable=False),
+    Column("expanded_uncertainty", Double),
+    Column("limit", Double),
+    Column("conforms", Boolean),
+)
+
+#: The certificates that were issued. The key is what keeps a number from being given twice, whatever program
+#: writes here.
+CERTIFICATES = Table(
+    "certificates",
+    METADATA,
+    Column("number", String, primary_key=True),
+    Column("entry", ForeignKey("entries.id"), nullable=False),
+    Column("files", JSON, nullable=False),
+)
+
 
 _DATABASES = ("sqlite", "postgresql")
 #: For which a program that also reads or writes the ledger may keep it, s.
@@ -150,3 +240,64 @@ def _demand_format(connection: Connection, address: str) -> None:
             f"is a ledger of format {found[0]}, and this program writes format {FORMAT}; "
             "use the version of zlmreport that wrote it",
         )
+
+
+#: Of the lock among all locks of a PostgreSQL database.
+_KEY = int.from_bytes(hashlib.sha256(b"zlmreport fleet").digest()[:8], "big", signed=True)
+
+
+@contextlib.contextmanager
+def locked(database: Database, holder: str) -> Iterator[None]:
+    """Hold the lock of a ledger.
+
+    Parameters
+    ----------
+    database
+        The ledger's.
+    holder
+        Who holds it, for the message to whoever comes second.
+
+    Raises
+    ------
+    AccessError
+        If another holds it.
+    """
+    if database.engine.url.get_backend_name() == "sqlite":
+        with _locked_file(Path(f"{database.engine.url.database}.lock"), database.address, holder):
+            yield
+    else:
+        with _locked_database(database):
+            yield
+
+
+@contextlib.contextmanager
+def _locked_file(path: Path, address: str, holder: str) -> Iterator[None]:
+    with path.open("a+", encoding="utf-8") as file:
+        try:
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            file.seek(0)
+            raise _taken(address, file.read().strip()) from None
+        file.truncate(0)
+        file.write(holder)
+        file.flush()
+        yield
+
+
+@contextlib.contextmanager
+def _locked_database(database: Database) -> Iterator[None]:
+    """Hold a lock of a session of its own, which ends with the connection."""
+    with database.engine.connect().execution_options(isolation_level="AUTOCOMMIT") as connection:
+        try:
+            has_it = connection.scalar(select(func.pg_try_advisory_lock(_KEY)))
+        except SQLAlchemyError as error:
+            raise no_access(database.address, error) from error
+        if not has_it:
+            raise _taken(database.address, "")
+        yield
+
+
+def _taken(address: str, holder: str) -> AccessError:
+    by = f" ({holder})" if holder else ""
+    message = f"another night is at work on this ledger{by}; this one does nothing"
+    return AccessError([*AccessError.at(Place(shown(address)), message).problems])

@@ -6,9 +6,9 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import date, datetime
 
+from zlmreport.fleet.drifts import Trend, trends
 from zlmreport.fleet.records import Entry, State
 from zlmreport.fleet.trend import series_of, standing
-from zlmreport.fleet.trend_fleet import Trend, trends
 
 
 @dataclass(frozen=True, slots=True)
