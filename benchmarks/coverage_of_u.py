@@ -1,15 +1,16 @@
-"""Whether the stated intervals y ± U hold the true values: tests of a known axis, measured by a known set-up.
+"""Whether the stated intervals hold what they are said to hold, for axes and set-ups that are known.
 
-An axis is given with all its readings as they truly are. Errors of the set-up are drawn from its own budget
-and added; the spoilt test is evaluated, and y ± U of each parameter is held against the parameter of the true
-readings.
+Two questions. *This test*: an axis is given with all its readings as they truly are; errors of the set-up are
+drawn and added, the spoilt test is evaluated, and y ± U of each parameter is held against that of the
+true readings. *This axis*: two tests of one axis are drawn, and the interval that the first states for the
+axis is held against what the second finds.
 """
 
 from __future__ import annotations
 
 import argparse
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import partial
 
@@ -21,91 +22,158 @@ from zlmreport.language import same
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.plugin.protocols import Standard
 from zlmreport.plugins import find_plugins
+from zlmreport.quantities.arrays import FloatArray
 from zlmreport.testing import simulated_test
+from zlmreport.uncertainty.axis_interval import axis_intervals
 from zlmreport.uncertainty.budget import Budget, effect_along
 from zlmreport.uncertainty.contribution import Acts, Contribution, Distribution
 from zlmreport.uncertainty.draws import single_draws
+from zlmreport.uncertainty.drift import Drift, drawn_drifts, drift_range, reading_times
 from zlmreport.uncertainty.monte_carlo import propagate
 
 _MICROMETRE = 1e-6
+#: Standard deviation of the readings, µm, and the full ranges of drift beside it.
+_SCATTER = 0.8
+_DRIFTS = (0.6, 2.8)
 
 
 def contribution(size: float, acts: Acts, distribution: Distribution = Distribution.NORMAL) -> Contribution:
     """Return a contribution with the standard uncertainty `size`, µm."""
-    nothing = same("")
-    return Contribution(nothing, size * _MICROMETRE, acts, distribution, nothing, nothing)
+    return Contribution(same(""), size * _MICROMETRE, acts, distribution, same(""), same(""))
 
 
-#: Budgets by what is special in them; the readings of the axis scatter by 0.8 µm.
-BUDGETS: Mapping[str, Budget] = {
-    "laser, quiet room": Budget(
-        (
-            contribution(0.3, Acts.ALONG_THE_LENGTH),
-            contribution(0.2, Acts.ALONG_THE_LENGTH, Distribution.RECTANGULAR),
-            contribution(0.1, Acts.AT_EACH_READING, Distribution.RECTANGULAR),
-        )
-    ),
-    "misalignment dominates": Budget(
-        (
-            contribution(0.5, Acts.ALONG_THE_LENGTH, Distribution.ONE_SIDED),
-            contribution(0.05, Acts.AT_EACH_READING, Distribution.RECTANGULAR),
-        )
-    ),
-    "polygon": Budget(
-        (
-            contribution(0.3, Acts.AT_EACH_POSITION),
-            contribution(0.05, Acts.AT_EACH_READING, Distribution.RECTANGULAR),
-        )
-    ),
-    "drift, a third of the scatter": Budget((contribution(0.27, Acts.AT_EACH_READING),)),
-    "drift as large as the scatter": Budget((contribution(0.8, Acts.AT_EACH_READING),)),
+def drifting(full_range: float) -> Budget:
+    """Return the budget of a set-up that drifts within a range, µm, and does nothing else."""
+    return Budget((contribution(full_range / 12**0.5, Acts.IN_TIME, Distribution.RECTANGULAR),))
+
+
+def _instrument(size: float, acts: Acts) -> Budget:
+    resolution = contribution(0.03, Acts.AT_EACH_READING, Distribution.RECTANGULAR)
+    return Budget((contribution(size, acts), resolution), of_the_instrument=2 * size * _MICROMETRE)
+
+
+#: The worlds: what is special in them, the stated budget, and how its drift truly goes.
+WORLDS: Mapping[str, tuple[Budget, Drift | None]] = {
+    "instrument, each position": (_instrument(0.2, Acts.AT_EACH_POSITION), None),
+    **{
+        f"drift of {full_range} µm, {kind.value}": (drifting(full_range), kind)
+        for full_range in _DRIFTS
+        for kind in Drift
+    },
 }
 
 
-def coverage(
-    budget: Budget, truth: MeasurementSet, standard: Standard, trials: int, simulated: int
+def of_this_test(
+    world: tuple[Budget, Drift | None], axis: MeasurementSet, standard: Standard, trials: int, simulated: int
 ) -> dict[str, float]:
     """Return the share of trials in which y ± U holds the true value, by symbol."""
+    budget, kind = world
     generator = np.random.default_rng(20260101)
-    true = {each.quantity.symbol: each.value for each in evaluate(standard, truth, Options(), {}).parameters}
-    effect = effect_along(truth.target_positions)[truth.target]
+    times = reading_times(axis)
     held: Counter[str] = Counter()
     for _ in range(trials):
-        along, own = (
-            single_draws(budget.acting(acts), shape, generator)
-            for acts, shape in ((Acts.ALONG_THE_LENGTH, ()), (Acts.AT_EACH_READING, truth.deviation.shape))
-        )
-        at_position = single_draws(
-            budget.acting(Acts.AT_EACH_POSITION), truth.target_positions.shape, generator
-        )
-        # What is measured lacks the error by which it would have to be corrected.
-        measured = replace(
-            truth, deviation=truth.deviation - along * effect - at_position[truth.target] - own
-        )
-        evaluation = evaluate(standard, measured, Options(), {})
-        arithmetic = partial(standard.arithmetic, options=Options())
-        (expanded,) = propagate(budget, [(evaluation, arithmetic)], simulated)
-        for each in evaluation.parameters:
+        truth = replace(axis, deviation=_scattered(axis, generator, np.ones_like(axis.deviation)))
+        errors = single_draws(budget.acting(Acts.AT_EACH_READING), truth.deviation.shape, generator)
+        along = single_draws(budget.acting(Acts.ALONG_THE_LENGTH), (), generator)
+        errors += along * effect_along(truth.target_positions)[truth.target]
+        at_position = budget.acting(Acts.AT_EACH_POSITION)
+        errors += single_draws(at_position, truth.target_positions.shape, generator)[truth.target]
+        if kind:
+            (drift,) = drawn_drifts(kind, times, 1, generator)
+            (stated,) = budget.acting(Acts.IN_TIME)
+            runs = np.searchsorted(truth.runs, truth.run)
+            errors += drift_range(stated) * drift[np.where(truth.approach > 0, 0, 1), truth.target, runs]
+        found = _evaluated(replace(truth, deviation=truth.deviation + errors), standard)
+        true = _evaluated(truth, standard)
+        (expanded,) = propagate(budget, [(found, partial(standard.arithmetic, options=Options()))], simulated)
+        for each in found.parameters:
             symbol = each.quantity.symbol
-            held[symbol] += abs(each.value - true[symbol]) <= expanded[symbol].uncertainty
-    return {symbol: held[symbol] / trials for symbol in true}
+            held[symbol] += abs(each.value - true.value(symbol)) <= expanded[symbol].uncertainty
+    return {symbol: count / trials for symbol, count in held.items()}
+
+
+def _alike(axis: MeasurementSet, _: np.random.Generator) -> FloatArray:
+    return np.ones_like(axis.deviation)
+
+
+def _unequal(axis: MeasurementSet, generator: np.random.Generator) -> FloatArray:
+    of_cells = np.exp(generator.normal(0, 0.6, (2, len(axis.target_positions))))
+    return of_cells[np.where(axis.approach > 0, 0, 1), axis.target]
+
+
+def _growing(axis: MeasurementSet, _: np.random.Generator) -> FloatArray:
+    return np.linspace(0.3, 2.0, len(axis.target_positions))[axis.target]
+
+
+def _one_place(axis: MeasurementSet, generator: np.random.Generator) -> FloatArray:
+    return np.where(axis.target == generator.integers(len(axis.target_positions)), 4.0, 1.0)
+
+
+#: How an axis scatters: the relative scatter of its readings, and that of whole runs.
+SCATTERS: Mapping[str, tuple[Callable[[MeasurementSet, np.random.Generator], FloatArray], float]] = {
+    "alike everywhere": (_alike, 0.0),
+    "unequal from position to position": (_unequal, 0.0),
+    "growing along the axis": (_growing, 0.0),
+    "four times as large at one position": (_one_place, 0.0),
+    "whole runs as much as readings": (_alike, 1.0),
+    "whole runs twice as much": (_alike, 2.0),
+}
+
+
+def of_this_axis(scatter: str, axis: MeasurementSet, standard: Standard, trials: int) -> dict[str, float]:
+    """Return the share of trials in which the interval of one test holds what the next finds."""
+    relative, of_runs = SCATTERS[scatter]
+    generator = np.random.default_rng(20260102)
+    held: Counter[str] = Counter()
+    for _ in range(trials):
+        sizes = relative(axis, generator)
+        first, second = (
+            _evaluated(replace(axis, deviation=_scattered(axis, generator, sizes, of_runs)), standard)
+            for _ in range(2)
+        )
+        (intervals,) = axis_intervals([(first, partial(standard.arithmetic, options=Options()))])
+        for symbol, (low, high) in intervals.items():
+            held[symbol] += low <= (second.value(symbol) or 0.0) <= high
+    return {symbol: count / trials for symbol, count in held.items()}
+
+
+def _scattered(
+    axis: MeasurementSet, generator: np.random.Generator, sizes: FloatArray, of_runs: float = 0.0
+) -> FloatArray:
+    """Return readings of the axis's means that scatter anew."""
+    mean = np.nanmean(axis.deviations(), axis=-1)[np.where(axis.approach > 0, 0, 1), axis.target]
+    runs = generator.standard_normal(len(axis.runs))[np.searchsorted(axis.runs, axis.run)]
+    own = sizes * generator.standard_normal(axis.deviation.shape)
+    return np.asarray(mean + _SCATTER * _MICROMETRE * (own + of_runs * runs))
+
+
+def _evaluated(measurements: MeasurementSet, standard: Standard):  # noqa: ANN202 - an Evaluation
+    return evaluate(standard, measurements, Options(), {})
 
 
 def main(arguments: list[str] | None = None) -> None:
-    """Print a table for each standard: a row for each budget, a column for each parameter, in percent."""
+    """Print two tables for each standard: a row for each world, a column for each parameter, in percent."""
     parser = argparse.ArgumentParser(prog="./run benchmark coverage", description=__doc__)
-    parser.add_argument("--trials", type=int, default=4000, help="spoilt tests (%(default)s)")
-    parser.add_argument("--simulated", type=int, default=2000, help="simulated tests of each (%(default)s)")
+    parser.add_argument("--trials", type=int, default=1000, help="tests of each world (%(default)s)")
+    parser.add_argument("--simulated", type=int, default=5000, help="simulated tests of each (%(default)s)")
     parser.add_argument("standards", nargs="*", default=["iso230-2:2014"])
     sizes = parser.parse_args(arguments)
     registry = find_plugins()
-    truth = simulated_test(11)
+    axis = simulated_test(11)
     for identifier in sizes.standards:
         standard = registry.standard(identifier)
         symbols = [quantity.symbol for quantity in standard.quantities]
-        print(f"| {identifier} |", *(f"{symbol} |" for symbol in symbols))
-        print("|---|", *("--:|" for _ in symbols), sep="")
-        for name, budget in BUDGETS.items():
-            found = coverage(budget, truth, standard, sizes.trials, sizes.simulated)
-            print(f"| {name} |", *(f"{100 * found[symbol]:.1f} |" for symbol in symbols), flush=True)
-        print()
+        for title, worlds, measured in (
+            (
+                "this test",
+                WORLDS,
+                lambda name: of_this_test(WORLDS[name], axis, standard, sizes.trials, sizes.simulated),  # noqa: B023
+            ),
+            ("this axis", SCATTERS, lambda name: of_this_axis(name, axis, standard, sizes.trials)),  # noqa: B023
+        ):
+            print(f"| {identifier}, {title} |", *(f"{symbol} |" for symbol in symbols))
+            print("|---|", *("--:|" for _ in symbols), sep="")
+            for name in worlds:
+                found = measured(name)
+                print(f"| {name} |", *(f"{100 * found[symbol]:.1f} |" for symbol in symbols), flush=True)
+            print()

@@ -34,7 +34,7 @@ from zlmreport.step_gauge.uncertainty import gauge_contributions
 from zlmreport.uncertainty import terms
 from zlmreport.uncertainty.budget import Budget
 from zlmreport.uncertainty.contribution import Acts, Contribution, Distribution
-from zlmreport.uncertainty.positions import mean_uncertainty
+from zlmreport.uncertainty.expanded import mean_uncertainty
 
 GAUGE = Path(__file__).parents[1] / "configs" / "step-gauge" / "gauge.yaml"
 HERE = Place("simulated")

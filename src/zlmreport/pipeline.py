@@ -14,10 +14,11 @@ from typing import TYPE_CHECKING, Any
 
 from zlmreport.certificate.attachments import Attachment, arranged, media_type, source_attachments
 from zlmreport.certificate.build import build
-from zlmreport.certificate.clauses import demand_mandatory_items
+from zlmreport.certificate.clauses import missing_items
 from zlmreport.certificate.results import Evaluated
 from zlmreport.correction.corrections import corrected
 from zlmreport.correction.of_job import corrections_of, without_excluded
+from zlmreport.errors import InputError
 from zlmreport.evaluation.decision import decided, decision_rule
 from zlmreport.evaluation.evaluate import evaluate
 from zlmreport.files import Document
@@ -26,6 +27,8 @@ from zlmreport.plugin.kinds import RENDERER
 from zlmreport.plugin.protocols import Renderer, SourceContext, Standard, carries_attachments, relationship_of
 from zlmreport.step_gauge.set_up import gauge_set_up
 from zlmreport.step_gauge.uncertainty import contributions_of_job
+from zlmreport.uncertainty.budget import Budget, NoBudget
+from zlmreport.uncertainty.completeness import refusals
 from zlmreport.uncertainty.expanded import with_uncertainty
 from zlmreport.uncertainty.job_budget import budget_of
 
@@ -74,8 +77,16 @@ def read(job: Job, registry: Registry) -> MeasurementSet:
 
 def compose(job: Job, registry: Registry) -> Certificate:
     """Read, evaluate by every standard that the job names, and compose the document; nothing is rendered."""
-    demand_mandatory_items(job)
-    measurements = read(job, registry)
+    missing = list(missing_items(job))
+    try:
+        measurements = read(job, registry)
+        for each, readings in ((job, measurements), (job.as_found, None)):
+            if each:
+                missing += refusals(each, budget_of_job(each, readings or read(each, registry)))
+    except InputError as error:
+        raise InputError([*missing, *error.problems]) from error
+    if missing:
+        raise InputError(missing)
     evaluations = evaluated(job, measurements, registry)
     studied = modelled(job, measurements, registry) if job.effects else None
     found = job.as_found
@@ -83,11 +94,16 @@ def compose(job: Job, registry: Registry) -> Certificate:
     return build(job, evaluations, registry.versions(job), studied, as_found)
 
 
+def budget_of_job(job: Job, measurements: MeasurementSet) -> Budget | NoBudget:
+    """Return the uncertainty budget of the set-up, that of its step gauge if there is one."""
+    return budget_of(job, measurements, contributions_of_job(job, measurements))
+
+
 def evaluated(job: Job, measurements: MeasurementSet, registry: Registry) -> tuple[Evaluated, ...]:
     """Evaluate readings by every standard that the job names, with uncertainties and decisions."""
     stated = job.keys.decision_rule
     rule = decision_rule(stated.rule, stated.guard_band_factor)
-    budget = budget_of(job, measurements, contributions_of_job(job, measurements))
+    budget = budget_of_job(job, measurements)
     chosen = standards(job, registry)
     bare = [
         (

@@ -30,6 +30,15 @@ from zlmreport.quantities.notation import plain
 
 ROOT = Path(__file__).parents[2]
 
+#: What a test of 40 mm at 20 °C may neglect.
+NEGLIGIBLE = (
+    "misalignment",
+    "machine_temperature",
+    "device_temperature",
+    "expansion_coefficient",
+    "device_expansion_coefficient",
+    "environmental_variation",
+)
 COMPLETE: Mapping[str, Any] = {
     "schema": "zlmreport/job/1",
     "certificate": {
@@ -46,7 +55,8 @@ COMPLETE: Mapping[str, Any] = {
         "source": {"plugin": "laser-csv", "file": str(ROOT / "configs" / "linear-axis" / "y-axis.csv")},
     },
     "instrument": {"name": "Sensor", "certificate": "C-1", "expanded_uncertainty": 2},
-    "environment": {"air_temperature": 20.5},
+    "environment": {"air_temperature": 20.5, "axis_temperature": 20},
+    "uncertainty": {"negligible": dict.fromkeys(NEGLIGIBLE, "40 mm at 20 °C")},
     "evaluate": [{"standard": "iso230-2:2014", "tolerances": {"A": 150, "E": 100}}],
 }
 

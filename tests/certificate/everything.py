@@ -67,6 +67,7 @@ EVERYTHING: Mapping[str, Any] = {
         "expansion_coefficient": 8,
     },
     "environment": CONDITIONS,
+    "uncertainty": {**COMPLETE["uncertainty"], "resolution": 0.01},
     "corrections": {"material": {"expansion_coefficient": 11.5}},
     "procedure": "QP 17, issue 4",
     "provided_by_customer": ["machine.serial", "environment.expansion_coefficient", "evaluate.tolerances"],

@@ -2,7 +2,7 @@
 
 import pytest
 
-from certificate.documents import COMPLETE, certificate, having, lines_of
+from certificate.documents import COMPLETE, certificate, lines_of
 from zlmreport.certificate.document import Notice
 
 AMENDS = {"number": "CAL-0", "reason": "Wrong serial number.", "changes": ["Serial number: S-1, not S-2"]}
@@ -14,7 +14,7 @@ def document(tmp_path):
 
     def compose(**keys):
         changed = {**COMPLETE["certificate"], "amends": AMENDS, **keys}
-        words_only = having("instrument.expanded_uncertainty", "see its certificate")
+        words_only = COMPLETE
         return certificate(tmp_path, {**words_only, "certificate": changed})
 
     return compose

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from certificate.documents import COMPLETE, certificate, having, lines_of, text_of
+from certificate.documents import COMPLETE, certificate, lines_of, text_of
 from zlmreport.certificate.document import Graph, Table
 
 HEAD = "target,direction,run,deviation\n"
@@ -30,7 +30,7 @@ def adjusted(tmp_path: Path):
             "measurement": {"date": "2026-11-17", "source": {"plugin": "laser-csv", "file": "found.csv"}},
         }
         complete = {
-            **having("instrument.expanded_uncertainty", "see its certificate"),
+            **COMPLETE,
             "axis": {"name": "Y"},
             "as_found": before,
             "measurement": {"date": "2026-11-18", "source": {"plugin": "laser-csv", "file": "left.csv"}},
@@ -74,7 +74,7 @@ def test_each_section_of_results_says_to_which_measurement_it_belongs(adjusted):
 def test_the_first_page_shows_the_axis_as_left_and_says_so(adjusted):
     document = adjusted()
     cover = [line for block in document.cover for line in lines_of(block)]
-    assert any("Reversal error | 0.5 | 5 | conforms" in line for line in cover)
+    assert any("Reversal error | 0.500 | 0.058 | 1.99 | 5 | conforms" in line for line in cover)
     assert any("The results above are those after the adjustment" in line for line in cover)
 
 
@@ -88,7 +88,7 @@ def test_both_measurements_are_evaluated_by_every_standard(adjusted):
 
 def test_a_change_is_the_value_as_left_less_the_value_as_found(adjusted):
     rows = lines(adjusted(), "as-found-as-left")
-    assert "B | Reversal error | 8.5 | 0.5 | −8.0" in rows
+    assert "B | Reversal error | 8.500 | 0.057 | 0.500 | 0.058 | −8.0" in rows
 
 
 def test_both_measurements_are_held_against_the_limits(adjusted):

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from certificate.documents import COMPLETE, certificate, text_of
+from certificate.documents import COMPLETE, certificate, having, text_of
 from zlmreport.certificate import results
 from zlmreport.certificate.document import Table
 from zlmreport.certificate.results import Evaluated
@@ -24,6 +24,7 @@ ALL_STANDARDS = [
     "vdi-vde-2617",
     "nmtba",
 ]
+REPORT = having("certificate.kind", "report")
 
 
 def in_language(language):
@@ -92,7 +93,7 @@ def test_a_standard_that_asks_for_nothing_has_no_table_of_requirements(tmp_path)
 
 def test_a_rule_that_needs_an_uncertainty_decides_nothing_without_one(tmp_path):
     in_words = {**COMPLETE["instrument"], "expanded_uncertainty": "see its certificate"}
-    keys = {**COMPLETE, "instrument": in_words, "decision_rule": "guard-band"}
+    keys = {**REPORT, "instrument": in_words, "decision_rule": "guard-band"}
     text = text_of(certificate(tmp_path, keys))
     assert "conformity is therefore not decided" in text
     assert "| conforms" not in text
@@ -105,7 +106,7 @@ def test_conditions_logged_beside_the_readings_are_printed_as_their_range(tmp_pa
         "0,+,1,0.5,20.10,1013.2,45\n10,+,1,1.5,20.35,1013.4,46\n"
     )
     keys = {
-        **COMPLETE,
+        **REPORT,
         "axis": {"name": "Y"},
         "measurement": {"date": "2026-01-01", "source": {"plugin": "laser-csv", "file": "readings.csv"}},
         "environment": {"remarks": "oil shower on"},

@@ -34,10 +34,9 @@ def parameter(value: float, expanded: float | None, factor: float = 2.0) -> Para
     [
         (12.3456, 1.234, ("12.3", "1.2")),
         (12.3456, 0.123, ("12.35", "0.12")),
-        (1234.56, 123.4, ("1235", "123")),
-        # A digit beyond the readings and no more; an uncertainty that this would shorten is rounded up.
-        (12.34567, 0.00149, ("12.346", "0.002")),
-        (12.34567, 0.00012, ("12.346", "0.001")),
+        (1234.56, 123.4, ("1230", "120")),
+        # Two digits of U always, whatever the readings show.
+        (12.34567, 0.00149, ("12.3457", "0.0015")),
         # None known: as the readings. None at all: said to be none.
         (12.3456, None, ("12.35", "–")),
         (12.3456, 0.0, ("12.35", "0")),
@@ -62,7 +61,7 @@ def test_what_has_no_uncertainty_has_no_coverage_factor(expanded: float | None) 
 
 
 @pytest.mark.parametrize(
-    ("micrometres", "expected"), [(0.456, "0.46"), (0.0, "0"), (float("nan"), "–"), (0.0001, "0.001")]
+    ("micrometres", "expected"), [(0.456, "0.46"), (0.0, "0"), (float("nan"), "–"), (0.0001, "0.00010")]
 )
 def test_an_uncertainty_by_itself_keeps_two_digits(micrometres: float, expected: str) -> None:
     assert written_uncertainty(micrometres * 1e-6, SCRIBE) == expected

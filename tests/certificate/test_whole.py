@@ -19,7 +19,6 @@ def test_the_wording_is_what_was_read_and_approved(tmp_path, language, kind):
     """Set ZLMREPORT_APPROVE=1 to take the present text as approved, and read the difference."""
     write_tables(tmp_path)
     keys = having("certificate.language", language, EVERYTHING)
-    keys = having("instrument.expanded_uncertainty", "see its certificate", keys)
     keys = having("as_found.work", "repair" if kind == "amendment" else "adjustment", keys)
     amends = {"number": "CAL-0", "kind": kind, "reason": "Wrong serial number.", "changes": ["S-1, not S-2"]}
     document = certificate(tmp_path, having("certificate.amends", amends, keys))

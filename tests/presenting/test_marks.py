@@ -2,12 +2,11 @@
 
 import pytest
 
-from certificate.documents import certificate, having, text_of
+from certificate.documents import COMPLETE, certificate, text_of
 from certificate.everything import EVERYTHING, write_tables
 from zlmreport.job.contradictions import markable_keys
 from zlmreport.presenting.marks import Marks
 
-WORDS_ONLY = having("instrument.expanded_uncertainty", "see its certificate")
 DISCLAIMER = (
     "† Provided by the customer. The laboratory is not responsible for these data, which can affect the "
     "validity of the results."
@@ -33,26 +32,26 @@ def test_a_key_is_marked_by_itself_or_its_group_and_a_group_by_what_is_in_it(key
 
 
 def test_what_the_customer_supplied_is_marked_on_every_page_that_has_it(tmp_path):
-    keys = {**WORDS_ONLY, "provided_by_customer": ["machine.serial"]}
+    keys = {**COMPLETE, "provided_by_customer": ["machine.serial"]}
     assert text_of(certificate(tmp_path, keys)).count("Serial number †: S-1") == 2
 
 
 def test_data_of_the_customer_are_disclaimed(tmp_path):
-    keys = {**WORDS_ONLY, "provided_by_customer": ["environment.air_temperature"]}
+    keys = {**COMPLETE, "provided_by_customer": ["environment.air_temperature"]}
     assert DISCLAIMER in text_of(certificate(tmp_path, keys))
 
 
 def test_nothing_is_marked_or_disclaimed_where_all_is_the_laboratorys(tmp_path):
-    assert "†" not in text_of(certificate(tmp_path, WORDS_ONLY))
+    assert "†" not in text_of(certificate(tmp_path, COMPLETE))
 
 
 def test_limits_of_the_customer_are_marked_at_the_head_of_their_column(tmp_path):
-    text = text_of(certificate(tmp_path, {**WORDS_ONLY, "provided_by_customer": ["evaluate.tolerances"]}))
+    text = text_of(certificate(tmp_path, {**COMPLETE, "provided_by_customer": ["evaluate.tolerances"]}))
     assert text.count("Limit † µm") == 2
 
 
 def test_readings_of_the_customer_are_marked(tmp_path):
-    keys = {**WORDS_ONLY, "provided_by_customer": ["measurement.source"]}
+    keys = {**COMPLETE, "provided_by_customer": ["measurement.source"]}
     assert "# Readings †" in text_of(certificate(tmp_path, keys))
 
 
@@ -63,7 +62,7 @@ def test_results_of_external_providers_are_named_and_marked(tmp_path):
         "reference": "Report 8",
         "keys": ["environment.air_temperature"],
     }
-    text = text_of(certificate(tmp_path, {**WORDS_ONLY, "external": [external]}))
+    text = text_of(certificate(tmp_path, {**COMPLETE, "external": [external]}))
     assert "! ‡ Results from external providers\n  - Air temperature: Thermometry Ltd, Report 8\n" in text
     assert "Air temperature ‡: 20.5 °C" in text
 

@@ -13,7 +13,7 @@ from zlmreport.job.types import Options
 from zlmreport.testing import bidirectional_test
 from zlmreport.uncertainty.budget import Budget
 from zlmreport.uncertainty.contribution import Acts
-from zlmreport.uncertainty.positions import mean_uncertainty
+from zlmreport.uncertainty.expanded import mean_uncertainty
 
 #: Two targets, 100 µm apart in their means, three runs without scatter.
 TEST = bidirectional_test(

@@ -21,14 +21,16 @@ from zlmreport.uncertainty.contribution import Acts, Contribution, Distribution
 from zlmreport.uncertainty.job_budget import budget_of
 
 MICROMETRE = 1e-6
+REPORT = {**COMPLETE["certificate"], "kind": "report"}
 #: Of the readings: from −20 mm to 20 mm.
 LENGTH = 0.04
 
 
 def keys(**groups: Any) -> dict[str, Any]:
-    """Return a complete job, groups of its keys changed."""
-    changed = {name: {**COMPLETE.get(name, {}), **group} for name, group in groups.items()}
-    return {**COMPLETE, **changed}
+    """Return a job that states all that matters here, groups of its keys changed."""
+    bare = {**COMPLETE, "uncertainty": {}}
+    changed = {name: {**bare.get(name, {}), **group} for name, group in groups.items()}
+    return {**bare, **changed}
 
 
 def made(
@@ -57,7 +59,7 @@ def test_a_number_of_the_instrument_is_a_budget_with_the_last_digit_of_the_readi
 
     assert list(found) == ["Measuring instrument", "Resolution of the readings"]
     instrument, resolution = found.values()
-    assert (size(instrument), instrument.acts) == (1.0, Acts.ALONG_THE_LENGTH)
+    assert (size(instrument), instrument.acts) == (1.0, Acts.AT_EACH_POSITION)
     assert instrument.source.in_language(Language.ENGLISH) == "calibration certificate C-1"
     assert (size(resolution), resolution.acts) == (pytest.approx(0.01 / math.sqrt(12)), Acts.AT_EACH_READING)
 
@@ -65,10 +67,27 @@ def test_a_number_of_the_instrument_is_a_budget_with_the_last_digit_of_the_readi
 def test_an_uncertainty_per_metre_counts_at_the_measured_length(tmp_path: Path) -> None:
     stated = keys(instrument={"expanded_uncertainty": 0.3, "expanded_uncertainty_per_metre": 0.5})
 
-    instrument = contributions(tmp_path, stated)["Measuring instrument"]
+    found = contributions(tmp_path, stated)
 
-    assert size(instrument) == pytest.approx((0.3 + 0.5 * LENGTH) / 2)
-    assert instrument.stated.in_language(Language.GERMAN) == "U = 0,3 µm + 0,5 µm/m · L (k = 2)"
+    growing, constant = (each for name, each in found.items() if name.startswith("Measuring instrument"))
+    assert (size(constant), constant.acts) == (pytest.approx(0.3 / 2), Acts.AT_EACH_POSITION)
+    assert (size(growing), growing.acts) == (pytest.approx(0.5 * LENGTH / 2), Acts.ALONG_THE_LENGTH)
+    assert growing.stated.in_language(Language.GERMAN) == "U = 0,5 µm/m · L (k = 2)"
+
+
+def test_an_uncertainty_may_be_written_as_the_formula_of_the_data_sheet(tmp_path: Path) -> None:
+    found = contributions(tmp_path, keys(instrument={"expanded_uncertainty": "0.6 + 0.3*L"}))
+
+    sizes = [size(each) for name, each in found.items() if name.startswith("Measuring instrument")]
+    assert sizes == pytest.approx([0.3 * LENGTH / 2, 0.6 / 2])
+
+
+@pytest.mark.parametrize("formula", ["0.6 + 0.3*M", "0.6 * L + 1", "0.6 ± 0.1", "sqrt(0.6^2 + (0.3*L)^2)"])
+def test_a_formula_that_is_not_understood_is_refused_and_never_taken_for_words(
+    tmp_path: Path, formula: str
+) -> None:
+    with pytest.raises(InputError, match="is not understood"):
+        job(tmp_path, keys(instrument={"expanded_uncertainty": formula}))
 
 
 def test_an_instrument_may_be_said_to_act_otherwise(tmp_path: Path) -> None:
@@ -114,7 +133,8 @@ def test_temperatures_and_coefficients_take_what_the_job_states_beside_them(tmp_
 def test_a_logged_temperature_counts_by_its_largest_distance_from_20_degrees(tmp_path: Path) -> None:
     logged = {"axis_temperature": np.array([293.15, np.nan, 290.15, 294.15])}
 
-    found = contributions(tmp_path, keys(uncertainty={"expansion_coefficient": 2}), logged)
+    stated = {**keys(uncertainty={"expansion_coefficient": 2}), "environment": {"air_temperature": 20}}
+    found = contributions(tmp_path, stated, logged)
 
     coefficient = found["Expansion coefficient, machine"]
     assert size(coefficient) == pytest.approx(LENGTH * 3.0 * 2 / math.sqrt(12))
@@ -144,11 +164,11 @@ def test_a_range_without_what_its_formula_needs_is_refused_at_its_place(
     assert key in text.splitlines()[problem.place.line - 1]
 
 
-def test_the_drift_at_rest_acts_at_each_reading(tmp_path: Path) -> None:
+def test_the_drift_at_rest_is_a_process_in_time(tmp_path: Path) -> None:
     found = contributions(tmp_path, keys(uncertainty={"environmental_variation": 0.6}))
 
     drift = found["Variation of the environment during the test"]
-    assert (size(drift), drift.acts) == (pytest.approx(0.6 / math.sqrt(12)), Acts.AT_EACH_READING)
+    assert (size(drift), drift.acts) == (pytest.approx(0.6 / math.sqrt(12)), Acts.IN_TIME)
 
 
 def test_a_stated_resolution_takes_the_place_of_the_last_digit(tmp_path: Path) -> None:
@@ -166,9 +186,7 @@ def test_the_last_digit_of_corrected_readings_says_nothing_of_the_instrument(tmp
 
     budget = made(tmp_path, corrected)
 
-    assert isinstance(budget, Budget)
-    not_considered = [words.in_language(Language.ENGLISH) for words in budget.not_considered]
-    assert "Resolution of the readings" in not_considered
+    assert "resolution" in budget.missing
 
 
 @pytest.mark.parametrize(
@@ -197,6 +215,7 @@ def test_the_instrument_of_a_rotary_axis_errs_at_each_position(tmp_path: Path) -
     rotary = {key: value for key, value in COMPLETE.items() if key != "axis"}
     rotary["axis"] = {"name": "C", "kind": "rotary"}
     rotary["evaluate"] = ["iso230-2:2014"]
+    rotary["uncertainty"] = {}
 
     budget = made(tmp_path, rotary)
 
@@ -205,9 +224,7 @@ def test_the_instrument_of_a_rotary_axis_errs_at_each_position(tmp_path: Path) -
     assert instrument.acts is Acts.AT_EACH_POSITION
     # 2″ with k = 2.
     assert instrument.standard_uncertainty == pytest.approx(math.radians(1 / 3600))
-    assert [words.in_language(Language.ENGLISH) for words in budget.not_considered] == [
-        "Variation of the environment during the test"
-    ]
+    assert budget.missing == ("environmental_variation",)
 
 
 def test_contributions_that_act_alike_stand_together(tmp_path: Path) -> None:
@@ -215,19 +232,54 @@ def test_contributions_that_act_alike_stand_together(tmp_path: Path) -> None:
 
     found = contributions(tmp_path, keys(uncertainty={"contributions": [along]}))
 
-    assert list(found) == ["Measuring instrument", "Dead path", "Resolution of the readings"]
+    assert list(found) == ["Dead path", "Measuring instrument", "Resolution of the readings"]
 
 
-def test_usual_contributors_of_which_nothing_is_stated_are_named(tmp_path: Path) -> None:
-    budget = made(tmp_path, keys(uncertainty={"misalignment": 0.1, "environmental_variation": 0.1}))
+def test_what_is_neither_stated_nor_negligible_is_missing(tmp_path: Path) -> None:
+    stated = {
+        "misalignment": 0.1,
+        "environmental_variation": 0.1,
+        "negligible": {"device_temperature": "laser"},
+    }
+
+    budget = made(tmp_path, {**COMPLETE, "uncertainty": stated, "certificate": REPORT})
+
+    assert budget.missing == ("machine_temperature", "expansion_coefficient", "device_expansion_coefficient")
+    assert budget.negligible == (("device_temperature", "laser"),)
+    assert not budget.is_complete
+
+
+def test_the_air_is_demanded_of_readings_that_are_corrected_for_it(tmp_path: Path) -> None:
+    air = {"air_temperature": 20, "air_pressure": 1013, "relative_humidity": 50}
+    corrected = keys(environment=air, corrections={"air": {"assumed": "vacuum"}})
+
+    budget = made(tmp_path, corrected)
+
+    assert {"air_temperature", "air_pressure", "relative_humidity"} <= set(budget.missing)
+
+
+def test_what_a_warm_machine_shows_too_long_is_a_known_error_and_in_the_budget_whole(tmp_path: Path) -> None:
+    warm = keys(environment={"axis_temperature": 31, "expansion_coefficient": 11.5})
+
+    budget = made(tmp_path, warm)
 
     assert isinstance(budget, Budget)
-    assert [words.in_language(Language.ENGLISH) for words in budget.not_considered] == [
-        "Temperature measurement, machine",
-        "Temperature measurement, measuring device",
-        "Expansion coefficient, machine",
-        "Expansion coefficient, measuring device",
-    ]
+    assert budget.uncorrected_expansion == pytest.approx(11 * 11.5e-6 * LENGTH)
+    (known,) = (each for each in budget.contributions if each.distribution is Distribution.KNOWN)
+    assert (size(known), known.sign) == (pytest.approx(11 * 11.5 * LENGTH), -1)
+
+
+def test_the_expansion_of_a_length_of_unknown_temperature_is_unknown(tmp_path: Path) -> None:
+    unknown = {**COMPLETE, "environment": {"axis_temperature": "about 20"}}
+
+    assert made(tmp_path, unknown).uncorrected_expansion is None
+
+
+def test_the_accreditation_bounds_u_from_below(tmp_path: Path) -> None:
+    budget = made(tmp_path, keys(laboratory={"cmc": {"constant": 3, "per_metre": 5}}))
+
+    assert isinstance(budget, Budget)
+    assert budget.least == pytest.approx((3 + 5 * LENGTH) * MICROMETRE)
 
 
 @pytest.mark.parametrize(

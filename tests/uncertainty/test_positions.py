@@ -13,7 +13,7 @@ from zlmreport.measurement.approach import Approach
 from zlmreport.testing import bidirectional_test, simulated_test
 from zlmreport.uncertainty.budget import Budget
 from zlmreport.uncertainty.contribution import Acts
-from zlmreport.uncertainty.positions import mean_uncertainty
+from zlmreport.uncertainty.expanded import mean_uncertainty
 
 ALL_WAYS = Budget(
     (

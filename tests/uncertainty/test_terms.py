@@ -27,11 +27,6 @@ def test_a_range_is_divided_by_what_its_distribution_asks(distribution: Distribu
     assert terms.from_range(1.0, distribution) == pytest.approx(1 / divisor, rel=1e-15)
 
 
-def test_an_instrument_gains_uncertainty_with_the_length() -> None:
-    # U = 0.3 µm + 0.5 µm/m · 2 m, k = 2.
-    assert terms.device(0.3e-6, 0.5e-6, 2.0, 2.0) == pytest.approx(0.65e-6, rel=1e-15)
-
-
 def test_a_cosine_error_reaches_half_the_square_of_the_misalignment_over_the_length() -> None:
     # The exact L − √(L² − R²), for 1 mm over 500 mm: the next term is (R/L)²/4 of it.
     exact = 0.5 - math.sqrt(0.5**2 - 0.001**2)

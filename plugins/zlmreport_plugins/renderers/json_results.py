@@ -14,6 +14,7 @@ from typing import Any, TypeAlias
 
 from zlmreport.plugin import (
     COVERAGE_PROBABILITY,
+    MICROMETRE,
     Approach,
     Certificate,
     CertificateSource,
@@ -101,7 +102,15 @@ def _uncertainty(certificate: Certificate) -> Json:
     if budget is None:
         return {}
     if isinstance(budget, NoBudget):
-        return {"uncertainty": {"not_evaluated": budget.reason.in_language(language)}}
+        return {
+            "uncertainty": {
+                "state": "incomplete",
+                "missing": list(budget.missing),
+                "negligible": dict(budget.negligible),
+                "not_evaluated": budget.reason.in_language(language),
+                "contributions": [],
+            }
+        }
     unit = certificate.measurements.axis.deviation_unit
     contributions = [
         {
@@ -117,13 +126,21 @@ def _uncertainty(certificate: Certificate) -> Json:
     ]
     return {
         "uncertainty": {
+            "state": "complete" if budget.is_complete else "incomplete",
+            "missing": list(budget.missing),
+            "negligible": dict(budget.negligible),
             "unit": unit.ascii,
             "coverage_probability": COVERAGE_PROBABILITY,
             "contributions": contributions,
             "combined_standard_uncertainty": unit.from_si(budget.standard_uncertainty),
-            "not_considered": [words.in_language(language) for words in budget.not_considered],
+            **_expansion(budget.uncorrected_expansion),
         }
     }
+
+
+def _expansion(uncorrected: float | None) -> Json:
+    """Return by how much the measured length was longer than at 20 °C, micrometres; null if unknown."""
+    return {"uncorrected_expansion": None if uncorrected is None else MICROMETRE.from_si(uncorrected)}
 
 
 def _model(certificate: Certificate) -> Json:

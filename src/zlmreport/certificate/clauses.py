@@ -6,7 +6,7 @@ method (f), the results (m), and the fixed statements (l).
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -114,23 +114,27 @@ MANDATORY_ITEMS = (
 )
 
 
+def missing_items(job: Job) -> Iterator[Problem]:
+    """Yield what a calibration certificate must state and does not; a measuring report may leave it out."""
+    if job.keys.certificate.kind != "certificate":
+        return
+    for item in MANDATORY_ITEMS:
+        if not item.stated(job.keys):
+            yield Problem(
+                job.place_of(item.key),
+                f"a calibration certificate must state {item.what} (ISO/IEC 17025:2017, {item.clause}): "
+                f"add {item.key}, or make a measuring report by certificate.kind: report",
+            )
+
+
 def demand_mandatory_items(job: Job) -> None:
-    """Refuse a calibration certificate that lacks mandatory items; a measuring report may lack them.
+    """Refuse a calibration certificate that lacks mandatory items.
 
     Raises
     ------
     InputError
         With every missing item, its clause, and the key that states it.
     """
-    if job.keys.certificate.kind != "certificate":
-        return
-    missing = [item for item in MANDATORY_ITEMS if not item.stated(job.keys)]
+    missing = tuple(missing_items(job))
     if missing:
-        raise InputError(
-            Problem(
-                job.place_of(item.key),
-                f"a calibration certificate must state {item.what} (ISO/IEC 17025:2017, {item.clause}): "
-                f"add {item.key}, or make a measuring report by certificate.kind: report",
-            )
-            for item in missing
-        )
+        raise InputError(missing)

@@ -35,7 +35,7 @@ def blocks(
         *amendment_notice(job.keys.certificate, writer),
         Facts(stated_facts(identity(job, evaluations, writer), writer)),
         _results(evaluations, writer),
-        uncertainty.statement(evaluated[0].budget, writer),
+        *uncertainty.statement(evaluated[0].budget, writer),
         *conformity.rule_paragraph(job.keys.decision_rule, evaluations, writer),
         *missing_readings(measurements, writer),
         *_shortfalls(evaluations, writer),

@@ -30,6 +30,8 @@ from zlmreport.evaluation.quantity import Group
 from zlmreport.evaluation.requirements import Basis, Finding
 from zlmreport.language import Words
 from zlmreport.presenting.amounts import written_uncertainty
+from zlmreport.quantities.notation import plain
+from zlmreport.uncertainty.wording import RAISED_TO
 
 if TYPE_CHECKING:
     from zlmreport.evaluation.evaluation import Evaluation
@@ -93,6 +95,7 @@ def section(evaluated: Evaluated, writer: Writer) -> Section:
         Paragraph(writer.say(evaluation.title)),
         *_shortfalls(evaluation, writer),
         _parameters(evaluation, writer) if evaluation.parameters else Paragraph(writer.say(_NO_PARAMETER)),
+        *_raised(evaluation, writer),
         *map(Graph, evaluated.figures),
         *conformity.blocks(evaluation, writer),
         _positions(evaluation, writer),
@@ -128,7 +131,7 @@ def _shortfalls(evaluation: Evaluation, writer: Writer) -> Iterator[Notice]:
 
 
 def _parameters(evaluation: Evaluation, writer: Writer) -> Table:
-    values = Values.of([evaluation], writer)
+    values = Values.of([evaluation], writer, with_interval=True)
     columns = (
         Column(writer.say(Words(en="Symbol", de="Zeichen"))),
         Column(writer.say(Words(en="Parameter and what it means", de="Kenngröße und ihre Bedeutung"))),
@@ -152,6 +155,15 @@ def _parameters(evaluation: Evaluation, writer: Writer) -> Table:
     )
 
 
+def _raised(evaluation: Evaluation, writer: Writer) -> Iterator[Paragraph]:
+    """Yield which uncertainties were raised, and to what."""
+    for least, words in RAISED_TO.items():
+        symbols = [each.quantity.notation for each in evaluation.parameters if each.raised_to is least]
+        if symbols:
+            statement = Words(en="U of {symbols}: {what}.", de="U von {symbols}: {what}.")
+            yield Paragraph(writer.say(statement.given(symbols=", ".join(map(plain, symbols)), what=words)))
+
+
 def _positions(evaluation: Evaluation, writer: Writer) -> Table:
     """Return the table by position; it shows n where readings are missing somewhere."""
     statistics = evaluation.statistics
@@ -169,7 +181,7 @@ def _positions(evaluation: Evaluation, writer: Writer) -> Table:
 
     def add(notation: str, values: FloatArray) -> None:
         columns.append(Column(Symbol(notation), unit, Align.RIGHT))
-        cells.append(tuple(writer.deviation(float(value)) for value in values))
+        cells.append(tuple(writer.mean(float(value)) for value in values))
 
     for approach in measurements.approaches:
         if measurements.missing():

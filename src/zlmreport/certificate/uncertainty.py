@@ -23,6 +23,7 @@ from zlmreport.figures.bars import budget_bars
 from zlmreport.language import Words
 from zlmreport.quantities.formatting import percentage
 from zlmreport.quantities.uncertain import rounded_pair
+from zlmreport.quantities.units import MICROMETRE
 from zlmreport.uncertainty import wording
 from zlmreport.uncertainty.budget import Budget, NoBudget
 from zlmreport.uncertainty.contribution import Acts, Contribution
@@ -35,12 +36,43 @@ if TYPE_CHECKING:
 _TITLE = Words(en="Uncertainty of measurement", de="Messunsicherheit")
 _COVERAGE = Words(
     en="U is the expanded uncertainty of measurement, the standard uncertainty multiplied by the coverage "
-    "factor k. The interval y ± U about a stated value y holds the value of the measurand with a probability "
-    "of about 95 %.",
+    "factor k: the interval y ± U about a stated value y holds, with a probability of about 95 %, the value "
+    "that a faultless measuring set-up would have found in this test. Where another test of this axis by the "
+    "same plan would find the parameter, with the same probability, is stated as the interval of the axis: "
+    "it holds the scatter of the axis, which U does not.",
     de="U ist die erweiterte Messunsicherheit: die Standardunsicherheit, multipliziert mit dem "
-    "Erweiterungsfaktor k. Das Intervall y ± U um einen angegebenen Wert y enthält den Wert der Messgröße "
-    "mit einer Wahrscheinlichkeit von etwa 95 %.",
+    "Erweiterungsfaktor k. Das Intervall y ± U um einen angegebenen Wert y enthält mit einer "
+    "Wahrscheinlichkeit von etwa 95 % den Wert, den eine fehlerfreie Messeinrichtung in dieser Messung "
+    "gefunden hätte. Wo eine weitere Messung dieser Achse nach demselben Plan die Kenngröße mit derselben "
+    "Wahrscheinlichkeit fände, steht als Intervall der Achse: es enthält die Streuung der Achse, U nicht.",
 )
+_INCOMPLETE = Words(
+    en="U incomplete: {missing} not considered",
+    de="U unvollständig: {missing} nicht berücksichtigt",
+)
+_INCOMPLETE_MEANS = Words(
+    en="Nothing is stated of these contributors to the uncertainty. y ± U holds the errors of the others "
+    "only; no probability is stated for it, and no rule that uses U decides anything.",
+    de="Zu diesen Beiträgen zur Messunsicherheit ist nichts angegeben. y ± U enthält nur die Fehler der "
+    "übrigen; eine Wahrscheinlichkeit ist dafür nicht angegeben, und keine Regel, die U benutzt, "
+    "entscheidet.",
+)
+_NOT_AT_REFERENCE = Words(
+    en="The temperature or the expansion of the measured length is not known: the results hold at the "
+    "temperature of the test, and not at 20 °C",
+    de="Temperatur oder Ausdehnung der gemessenen Länge sind nicht bekannt: die Ergebnisse gelten bei der "
+    "Temperatur der Messung, nicht bei 20 °C",
+)
+_EXPANDED = Words(
+    en="The measured length was {expansion} µm longer than at 20 °C; the readings are not corrected for it, "
+    "and U holds it whole.",
+    de="Die gemessene Länge war um {expansion} µm länger als bei 20 °C; die Messwerte sind dafür nicht "
+    "korrigiert, und U enthält es ganz.",
+)
+_NEGLIGIBLE = Words(
+    en="Declared negligible by the laboratory", de="Vom Laboratorium als vernachlässigbar erklärt"
+)
+_REASON = Words(en="{contributor}: {reason}", de="{contributor}: {reason}")
 _METHOD = Words(
     en="The budget below was propagated to every parameter by the Monte Carlo method (JCGM 101:2008): "
     "{trials} simulated tests, the readings with errors drawn from the budget, were evaluated by the "
@@ -72,21 +104,26 @@ _COMBINED_OF = Words(
     en="A single reading at the end of the measured length",
     de="Ein einzelner Messwert am Ende der Messlänge",
 )
-_NOT_CONSIDERED = Words(
-    en="Contributions that are not considered, because nothing is stated of them",
-    de="Nicht berücksichtigte Beiträge, zu denen nichts angegeben ist",
-)
 _NO_BUDGET = Words(
     en="The uncertainty of the parameters is not evaluated: {reason}.",
     de="Die Messunsicherheit der Kenngrößen ist nicht ermittelt: {reason}.",
 )
 
 
-def statement(budget: Budget | NoBudget, writer: Writer) -> Paragraph:
-    """Return what U means, or why there is none: for the first page."""
+def statement(budget: Budget | NoBudget, writer: Writer) -> Iterator[Block]:
+    """Yield what U means, what it leaves out, or why there is none: for the first page."""
     if isinstance(budget, NoBudget):
-        return Paragraph(writer.say(_NO_BUDGET.given(reason=budget.reason)))
-    return Paragraph(writer.say(_COVERAGE))
+        yield Paragraph(writer.say(_NO_BUDGET.given(reason=budget.reason)))
+    elif budget.is_complete:
+        yield Paragraph(writer.say(_COVERAGE))
+    else:
+        missing = ", ".join(writer.say(wording.contributor(name)) for name in budget.missing)
+        yield Notice(writer.say(_INCOMPLETE.given(missing=missing)), (writer.say(_INCOMPLETE_MEANS),))
+    if budget.uncorrected_expansion is None:
+        yield Notice(writer.say(_NOT_AT_REFERENCE), ())
+    elif budget.uncorrected_expansion:
+        expansion = writer.number(float(f"{MICROMETRE.from_si(budget.uncorrected_expansion):.3g}"))
+        yield Paragraph(writer.say(_EXPANDED.given(expansion=expansion)))
 
 
 def section(budget: Budget | NoBudget, axis: Axis, writer: Writer) -> Section:
@@ -95,15 +132,19 @@ def section(budget: Budget | NoBudget, axis: Axis, writer: Writer) -> Section:
 
 
 def _blocks(budget: Budget | NoBudget, axis: Axis, writer: Writer) -> Iterator[Block]:
-    yield statement(budget, writer)
+    yield from statement(budget, writer)
     if isinstance(budget, NoBudget):
         return
     yield Paragraph(writer.say(_METHOD.given(trials=TRIALS)))
     yield Paragraph(writer.say(_SCATTER))
     yield _table(budget, writer)
     yield Graph(budget_bars(budget, axis))
-    if budget.not_considered:
-        yield Notice(writer.say(_NOT_CONSIDERED), tuple(map(writer.say, budget.not_considered)))
+    if budget.negligible:
+        reasons = (
+            _REASON.given(contributor=wording.contributor(name), reason=reason)
+            for name, reason in budget.negligible
+        )
+        yield Notice(writer.say(_NEGLIGIBLE), tuple(map(writer.say, reasons)))
 
 
 def _table(budget: Budget, writer: Writer) -> Table:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from zlmreport.certificate import conformity
 from zlmreport.certificate.document import Align, Cell, Column, Symbol
 from zlmreport.language import Words
-from zlmreport.presenting.amounts import written
+from zlmreport.presenting.amounts import with_uncertainty, written
 from zlmreport.presenting.writer import NOTHING, Writer
 from zlmreport.quantities.formatting import fixed_number
 
@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from zlmreport.evaluation.evaluation import Evaluation, Parameter
 
 _VALUE = Words(en="Value", de="Wert")
+_AXIS = Words(en="Axis, 95 %", de="Achse, 95 %")
 _LIMIT = Words(en="Limit", de="Grenzwert")
 _CONFORMITY = Words(en="Conformity", de="Konformität")
 _DECIMALS_OF_K = 2
@@ -30,22 +31,25 @@ class Values:
     ----------
     writer
         Writes them.
-    has_uncertainty, has_limits
-        Whether any parameter in the table has an uncertainty, or a limit: without one there is no column.
+    has_uncertainty, has_limits, has_interval
+        Whether any parameter in the table has an uncertainty, a limit, or an interval of the axis that is to
+        be shown: without one there is no column.
     """
 
     writer: Writer
     has_uncertainty: bool
     has_limits: bool
+    has_interval: bool = False
 
     @classmethod
-    def of(cls, evaluations: Iterable[Evaluation], writer: Writer) -> Values:
-        """Return the columns for the parameters of evaluations."""
+    def of(cls, evaluations: Iterable[Evaluation], writer: Writer, *, with_interval: bool = False) -> Values:
+        """Return the columns for the parameters of evaluations, with the interval of the axis if wanted."""
         parameters = [parameter for each in evaluations for parameter in each.parameters]
         return cls(
             writer,
             any(parameter.expanded_uncertainty is not None for parameter in parameters),
             any(parameter.limit is not None for parameter in parameters),
+            with_interval and any(parameter.axis_interval is not None for parameter in parameters),
         )
 
     @property
@@ -63,6 +67,8 @@ class Values:
         if self.has_uncertainty:
             yield Column(Symbol("U"), unit, Align.RIGHT)
             yield Column(Symbol("k"), align=Align.RIGHT)
+        if self.has_interval:
+            yield Column(say(_AXIS), unit, Align.RIGHT)
         if self.has_limits:
             yield Column(say(_LIMIT) + self.writer.marks.after("evaluate.tolerances"), unit, Align.RIGHT)
             yield Column(say(_CONFORMITY))
@@ -73,6 +79,8 @@ class Values:
         if self.has_uncertainty:
             yield uncertainty
             yield coverage_factor(parameter, self.writer)
+        if self.has_interval:
+            yield interval(parameter, self.writer)
         if self.has_limits:
             yield limit(parameter, self.writer)
             yield conformity.verdict(parameter, self.writer)
@@ -83,6 +91,14 @@ def coverage_factor(parameter: Parameter, writer: Writer) -> str:
     if not parameter.expanded_uncertainty or parameter.coverage_factor is None:
         return NOTHING
     return fixed_number(parameter.coverage_factor, _DECIMALS_OF_K, writer.language.decimal_sign)
+
+
+def interval(parameter: Parameter, writer: Writer) -> str:
+    """Write where another test of the same plan would find a parameter, with the sign that is printed."""
+    if parameter.axis_interval is None:
+        return NOTHING
+    ends = sorted(parameter.quantity.printed_sign * end for end in parameter.axis_interval)
+    return " … ".join(with_uncertainty(end, (ends[1] - ends[0]) / 2, writer)[0] for end in ends)
 
 
 def limit(parameter: Parameter, writer: Writer) -> str:

@@ -62,12 +62,16 @@ class DecisionRule:
     guard: Guard = Guard.EXPANDED_UNCERTAINTY
     between: _Between | None = None
 
-    def decide(self, parameter: Parameter) -> Decision | None:
-        """Return what the rule says of a parameter; None without a limit."""
+    def decide(self, parameter: Parameter, *, uncertainty_is_complete: bool = True) -> Decision | None:
+        """Return what the rule says of a parameter; None without a limit.
+
+        A rule that uses U decides nothing where U is not known or not complete; simple acceptance decides by
+        the value alone, and an incomplete U tells no risk.
+        """
         limit = parameter.limit
         if limit is None:
             return None
-        uncertainty = parameter.standard_uncertainty
+        uncertainty = parameter.standard_uncertainty if uncertainty_is_complete else None
         if uncertainty is None and self.factor:
             return Decision(Conformity.UNDECIDED, None, None, None)
         width = self.factor * self._unit(parameter) if self.factor else 0.0
@@ -111,7 +115,11 @@ def decision_rule(identifier: str, factor: float = 1.0) -> DecisionRule:
 
 def decided(evaluation: Evaluation, rule: DecisionRule) -> Evaluation:
     """Return an evaluation with what the rule says of every parameter that has a limit."""
-    parameters = tuple(replace(each, decision=rule.decide(each)) for each in evaluation.parameters)
+    complete = evaluation.uncertainty_is_complete
+    parameters = tuple(
+        replace(each, decision=rule.decide(each, uncertainty_is_complete=complete))
+        for each in evaluation.parameters
+    )
     impossible = tuple(_impossible(each) for each in parameters if _accepts_nothing(each))
     return replace(evaluation, parameters=parameters, findings=(*evaluation.findings, *impossible))
 

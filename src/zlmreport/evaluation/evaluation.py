@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from enum import Enum
 
 from zlmreport.evaluation.conformity import Decision
 from zlmreport.evaluation.quantity import PositionQuantity, Quantity
@@ -31,6 +32,13 @@ class Arithmetic:
     positions: Mapping[str, FloatArray] = field(default_factory=dict)
 
 
+class Least(Enum):
+    """What an uncertainty was raised to, where the budget gave less: that of the instrument, or the CMC."""
+
+    INSTRUMENT = "instrument"
+    LABORATORY = "cmc"
+
+
 @dataclass(frozen=True, slots=True)
 class Parameter:
     """One value of the results table.
@@ -47,6 +55,10 @@ class Parameter:
         U = k·u (m or rad) and k; None where not evaluated.
     decision
         What the decision rule says of the unrounded value; None without a limit.
+    raised_to
+        The bound to which U was raised; None where it is the budget's.
+    axis_interval
+        Where another test of the same plan would find it, m or rad; None where one run tells nothing.
     """
 
     quantity: Quantity
@@ -55,6 +67,8 @@ class Parameter:
     expanded_uncertainty: float | None = None
     coverage_factor: float | None = None
     decision: Decision | None = None
+    raised_to: Least | None = None
+    axis_interval: tuple[float, float] | None = None
 
     @property
     def conforms(self) -> bool | None:
@@ -129,6 +143,9 @@ class Evaluation:
         What a reader must know: formulas' source, corrections of errata, sign conventions.
     mean_uncertainty
         Of the mean deviations by position; None where not evaluated.
+    uncertainty_is_complete
+        Whether every usual contributor is in U, or declared negligible; a rule that uses U decides nothing
+        from an incomplete one.
     """
 
     standard: str
@@ -142,6 +159,7 @@ class Evaluation:
     findings: tuple[Finding, ...]
     notes: tuple[Words, ...]
     mean_uncertainty: MeanUncertainty | None = None
+    uncertainty_is_complete: bool = True
 
     def parameter(self, symbol: str) -> Parameter | None:
         """Return a parameter of the axis; None where the test does not define it."""

@@ -61,6 +61,10 @@ def report_parameter(parameter: Parameter, unit: Unit, language: Language) -> di
         values["expanded_uncertainty"] = unit.from_si(parameter.expanded_uncertainty)
     if parameter.coverage_factor is not None:
         values["coverage_factor"] = parameter.coverage_factor
+    if parameter.raised_to is not None:
+        values["raised_to"] = parameter.raised_to.value
+    if parameter.axis_interval is not None:
+        values["axis_interval"] = [unit.from_si(end) for end in parameter.axis_interval]
     if parameter.limit is not None:
         values["limit"] = unit.from_si(parameter.limit)
         values["conforms"] = parameter.conforms

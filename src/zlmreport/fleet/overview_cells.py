@@ -358,12 +358,12 @@ class Cells:
         sign, uncertainty = self.language.decimal_sign, parameter.expanded_uncertainty
         if uncertainty is None:
             return with_unit(fixed_number(parameter.value, _DECIMALS, sign), parameter.unit)
-        value, stated = rounded_pair(parameter.value, uncertainty, sign, _DECIMALS)
+        value, stated = rounded_pair(parameter.value, uncertainty, sign)
         return with_unit(f"{value} ± {stated}", parameter.unit)
 
     def _change(self, line: Line, unit: str) -> Words:
         change, uncertainty = rounded_pair(
-            line.slope, line.expanded_slope_uncertainty, self.language.decimal_sign, _DECIMALS
+            line.slope, line.expanded_slope_uncertainty, self.language.decimal_sign
         )
         rising = "+" if line.slope > 0 else ""
         return words.PER_YEAR.given(change=with_unit(f"{rising}{change} ± {uncertainty}", unit))

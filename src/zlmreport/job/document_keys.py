@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import AfterValidator, Field, model_validator
 
-from zlmreport.job.types import Date, JobPart, JobPath, Lines, Text, file_stem
+from zlmreport.job.types import Date, JobPart, JobPath, Lines, NotNegative, Text, file_stem
 from zlmreport.language import Language
 
 
@@ -147,6 +147,15 @@ class CertificateKeys(JobPart):
     )
 
 
+class Capability(JobPart):
+    """The smallest uncertainty that the laboratory's accreditation lets it state (CMC), with k = 2."""
+
+    constant: NotNegative = Field(0.0, description="Micrometres (arc seconds).", examples=[0.3])
+    per_metre: NotNegative = Field(
+        0.0, description="What it gains with each metre of measured length, micrometres/m.", examples=[0.5]
+    )
+
+
 class Laboratory(JobPart):
     """Who issues the document."""
 
@@ -162,6 +171,11 @@ class Laboratory(JobPart):
         examples=["DE"],
     )
     accreditation: Text | None = Field(None, description="Accreditation body and number.")
+    cmc: Capability | None = Field(
+        None,
+        description="Calibration and measurement capability: a smaller U is raised to it, and says so.",
+        examples=[{"constant": 0.3, "per_metre": 0.5}],
+    )
     logo: JobPath | None = Field(
         None, description="PNG or JPEG file beside the file that names it.", examples=["logo.png"]
     )

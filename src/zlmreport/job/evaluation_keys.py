@@ -22,7 +22,22 @@ ActsName: TypeAlias = Literal[
     "at-the-datum",
     "at-each-position",
     "at-each-approach",
+    "in-time",
     "at-each-reading",
+]
+#: The usual contributors, by the names that `uncertainty` has for them; the instrument has its own keys.
+ContributorName: TypeAlias = Literal[
+    "instrument",
+    "misalignment",
+    "machine_temperature",
+    "device_temperature",
+    "expansion_coefficient",
+    "device_expansion_coefficient",
+    "air_temperature",
+    "air_pressure",
+    "relative_humidity",
+    "environmental_variation",
+    "resolution",
 ]
 
 
@@ -42,7 +57,7 @@ class ContributionKeys(JobPart):
     acts: ActsName = Field(
         description="Which readings share it: all in proportion to their distance from the first target, all "
         "of the negative direction, all alike, those of a target, those of a target in one "
-        "direction, or none.",
+        "direction, those that are near in time (a drift of that range), or none.",
         examples=["at-each-reading"],
     )
     distribution: Literal["normal", "rectangular", "triangular", "one-sided"] | None = Field(
@@ -102,8 +117,14 @@ class UncertaintyKeys(JobPart):
     )
     instrument_acts: ActsName | None = Field(
         None,
-        description="Which readings share the error of the instrument. Without it along-the-length on a "
-        "linear axis, at-each-position on a rotary one.",
+        description="Which readings share the constant part of the instrument's error. Without it "
+        "at-each-position, and no parameter that compares positions has a smaller U than the instrument.",
+    )
+    negligible: dict[ContributorName, Text] = Field(
+        default_factory=dict,
+        description="Contributors that are negligible, each with the reason; what is neither stated nor "
+        "negligible is missing, and U is then incomplete.",
+        examples=[{"device_temperature": "laser, no length of its own"}],
     )
     contributions: list[ContributionKeys] = Field(
         default_factory=list,
@@ -132,6 +153,9 @@ def uncertainty_contradictions(
         for name in _OF_LINEAR_AXES:
             if getattr(keys, name) is not None:
                 yield (name,), "belongs to a linear axis; take it out, or state contributions of this axis"
+    for name in keys.negligible:
+        if getattr(keys, name, None) is not None:
+            yield ("negligible", name), f"is stated as uncertainty.{name} too; take one of them out"
     for index, each in enumerate(keys.contributions):
         stated = [size for size in _SIZES if getattr(each, size) is not None]
         if len(stated) != 1:

@@ -6,7 +6,17 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
 
-from zlmreport.job.types import Date, Finite, InWords, JobPart, JobPath, Lines, Positive, Text
+from zlmreport.job.types import (
+    Date,
+    Finite,
+    InstrumentUncertainty,
+    InWords,
+    JobPart,
+    JobPath,
+    Lines,
+    Positive,
+    Text,
+)
 from zlmreport.measurement.axis import AxisKind
 
 
@@ -193,9 +203,10 @@ class Instrument(JobPart):
     serial: Text | None = Field(None, description="Serial number.")
     certificate: Text | None = Field(None, description="Its calibration certificate.")
     calibrated: Date | None = Field(None, description="Date of that calibration.", examples=["2026-03-01"])
-    expanded_uncertainty: Positive | InWords | None = Field(
+    expanded_uncertainty: Positive | InstrumentUncertainty | None = Field(
         None,
-        description="Its expanded uncertainty (k = 2), micrometres (arc seconds), or in words.",
+        description="Its expanded uncertainty (k = 2), micrometres (arc seconds); with a part that grows "
+        "with the length, L in m: 0.6 + 0.3*L; in words in a report only, which then states no U.",
         examples=[0.3],
     )
     expanded_uncertainty_per_metre: Positive | None = Field(

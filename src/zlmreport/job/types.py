@@ -24,6 +24,14 @@ _FILE_STEM = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,99}")
 _ISO_DATE = re.compile(r"\d{4}-\d{2}-\d{2}", re.ASCII)
 _GERMAN_DATE = re.compile(r"(\d{1,2})\.(\d{1,2})\.(\d{4})", re.ASCII)
 _NUMBER = re.compile(r"[-+]?(\d+([.,]\d*)?|[.,]\d+)([eE][-+]?\d+)?", re.ASCII)
+#: 0.6 + 0.3*L: micrometres, and micrometres for each metre.
+_ALONG_THE_LENGTH = re.compile(
+    r"(?P<constant>\d+(?:\.\d+)?)\s*(?:µm|um)?\s*\+\s*(?P<per_metre>\d+(?:\.\d+)?)\s*"
+    r"(?:(?:µm|um)/m)?\s*[*·×]?\s*L(?:\s*/\s*m)?",
+    re.ASCII,
+)
+#: What only a formula has: an L by itself beside a number or a sign.
+_FORMULA = re.compile(r"[\d*·×/+]\s*L\b|\bL\s*[*·×/+]")
 
 
 def with_decimal_point(text: str) -> str | None:
@@ -52,6 +60,26 @@ def _in_words(text: str) -> str:
     if _NUMBER.fullmatch(text):
         raise ValueError(
             f"{quoted(text)} is not a number with a decimal point; write {text.replace(',', '.')}"
+        )
+    return text
+
+
+def along_the_length(text: str) -> tuple[float, float] | None:
+    """Return the constant part and the part per metre of an uncertainty; None for words.
+
+    >>> along_the_length("0.6 + 0.3*L"), along_the_length("see its certificate")
+    ((0.6, 0.3), None)
+    """
+    found = _ALONG_THE_LENGTH.fullmatch(text)
+    return (float(found["constant"]), float(found["per_metre"])) if found else None
+
+
+def _instrument_uncertainty(text: str) -> str:
+    """Take words, and formulas that are understood; refuse what looks like a formula and is none."""
+    if along_the_length(text) is None and (_FORMULA.search(text) or text[:1].isdigit()):
+        raise ValueError(
+            f"{quoted(text)} is not understood; write a number of micrometres, or a constant part and one "
+            "that grows with the length in metres: 0.6 + 0.3*L"
         )
     return text
 
@@ -100,6 +128,8 @@ Lines = Annotated[
 ]
 #: Text in a key that takes a number too: what looks like a number must be one.
 InWords = Annotated[Text, AfterValidator(_in_words)]
+#: The uncertainty of an instrument that is no single number.
+InstrumentUncertainty = Annotated[InWords, AfterValidator(_instrument_uncertainty)]
 Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
 NotNegative = Annotated[float, Field(ge=0, allow_inf_nan=False)]
 Finite = Annotated[float, Field(allow_inf_nan=False)]

@@ -174,10 +174,14 @@ class MeasurementSet:
         The approach axis always has two places, `Approach.index`; a direction that was not measured is
         all NaN. Runs stand in the order of their numbers.
         """
+        return self.arranged(self.deviation)
+
+    def arranged(self, values: FloatArray) -> FloatArray:
+        """Return one value for each reading, shape (N,), as `deviations` arranges the readings."""
         runs = self.runs
         grid = np.full((len(Approach), len(self.target_positions), len(runs)), np.nan)
         direction = np.where(self.approach == Approach.POSITIVE, 0, 1)
-        grid[direction, self.target, np.searchsorted(runs, self.run)] = self.deviation
+        grid[direction, self.target, np.searchsorted(runs, self.run)] = values
         return grid
 
     def missing(self) -> tuple[MissingReading, ...]:

@@ -8,17 +8,15 @@ from zlmreport.evaluation.evaluation import Parameter
 from zlmreport.presenting.writer import NOTHING, Writer
 from zlmreport.quantities.uncertain import rounded_pair
 
-#: Beyond the decimals of the readings: a mean of several says more than each of them.
-_MORE_DECIMALS = 1
 #: An uncertainty that is none.
 _NONE = "0"
 
 
 def written(parameter: Parameter, writer: Writer) -> tuple[str, str]:
-    """Write a parameter and its U, without unit: rounded together to two significant digits of U at most.
+    """Write a parameter and its U, without unit: rounded together to two significant digits of U.
 
-    A value of which no uncertainty is known has the decimals of the readings, one with an uncertainty no more
-    than one beyond these (ILAC-P14:09/2020; EA-4/02 M:2022).
+    A value of which no uncertainty is known has the decimals of the readings (ILAC-P14:09/2020; EA-4/02
+    M:2022).
     """
     expanded = parameter.expanded_uncertainty
     if not expanded:
@@ -40,5 +38,4 @@ def with_uncertainty(value: float, expanded: float, writer: Writer) -> tuple[str
         unit.from_si(value),
         unit.from_si(expanded),
         writer.language.decimal_sign,
-        writer.deviation_decimals + _MORE_DECIMALS,
     )

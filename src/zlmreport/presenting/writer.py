@@ -73,6 +73,14 @@ class Writer:
             self.deviation_unit.from_si(value), self.deviation_decimals, self.language.decimal_sign
         )
 
+    def mean(self, value: float) -> str:
+        """Write a mean or a standard deviation (m or rad): a mean of several says more than each of them."""
+        if math.isnan(value):
+            return NOTHING
+        return fixed_number(
+            self.deviation_unit.from_si(value), self.deviation_decimals + 1, self.language.decimal_sign
+        )
+
     def position(self, value: float) -> str:
         """Write a position (m or rad), without its unit."""
         return fixed_number(

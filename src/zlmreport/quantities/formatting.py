@@ -23,16 +23,18 @@ class DecimalSign(StrEnum):
 
 
 def fixed_number(value: float, decimals: int, sign: DecimalSign = DecimalSign.POINT) -> str:
-    """Write a value with a fixed number of decimals.
+    """Write a value with a fixed number of decimals; negative ones round to tens, hundreds.
 
     Half to even on the decimal value of the double (JCGM 100 leaves the rule open; this one has no
     bias); a result that rounds to zero carries no minus sign.
 
     >>> fixed_number(-0.25, 1), fixed_number(-0.04, 1), fixed_number(1234.5, 2, DecimalSign.COMMA)
     ('−0.2', '0.0', '1234,50')
+    >>> fixed_number(5678.9, -1)
+    '5680'
     """
     rounded = Decimal(repr(float(value))).quantize(Decimal(1).scaleb(-decimals), ROUND_HALF_EVEN)
-    text = f"{abs(rounded):f}".replace(".", sign)
+    text = f"{abs(rounded):.{max(decimals, 0)}f}".replace(".", sign)
     return f"{MINUS}{text}" if rounded < 0 else text
 
 

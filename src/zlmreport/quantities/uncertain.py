@@ -19,7 +19,6 @@ def rounded_pair(
     value: float,
     expanded_uncertainty: float,
     sign: DecimalSign = DecimalSign.POINT,
-    most_decimals: int | None = None,
 ) -> tuple[str, str]:
     """Write a value and its uncertainty: the uncertainty with two significant digits, the value as far.
 
@@ -29,21 +28,15 @@ def rounded_pair(
         In the unit that is printed.
     sign
         Decimal sign.
-    most_decimals
-        No more decimals than these, and so fewer digits of an uncertainty below what the readings show.
 
     >>> rounded_pair(-4.01187, 0.1319), rounded_pair(12.3456, 0.0996), rounded_pair(5678.9, 432.1)
-    (('−4.01', '0.13'), ('12.35', '0.10'), ('5679', '432'))
-    >>> rounded_pair(1.23456, 0.0123, most_decimals=2)
-    ('1.23', '0.02')
+    (('−4.01', '0.13'), ('12.35', '0.10'), ('5680', '430'))
     """
     decimals = _DECIMALS
     if isfinite(expanded_uncertainty) and expanded_uncertainty > 0:
         decimals = _decimals(expanded_uncertainty)
         # 0.0996 is 0.10 with two digits: rounding may have made one digit more of it.
-        decimals = max(0, _decimals(round(expanded_uncertainty, decimals)))
-    if most_decimals is not None:
-        decimals = min(decimals, most_decimals)
+        decimals = _decimals(round(expanded_uncertainty, decimals))
     if not isfinite(expanded_uncertainty):
         return fixed_number(value, decimals, sign), "∞"
     return fixed_number(value, decimals, sign), fixed_number(

@@ -195,6 +195,7 @@ def _of_direction(set_up: GaugeSetUp, length: float) -> Iterator[Contribution]:
         Distribution.ONE_SIDED,
         _STANDARD.given(value=_two_digits(MICRORADIAN.from_si(uncertainty)), unit="µrad"),
         _DIRECTION_SOURCE,
+        "misalignment",
     )
 
 
@@ -210,6 +211,7 @@ def _of_expansion(set_up: GaugeSetUp, length: float) -> Iterator[Contribution]:
         Distribution.NORMAL,
         _EXPANSION_STATED.given(value=known / MICROMETRE_PER_METRE_KELVIN),
         _EXPANSION_SOURCE.given(difference=float(round(expansion.difference, 4))),
+        "device_expansion_coefficient",
     )
 
 

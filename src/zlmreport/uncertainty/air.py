@@ -62,6 +62,7 @@ def air_contributions(job: Job, measurements: MeasurementSet, length: float) -> 
                     unit=_difference_unit(unit.symbol),
                     length=wording.length(length),
                 ),
+                contributor=name,
             )
     yield Contribution(
         name=_EQUATION,

@@ -17,8 +17,8 @@ class Acts(Enum):
     each of them) all of the negative direction: the datum lies in the positive one. Of an error of the datum
     all, and alike. Of an error of position (the faces of a polygon, the nonlinearity of a sensor)
     all readings of one target position; of a face that is touched from one side only (that of a gauge's
-    block) all readings of one target position in one direction. Of a fluctuation none: each reading has its
-    own.
+    block) all readings of one target position in one direction. Of a drift those that are near in time
+    (`zlmreport.uncertainty.drift`). Of a fluctuation none: each reading has its own.
     """
 
     ALONG_THE_LENGTH = "along-the-length"
@@ -26,6 +26,7 @@ class Acts(Enum):
     AT_THE_DATUM = "at-the-datum"
     AT_EACH_POSITION = "at-each-position"
     AT_EACH_APPROACH = "at-each-approach"
+    IN_TIME = "in-time"
     AT_EACH_READING = "at-each-reading"
 
 
@@ -33,13 +34,15 @@ class Distribution(Enum):
     """How the error is distributed over the values that it may have.
 
     ONE_SIDED is rectangular from zero to the whole range: a cosine error, that makes every length too
-    short and none too long.
+    short and none too long. KNOWN is no distribution: an error of known size that nobody corrected, such as
+    the expansion of a warm machine (JCGM 100, F.2.4.5).
     """
 
     NORMAL = "normal"
     RECTANGULAR = "rectangular"
     TRIANGULAR = "triangular"
     ONE_SIDED = "one-sided"
+    KNOWN = "known"
 
     @property
     def range_over_standard_uncertainty(self) -> float:
@@ -55,6 +58,7 @@ _RANGES = {
     Distribution.RECTANGULAR: math.sqrt(12.0),
     Distribution.TRIANGULAR: math.sqrt(24.0),
     Distribution.ONE_SIDED: math.sqrt(3.0),
+    Distribution.KNOWN: 1.0,
 }
 
 
@@ -78,6 +82,10 @@ class Contribution:
         The figure from which u was formed, as it is printed: ``U = 0.3 µm (k = 2)``.
     source
         Where that figure comes from.
+    contributor
+        Which usual contributor it is, by its key under ``uncertainty`` or ``instrument``; None for others.
+    sign
+        +1 or −1, of a known error: that of what would have to be added to the readings.
     """
 
     name: Words
@@ -86,3 +94,5 @@ class Contribution:
     distribution: Distribution
     stated: Words
     source: Words
+    contributor: str | None = None
+    sign: int = 1

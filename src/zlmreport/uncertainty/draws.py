@@ -41,13 +41,13 @@ def single_draws(
 
 
 def _combined(contributions: Sequence[Contribution]) -> Iterator[tuple[Distribution, float]]:
-    """Yield distributions with their standard uncertainties; the sum of normal ones is normal."""
+    """Yield distributions with their signed standard uncertainties; the sum of normal ones is normal."""
     normal = [each for each in contributions if each.distribution is Distribution.NORMAL]
     if normal:
         yield Distribution.NORMAL, math.sqrt(math.fsum(each.standard_uncertainty**2 for each in normal))
     for each in contributions:
         if each.distribution is not Distribution.NORMAL:
-            yield each.distribution, each.standard_uncertainty
+            yield each.distribution, each.sign * each.standard_uncertainty
 
 
 def _quantiles(distribution: Distribution, probability: FloatArray) -> FloatArray:
@@ -55,6 +55,8 @@ def _quantiles(distribution: Distribution, probability: FloatArray) -> FloatArra
     full_range = distribution.range_over_standard_uncertainty
     if distribution is Distribution.NORMAL:
         return np.array(list(map(NormalDist().inv_cdf, probability.tolist())))
+    if distribution is Distribution.KNOWN:
+        return np.ones_like(probability)
     if distribution is Distribution.ONE_SIDED:
         return probability * full_range
     if distribution is Distribution.RECTANGULAR:

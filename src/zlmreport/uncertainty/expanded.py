@@ -5,10 +5,16 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from zlmreport.evaluation.evaluation import Evaluation
-from zlmreport.uncertainty.budget import Budget, NoBudget
+import numpy as np
+
+from zlmreport.evaluation.evaluation import Evaluation, MeanUncertainty
+from zlmreport.measurement.approach import Approach
+from zlmreport.quantities.arrays import FloatArray, read_only_floats
+from zlmreport.uncertainty.axis_interval import axis_intervals
+from zlmreport.uncertainty.budget import COVERAGE_FACTOR, Budget, NoBudget, effect_along
+from zlmreport.uncertainty.contribution import Acts
+from zlmreport.uncertainty.drift import drift_range, mean_drift_variance, reading_times
 from zlmreport.uncertainty.monte_carlo import StandardArithmetic, propagate
-from zlmreport.uncertainty.positions import mean_uncertainty
 
 
 def with_uncertainty(
@@ -16,16 +22,30 @@ def with_uncertainty(
 ) -> tuple[Evaluation, ...]:
     """Return evaluations of one test with U and k of their parameters and U of their mean deviations.
 
+    Each parameter also has the interval in which another test of the same plan would find it.
+
     Parameters
     ----------
     evaluations
         Each with the arithmetic that takes it from statistics to parameters.
     budget
-        Of the measuring set-up; without one, the evaluations come back as they are.
+        Of the measuring set-up; without one nothing is said of U.
     """
-    bare = tuple(evaluation for evaluation, _ in evaluations)
-    if isinstance(budget, NoBudget) or not bare:
-        return bare
+    if not evaluations:
+        return ()
+    intervals = axis_intervals(evaluations)
+    bare = [
+        replace(
+            evaluation,
+            parameters=tuple(
+                replace(each, axis_interval=of_axis.get(each.quantity.symbol))
+                for each in evaluation.parameters
+            ),
+        )
+        for (evaluation, _), of_axis in zip(evaluations, intervals, strict=True)
+    ]
+    if isinstance(budget, NoBudget):
+        return tuple(bare)
     found = []
     for evaluation, expanded in zip(bare, propagate(budget, evaluations), strict=True):
         parameters = tuple(
@@ -33,9 +53,58 @@ def with_uncertainty(
                 each,
                 expanded_uncertainty=expanded[each.quantity.symbol].uncertainty,
                 coverage_factor=expanded[each.quantity.symbol].coverage_factor,
+                raised_to=expanded[each.quantity.symbol].least,
             )
             for each in evaluation.parameters
         )
         means = mean_uncertainty(evaluation, budget)
-        found.append(replace(evaluation, parameters=parameters, mean_uncertainty=means))
+        found.append(
+            replace(
+                evaluation,
+                parameters=parameters,
+                mean_uncertainty=means,
+                uncertainty_is_complete=budget.is_complete,
+            )
+        )
     return tuple(found)
+
+
+def mean_uncertainty(evaluation: Evaluation, budget: Budget) -> MeanUncertainty:
+    """Return U of x̄_i↑, x̄_i↓ and x̄_i, by the law of propagation (JCGM 100, 5.1).
+
+    Notes
+    -----
+    u²(x̄_i↑) = u_L²·((P_i − P_1)/L)² + u_0² + u_P² + u_A² + u_E² + u_R²/n, with the sums of squares u_L² of
+    the contributions along the length, u_0² at the datum, u_P² at each position, u_A² at each approach and
+    u_R² at each reading, and u_E² of what a drift leaves in the mean; u²(x̄_i↓) has u_D² more, of what parts
+    the directions. Both share u_L, u_0 and u_P; the mean of both has half of u_A², a quarter of u_D², and
+    u_R²/n of all its readings, (1/n↑ + 1/n↓)/4. Known errors are added to k·u whole (JCGM 100, F.2.4.5).
+    """
+    statistics, measurements = evaluation.statistics, evaluation.measurements
+    effect = effect_along(measurements.target_positions)
+    alike = budget.variance(Acts.AT_THE_DATUM) + budget.variance(Acts.AT_EACH_POSITION)
+    shared = budget.variance(Acts.ALONG_THE_LENGTH) * effect**2 + alike
+    faces, parting = budget.variance(Acts.AT_EACH_APPROACH), budget.variance(Acts.BETWEEN_DIRECTIONS)
+    of_direction = parting * np.array([each is Approach.NEGATIVE for each in Approach])[:, np.newaxis]
+    own = budget.variance(Acts.AT_EACH_READING)
+    per_reading = 1 / np.where(statistics.count > 0, statistics.count, np.nan)
+    of_both = (per_reading[Approach.POSITIVE.index] + per_reading[Approach.NEGATIVE.index]) / 4
+    by_approach = shared + of_direction + faces + own * per_reading
+    bidirectional = shared + parting / 4 + faces / 2 + own * of_both
+    drifting = budget.acting(Acts.IN_TIME)
+    if drifting:
+        of_approach, of_mean = mean_drift_variance(reading_times(measurements))
+        squares = sum(drift_range(each) ** 2 for each in drifting)
+        by_approach = by_approach + squares * of_approach
+        bidirectional = bidirectional + squares * of_mean
+    known = np.abs(budget.known(Acts.ALONG_THE_LENGTH) * effect + budget.known(Acts.AT_THE_DATUM))
+    least = max(budget.least, budget.of_the_instrument)
+
+    def expanded(variance: FloatArray) -> FloatArray:
+        return np.maximum(known + COVERAGE_FACTOR * np.sqrt(variance), least)
+
+    return MeanUncertainty(
+        coverage_factor=COVERAGE_FACTOR,
+        by_approach=read_only_floats(expanded(by_approach)),
+        bidirectional=read_only_floats(expanded(bidirectional)),
+    )

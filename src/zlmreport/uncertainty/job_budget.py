@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 from zlmreport.errors import InputError
 from zlmreport.job.evaluation_keys import ContributionKeys
 from zlmreport.job.job import Job
-from zlmreport.job.measurement_keys import Instrument
+from zlmreport.job.types import along_the_length
 from zlmreport.language import Words, same
 from zlmreport.measurement.axis import AxisKind
 from zlmreport.measurement.measurement_set import MeasurementSet
@@ -17,8 +18,9 @@ from zlmreport.quantities.units import MICROMETRE, MICROMETRE_PER_METRE_KELVIN, 
 from zlmreport.uncertainty import terms, wording
 from zlmreport.uncertainty.air import air_contributions
 from zlmreport.uncertainty.budget import Budget, NoBudget
+from zlmreport.uncertainty.completeness import INSTRUMENT, demanded
 from zlmreport.uncertainty.contribution import Acts, Contribution, Distribution
-from zlmreport.uncertainty.set_up import SetUp
+from zlmreport.uncertainty.thermal import SetUp
 
 #: Of the uncertainties that a job states as expanded.
 _COVERAGE_FACTOR = 2.0
@@ -46,57 +48,98 @@ def budget_of(
         If a figure is stated without what its formula needs beside it.
     """
     set_up = SetUp.of(job, measurements)
+    keys = job.keys.uncertainty
+    negligible = tuple(keys.negligible.items())
     instrument = of_the_instrument or _instrument(job, set_up)
-    if isinstance(instrument, NoBudget):
-        return instrument
+    contributions = (
+        *(() if isinstance(instrument, Words) else instrument),
+        *_of_the_length(job, set_up, is_artefact=bool(of_the_instrument)),
+        *air_contributions(job, measurements, set_up.length),
+        *_fluctuations(job, measurements),
+        *(_other(each, job.axis.deviation_unit) for each in keys.contributions),
+    )
+    considered = {each.contributor for each in contributions} | keys.negligible.keys()
+    if of_the_instrument:
+        considered.add(INSTRUMENT)
+    missing = tuple(name for name in demanded(job.keys) if name not in considered)
+    has_length = job.axis.kind is AxisKind.LINEAR and not of_the_instrument
+    expansion = set_up.uncorrected_expansion if has_length else 0.0
+    if isinstance(instrument, Words):
+        return NoBudget(instrument, missing, negligible, expansion)
     problems = sorted(set_up.lacks(job))
     if problems:
         raise InputError(problems)
-    contributions = (
-        *instrument,
-        *_of_the_length(job, set_up),
-        *air_contributions(job, measurements, set_up.length),
-        *_fluctuations(job, measurements),
-        *(_other(each, job.axis.deviation_unit) for each in job.keys.uncertainty.contributions),
+    usual = not of_the_instrument and keys.instrument_acts is None
+    return Budget(
+        tuple(each for acts in Acts for each in contributions if each.acts is acts),
+        missing,
+        negligible,
+        _COVERAGE_FACTOR * math.fsum(each.standard_uncertainty for each in instrument) if usual else 0.0,
+        _capability(job, set_up),
+        expansion,
     )
-    usual = wording.USUAL if job.axis.kind is AxisKind.LINEAR else wording.USUAL_OF_ROTARY
-    considered = [each.name for each in contributions]
-    ordered = tuple(each for acts in Acts for each in contributions if each.acts is acts)
-    return Budget(ordered, tuple(words for words in usual.values() if words not in considered))
 
 
-def _instrument(job: Job, set_up: SetUp) -> tuple[Contribution, ...] | NoBudget:
-    """Return the contribution of the instrument that the job names."""
+def _capability(job: Job, set_up: SetUp) -> float:
+    """Return the smallest U that the laboratory's accreditation lets it state, m or rad."""
+    cmc = job.keys.laboratory.cmc if job.keys.laboratory else None
+    if cmc is None:
+        return 0.0
+    return job.axis.deviation_unit.to_si(cmc.constant) + MICROMETRE.to_si(cmc.per_metre) * set_up.length
+
+
+def _instrument(job: Job, set_up: SetUp) -> tuple[Contribution, ...] | Words:
+    """Return the contributions of the instrument that the job names, or why there are none."""
     instrument = job.keys.instrument
-    if instrument is None or not (
-        instrument.expanded_uncertainty or instrument.expanded_uncertainty_per_metre
-    ):
-        return NoBudget(wording.NO_INSTRUMENT)
-    if isinstance(instrument.expanded_uncertainty, str):
-        return NoBudget(wording.INSTRUMENT_IN_WORDS)
-    return (_device(instrument, instrument.expanded_uncertainty or 0.0, job, set_up),)
+    if instrument is None:
+        return wording.NO_INSTRUMENT
+    constant, per_metre = instrument.expanded_uncertainty, instrument.expanded_uncertainty_per_metre or 0.0
+    if isinstance(constant, str):
+        formula = along_the_length(constant)
+        if formula is None:
+            return wording.INSTRUMENT_IN_WORDS
+        constant, per_metre = formula[0], formula[1] + per_metre
+    if not (constant or per_metre):
+        return wording.NO_INSTRUMENT
+    return tuple(_device(constant or 0.0, per_metre, job, set_up))
 
 
-def _device(instrument: Instrument, constant: float, job: Job, set_up: SetUp) -> Contribution:
+def _device(constant: float, per_metre: float, job: Job, set_up: SetUp) -> Iterator[Contribution]:
+    """Yield the constant part of an instrument's error, and the one that grows with the length."""
     unit = job.axis.deviation_unit
-    per_metre = instrument.expanded_uncertainty_per_metre or 0.0
-    along = job.axis.kind is AxisKind.LINEAR
-    usual = Acts.ALONG_THE_LENGTH if along else Acts.AT_EACH_POSITION
     stated_acts = job.keys.uncertainty.instrument_acts
-    return Contribution(
-        name=wording.DEVICE,
-        standard_uncertainty=terms.device(
-            unit.to_si(constant), MICROMETRE.to_si(per_metre), set_up.length, _COVERAGE_FACTOR
+    source = wording.calibration(job.keys.instrument.certificate if job.keys.instrument else None)
+    for expanded, name, acts, stated in (
+        (
+            unit.to_si(constant),
+            wording.DEVICE,
+            Acts(stated_acts) if stated_acts else Acts.AT_EACH_POSITION,
+            wording.expanded(constant, unit.symbol, _COVERAGE_FACTOR),
         ),
-        acts=Acts(stated_acts) if stated_acts else usual,
-        distribution=Distribution.NORMAL,
-        stated=wording.expanded(constant, per_metre, unit, _COVERAGE_FACTOR),
-        source=wording.calibration(instrument.certificate),
-    )
+        (
+            MICROMETRE.to_si(per_metre) * set_up.length,
+            wording.DEVICE_ALONG,
+            Acts.ALONG_THE_LENGTH,
+            wording.expanded(per_metre, "µm/m · L", _COVERAGE_FACTOR),
+        ),
+    ):
+        if expanded:
+            yield Contribution(
+                name=name,
+                standard_uncertainty=expanded / _COVERAGE_FACTOR,
+                acts=acts,
+                distribution=Distribution.NORMAL,
+                stated=stated,
+                source=source,
+                contributor=INSTRUMENT,
+            )
 
 
-def _of_the_length(job: Job, set_up: SetUp) -> Iterator[Contribution]:
-    """Yield what is in proportion to the measured length: alignment, temperatures, expansion."""
+def _of_the_length(job: Job, set_up: SetUp, *, is_artefact: bool) -> Iterator[Contribution]:
+    """Yield what is in proportion to the measured length: alignment, temperatures, expansion.
+
+    An artefact's own contributions have the expansion of machine and artefact in them.
+    """
     keys = job.keys.uncertainty
     length = set_up.length
     if keys.misalignment is not None:
@@ -123,6 +166,25 @@ def _of_the_length(job: Job, set_up: SetUp) -> Iterator[Contribution]:
             full_range = terms.expansion_range(length, set_up.difference, alpha)
             source = wording.EXPANSION.given(difference=set_up.difference, length=wording.length(length))
             yield _contribution(key, full_range, wording.full_range("R(α)", coefficient, "µm/(m·K)"), source)
+    expansion = 0.0 if is_artefact else set_up.uncorrected_expansion
+    if job.axis.kind is AxisKind.LINEAR and expansion:
+        yield Contribution(
+            name=wording.UNCORRECTED,
+            standard_uncertainty=abs(expansion),
+            acts=Acts.ALONG_THE_LENGTH,
+            distribution=Distribution.KNOWN,
+            stated=wording.full_range("α·ΔT·L", _shown(MICROMETRE.from_si(expansion)), "µm"),
+            source=wording.UNCORRECTED_SOURCE.given(
+                expansion=_shown((set_up.expansion or 0.0) / MICROMETRE_PER_METRE_KELVIN),
+                difference=_shown(set_up.difference or 0.0),
+                length=wording.length(set_up.length),
+            ),
+            sign=-1 if expansion > 0 else 1,  # what a warm machine shows too long would have to be taken off
+        )
+
+
+def _shown(value: float) -> float:
+    return float(f"{value:.4g}")
 
 
 def _fluctuations(job: Job, measurements: MeasurementSet) -> Iterator[Contribution]:
@@ -135,13 +197,13 @@ def _fluctuations(job: Job, measurements: MeasurementSet) -> Iterator[Contributi
     step, source = keys.resolution, wording.STATED
     if step is None and not measurements.provenance.corrections:
         step, source = _last_digit(unit.from_si(measurements.deviation)), wording.LAST_DIGIT
-    for key, full_range, origin in (
-        ("environmental_variation", keys.environmental_variation, wording.DRIFT_AT_REST),
-        ("resolution", step, source),
+    for key, full_range, origin, acts in (
+        ("environmental_variation", keys.environmental_variation, wording.DRIFT_AT_REST, Acts.IN_TIME),
+        ("resolution", step, source, Acts.AT_EACH_READING),
     ):
         if full_range is not None:
             stated = wording.full_range("R", full_range, unit.symbol)
-            yield _contribution(key, unit.to_si(full_range), stated, origin, acts=Acts.AT_EACH_READING)
+            yield _contribution(key, unit.to_si(full_range), stated, origin, acts=acts)
 
 
 def _last_digit(readings: FloatArray) -> float:
@@ -165,6 +227,7 @@ def _contribution(  # noqa: PLR0913 - a usual contribution, but for what usually
         distribution=distribution,
         stated=stated,
         source=source,
+        contributor=key,
     )
 
 
@@ -179,7 +242,7 @@ def _other(keys: ContributionKeys, unit: Unit) -> Contribution:
         standard_uncertainty = keys.standard_uncertainty
     else:
         expanded = keys.expanded_uncertainty or 0.0
-        stated = wording.expanded(expanded, 0.0, unit, _COVERAGE_FACTOR)
+        stated = wording.expanded(expanded, unit.symbol, _COVERAGE_FACTOR)
         standard_uncertainty = expanded / _COVERAGE_FACTOR
     return Contribution(
         name=same(keys.name),

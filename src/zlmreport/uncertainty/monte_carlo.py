@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from zlmreport.evaluation.evaluation import Arithmetic, Evaluation
+from zlmreport.evaluation.evaluation import Arithmetic, Evaluation, Least
 from zlmreport.evaluation.statistics import PositionStatistics, position_statistics
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.measurement_set import MeasurementSet
@@ -21,6 +21,7 @@ from zlmreport.quantities.arrays import FloatArray
 from zlmreport.uncertainty.budget import COVERAGE_FACTOR, COVERAGE_PROBABILITY, Budget, effect_along
 from zlmreport.uncertainty.contribution import Acts
 from zlmreport.uncertainty.draws import single_draws, stratified_draws
+from zlmreport.uncertainty.drift import Drift, drawn_drifts, drift_range, reading_times
 
 #: U then scatters by 1 % at most from one sequence of random numbers to another, which the second digit
 #: hardly shows.
@@ -33,16 +34,29 @@ _NOTHING = 1e-9
 #: Digits of U and k that are kept: far more than are known, and so few that no rounding of another
 #: processor shows.
 _DIGITS = 6
+#: Of the errors by which a parameter is asked whether it compares positions, m or rad, at the least.
+_BEND = 1e-6
 
 StandardArithmetic = Callable[[PositionStatistics], Arithmetic]
 
 
 @dataclass(frozen=True, slots=True)
 class Expanded:
-    """Expanded uncertainty U = k·u of a parameter, m or rad, and its coverage factor k."""
+    """Expanded uncertainty of a parameter.
+
+    Attributes
+    ----------
+    uncertainty
+        U = k·u, m or rad.
+    coverage_factor
+        k.
+    least
+        What U was raised to, where the simulation gave less; else None.
+    """
 
     uncertainty: float
     coverage_factor: float
+    least: Least | None = None
 
 
 def propagate(
@@ -59,20 +73,51 @@ def propagate(
     evaluations
         Of one test, one at least, each with the arithmetic that takes it from statistics to parameters.
     trials
-        Simulated tests.
+        Simulated tests; kinds of drift share them.
 
     Notes
     -----
     U is half the width of the interval y ± U, about the value that the standard gives for the readings, which
     holds 95.45 % of the simulated values; u is the root mean square of their distances from y. A range or a
     largest value grows when errors are added to the readings, so that its simulated values lie more above y
-    than below: U and u both count that in.
+    than below: U and u both count that in. Where something drifts, U is the largest of those of the kinds of
+    drift. It is never less than the budget's bounds.
     """
-    symbols = [[each.quantity.symbol for each in evaluation.parameters] for evaluation, _ in evaluations]
-    distances = [{symbol: np.empty(trials) for symbol in of_one} for of_one in symbols]
     measurements = evaluations[0][0].measurements
+    readings = measurements.deviations()
+    if not np.isfinite(readings).any():
+        return tuple({} for _ in evaluations)
+    generator = np.random.Generator(np.random.PCG64(seed_of(measurements, readings)))
+    least = _NOTHING * budget.standard_uncertainty
+    found: list[dict[str, Expanded]] = [{} for _ in evaluations]
+    kinds: Sequence[Drift | None] = tuple(Drift) if budget.acting(Acts.IN_TIME) else (None,)
+    for kind in kinds:
+        distances = _distances(budget, evaluations, kind, trials // len(kinds), generator)
+        for so_far, of_one in zip(found, distances, strict=True):
+            for symbol, values in of_one.items():
+                expanded = _expanded(np.abs(values), least)
+                if symbol not in so_far or expanded.uncertainty > so_far[symbol].uncertainty:
+                    so_far[symbol] = expanded
+    return tuple(
+        {symbol: _bounded(each, budget, of_positions[symbol]) for symbol, each in so_far.items()}
+        for so_far, of_positions in zip(found, _compares_positions(evaluations, readings), strict=True)
+    )
+
+
+def _distances(
+    budget: Budget,
+    evaluations: Sequence[tuple[Evaluation, StandardArithmetic]],
+    kind: Drift | None,
+    trials: int,
+    generator: np.random.Generator,
+) -> list[dict[str, FloatArray]]:
+    """Return y* − y of every parameter in simulated tests with one kind of drift."""
+    distances = [
+        {each.quantity.symbol: np.empty(trials) for each in evaluation.parameters}
+        for evaluation, _ in evaluations
+    ]
     done = 0
-    for simulated in _simulated(budget, measurements, trials):
+    for simulated in _simulated(budget, evaluations[0][0].measurements, kind, trials, generator):
         statistics = position_statistics(simulated)
         chunk = slice(done, done + len(simulated))
         done = chunk.stop
@@ -80,20 +125,23 @@ def propagate(
             parameters = arithmetic(statistics).parameters
             for each in evaluation.parameters:
                 found[each.quantity.symbol][chunk] = parameters[each.quantity.symbol] - each.value
-    least = _NOTHING * budget.standard_uncertainty
-    return tuple(
-        {symbol: _expanded(np.abs(values), least) for symbol, values in of_one.items()}
-        for of_one in distances
-    )
+    return distances
 
 
-def _simulated(budget: Budget, measurements: MeasurementSet, trials: int) -> Iterator[FloatArray]:
+def _simulated(
+    budget: Budget,
+    measurements: MeasurementSet,
+    kind: Drift | None,
+    trials: int,
+    generator: np.random.Generator,
+) -> Iterator[FloatArray]:
     """Yield simulated tests, so many at a time: shape (trial, approach, position, run), m or rad."""
     readings = measurements.deviations()
-    generator = np.random.Generator(np.random.PCG64(_seed(measurements, readings)))
     along = stratified_draws(budget.acting(Acts.ALONG_THE_LENGTH), trials, generator)
     parting = stratified_draws(budget.acting(Acts.BETWEEN_DIRECTIONS), trials, generator)
     alike = stratified_draws(budget.acting(Acts.AT_THE_DATUM), trials, generator)
+    drifting = budget.acting(Acts.IN_TIME)
+    times = reading_times(measurements)
     effect = effect_along(measurements.target_positions)
     parted = np.array([float(approach is Approach.NEGATIVE) for approach in Approach])
     at_once = max(1, _AT_ONCE // readings.size)
@@ -102,6 +150,9 @@ def _simulated(budget: Budget, measurements: MeasurementSet, trials: int) -> Ite
         errors = along[first : first + count, np.newaxis] * effect
         errors += single_draws(budget.acting(Acts.AT_EACH_POSITION), errors.shape, generator)
         own = single_draws(budget.acting(Acts.AT_EACH_READING), (count, *readings.shape), generator)
+        if kind:
+            for each in drifting:
+                own += drift_range(each) * drawn_drifts(kind, times, count, generator)
         trial = slice(first, first + count)
         common = alike[trial, np.newaxis] + np.multiply.outer(parting[trial], parted)
         shared = errors[:, np.newaxis, :] + common[..., np.newaxis]
@@ -109,7 +160,26 @@ def _simulated(budget: Budget, measurements: MeasurementSet, trials: int) -> Ite
         yield readings + shared[..., np.newaxis] + own
 
 
-def _seed(measurements: MeasurementSet, readings: FloatArray) -> int:
+def _compares_positions(
+    evaluations: Sequence[tuple[Evaluation, StandardArithmetic]], readings: FloatArray
+) -> list[dict[str, bool]]:
+    """Return which parameters an error of position can enter: asked of the standard by large errors."""
+    bend = float(np.nanmax(readings) - np.nanmin(readings) + _BEND) * np.arange(readings.shape[1]) ** 2
+    bent = np.stack([readings + side * bend[:, np.newaxis] for side in (-1.0, 1.0)])
+    statistics = position_statistics(bent)
+    return [
+        {
+            each.quantity.symbol: bool(
+                np.any(np.abs(parameters[each.quantity.symbol] - each.value) > _NOTHING * bend[-1])
+            )
+            for each in evaluation.parameters
+        }
+        for evaluation, arithmetic in evaluations
+        for parameters in (arithmetic(statistics).parameters,)
+    ]
+
+
+def seed_of(measurements: MeasurementSet, readings: FloatArray) -> int:
     """Return a seed that is the readings' own: the same test gives the same uncertainties."""
     digest = hashlib.sha256()
     for values in (measurements.target_positions, np.where(np.isnan(readings), np.inf, readings)):
@@ -123,8 +193,20 @@ def _expanded(distances: FloatArray, least: float) -> Expanded:
         return Expanded(0.0, COVERAGE_FACTOR)
     rank = math.ceil(COVERAGE_PROBABILITY * len(distances)) - 1
     half_width = float(np.partition(distances, rank)[rank])
-    return Expanded(_shortened(half_width), _shortened(half_width / standard))
+    return Expanded(shortened(half_width), shortened(half_width / standard))
 
 
-def _shortened(value: float) -> float:
+def _bounded(expanded: Expanded, budget: Budget, compares_positions: bool) -> Expanded:  # noqa: FBT001 - private
+    """Raise U to what it must at least be; the bounds are stated with k = 2."""
+    for bound, least in (
+        (budget.of_the_instrument if compares_positions else 0.0, Least.INSTRUMENT),
+        (budget.least, Least.LABORATORY),
+    ):
+        if expanded.uncertainty < bound:
+            expanded = Expanded(shortened(bound), COVERAGE_FACTOR, least)
+    return expanded
+
+
+def shortened(value: float) -> float:
+    """Return a value with the digits that are kept."""
     return float(f"{value:.{_DIGITS}g}")

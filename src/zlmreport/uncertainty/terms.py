@@ -14,21 +14,6 @@ def from_range(full_range: float, distribution: Distribution) -> float:
     return full_range / distribution.range_over_standard_uncertainty
 
 
-def device(expanded_uncertainty: float, per_metre: float, length: float, coverage_factor: float) -> float:
-    """Return u = (U₀ + U₁·L)/k of an instrument at the length L (JCGM 100, 4.3.3).
-
-    Parameters
-    ----------
-    expanded_uncertainty, per_metre
-        U₀, m or rad, and U₁, m/m.
-    length
-        L, m; without effect where `per_metre` is zero.
-    coverage_factor
-        k.
-    """
-    return (expanded_uncertainty + per_metre * length) / coverage_factor
-
-
 def misalignment_range(misalignment: float, length: float) -> float:
     """Return the range of the cosine error, R²/(2L), m.
 

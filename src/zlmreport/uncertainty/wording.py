@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from types import MappingProxyType
 
+from zlmreport.evaluation.evaluation import Least
 from zlmreport.language import Words
+from zlmreport.measurement.measurement_set import CONDITION_NAMES
 from zlmreport.quantities.units import METRE, Unit
 from zlmreport.uncertainty.contribution import Acts, Distribution
 
@@ -23,9 +25,19 @@ _ENVIRONMENTAL_VARIATION = Words(
     en="Variation of the environment during the test", de="Schwankung der Umgebung während der Messung"
 )
 _RESOLUTION = Words(en="Resolution of the readings", de="Auflösung der Messwerte")
-#: The usual contributors beside the instrument, by the keys of a job.
+DEVICE_ALONG = Words(
+    en="Measuring instrument, part that grows with the length",
+    de="Messgerät, mit der Länge wachsender Teil",
+)
+UNCORRECTED = Words(en="Thermal expansion, not corrected", de="Wärmeausdehnung, nicht korrigiert")
+UNCORRECTED_SOURCE = Words(
+    en="of known size: α = {expansion} µm/(m·K), ΔT = {difference} K, L = {length}",
+    de="der Größe nach bekannt: α = {expansion} µm/(m·K), ΔT = {difference} K, L = {length}",
+)
+#: The usual contributors, by the keys of a job.
 USUAL: Mapping[str, Words] = MappingProxyType(
     {
+        "instrument": DEVICE,
         "misalignment": Words(
             en="Misalignment of the measuring line", de="Fluchtungsabweichung der Messlinie"
         ),
@@ -45,9 +57,25 @@ USUAL: Mapping[str, Words] = MappingProxyType(
         "resolution": _RESOLUTION,
     }
 )
-#: Those of a rotary axis.
-USUAL_OF_ROTARY: Mapping[str, Words] = MappingProxyType(
-    {"environmental_variation": _ENVIRONMENTAL_VARIATION, "resolution": _RESOLUTION}
+
+
+def contributor(name: str) -> Words:
+    """Return the name of a usual contributor, by its key."""
+    return CONDITION_NAMES[name] if name in CONDITION_NAMES else USUAL[name]
+
+
+#: What an uncertainty was raised to.
+RAISED_TO: Mapping[Least, Words] = MappingProxyType(
+    {
+        Least.INSTRUMENT: Words(
+            en="raised to the U of the measuring instrument (ISO/TR 230-9)",
+            de="auf U des Messgeräts angehoben (ISO/TR 230-9)",
+        ),
+        Least.LABORATORY: Words(
+            en="raised to the laboratory's measurement capability (CMC)",
+            de="auf die Messmöglichkeit des Laboratoriums (CMC) angehoben",
+        ),
+    }
 )
 
 STATED = Words(en="stated by the laboratory", de="Angabe des Laboratoriums")
@@ -86,6 +114,10 @@ ACTS: Mapping[Acts, Words] = MappingProxyType(
             en="all readings of a target in one direction alike",
             de="alle Messwerte einer Sollposition in einer Richtung gleich",
         ),
+        Acts.IN_TIME: Words(
+            en="readings that are near in time; of the kind of drift that disturbs a parameter most",
+            de="zeitlich benachbarte Messwerte; nach der Art der Drift, die eine Kenngröße am meisten stört",
+        ),
         Acts.AT_EACH_READING: Words(en="each reading by itself", de="jeder Messwert für sich"),
     }
 )
@@ -95,15 +127,12 @@ DISTRIBUTIONS: Mapping[Distribution, Words] = MappingProxyType(
         Distribution.RECTANGULAR: Words(en="rectangular", de="Rechteck"),
         Distribution.TRIANGULAR: Words(en="triangular", de="Dreieck"),
         Distribution.ONE_SIDED: Words(en="rectangular, from zero", de="Rechteck, ab null"),
+        Distribution.KNOWN: Words(en="known, not corrected", de="bekannt, nicht korrigiert"),
     }
 )
 
 _VALUE = Words(en="{symbol} = {value} {unit}", de="{symbol} = {value} {unit}")
 _EXPANDED = Words(en="U = {value} {unit} (k = {factor})", de="U = {value} {unit} (k = {factor})")
-_EXPANDED_PER_METRE = Words(
-    en="U = {value} {unit} + {per_metre} µm/m · L (k = {factor})",
-    de="U = {value} {unit} + {per_metre} µm/m · L (k = {factor})",
-)
 
 
 def calibration(certificate: str | None) -> Words:
@@ -126,7 +155,6 @@ def standard(value: float, unit: Unit) -> Words:
     return _VALUE.given(symbol="u", value=value, unit=unit.symbol)
 
 
-def expanded(value: float, per_metre: float, unit: Unit, factor: float) -> Words:
+def expanded(value: float, unit: str, factor: float) -> Words:
     """Return an expanded uncertainty as it is stated."""
-    words = _EXPANDED_PER_METRE if per_metre else _EXPANDED
-    return words.given(value=value, unit=unit.symbol, per_metre=per_metre, factor=factor)
+    return _EXPANDED.given(value=value, unit=unit, factor=factor)

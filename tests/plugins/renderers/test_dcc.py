@@ -29,6 +29,7 @@ KEYS: Mapping[str, Any] = {
     "decision_rule": "guard-band",
     "environment": {
         "air_temperature": 20.5,
+        "axis_temperature": 20,
         "air_pressure": "about 1013 hPa",
         "remarks": "sun & wind <calm>",
     },

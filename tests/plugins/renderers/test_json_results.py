@@ -107,7 +107,7 @@ def with_budget() -> Any:
             contribution(0.5, Acts.ALONG_THE_LENGTH),
             contribution(0.2, Acts.AT_EACH_READING, Distribution.RECTANGULAR),
         ),
-        (Words("Misalignment", "Fluchtung"),),
+        missing=("misalignment",),
     )
     bare = samples.certificate(standards=1)
     arithmetic = partial(samples.SampleStandard().arithmetic, options=Options())
@@ -126,7 +126,7 @@ def test_the_budget_stands_with_every_contribution() -> None:
     assert (own["standard_uncertainty"], own["acts"]) == (pytest.approx(0.2), "at-each-reading")
     assert along["share"] == pytest.approx(0.25 / 0.29)
     assert budget["combined_standard_uncertainty"] == pytest.approx(math.sqrt(0.29))
-    assert (budget["unit"], budget["not_considered"]) == ("um", ["Misalignment"])
+    assert (budget["unit"], budget["state"], budget["missing"]) == ("um", "incomplete", ["misalignment"])
 
 
 def test_every_parameter_and_every_mean_of_a_budget_has_its_uncertainty() -> None:
@@ -140,7 +140,13 @@ def test_every_parameter_and_every_mean_of_a_budget_has_its_uncertainty() -> Non
 def test_without_a_budget_the_reason_stands_in_its_place() -> None:
     reason = NoBudget(Words("nothing is known", "nichts ist bekannt"))
     results = render(replace(samples.certificate(), budget=reason))
-    assert results["uncertainty"] == {"not_evaluated": "nothing is known"}
+    assert results["uncertainty"] == {
+        "state": "incomplete",
+        "missing": ["instrument"],
+        "negligible": {},
+        "not_evaluated": "nothing is known",
+        "contributions": [],
+    }
 
 
 def test_values_are_unrounded_micrometres() -> None:

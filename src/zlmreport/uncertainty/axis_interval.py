@@ -1,0 +1,217 @@
+"""Where a parameter would come out in another test of the same axis by the same plan.
+
+This is about the axis and its scatter, and not about the measuring set-up: five readings know a standard
+deviation to a third, so the next test's R differs from this one's by far more than U. Pairs of tests are
+simulated of axes that may be this one, by the posterior distribution of its scatter, and the differences
+of a parameter between the two tests of a pair are put about the value of this test.
+
+The scatter has two parts. What all positions of a run share in one direction (the machine warms up, someone
+opens the door) varies from run to run; what is left belongs to a position and direction. The variances of
+the second part are taken as drawn from one scaled inverse χ² distribution, whose two parameters are estimated
+from all of them by the moments of ln s² (G. K. Smyth, Stat. Appl. Genet. Mol. Biol. 3, 2004, article 3): so
+positions that scatter alike inform each other, and those that do not keep their own. A position whose scatter
+stands out from all others is judged by itself.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from zlmreport.evaluation.evaluation import Evaluation
+from zlmreport.evaluation.statistics import position_statistics
+from zlmreport.quantities.arrays import BoolArray, FloatArray
+from zlmreport.uncertainty.monte_carlo import StandardArithmetic, seed_of, shortened
+
+#: Pairs of simulated tests.
+PAIRS = 2_000
+#: Probability that the next test's value lies in the interval.
+PROBABILITY = 0.95
+#: Standard deviations of ln s² by which a position stands out from the others.
+_STANDS_OUT = 2.2
+#: Share of the positions that may stand out: were it more, they would be the rule.
+_MOST_STANDING_OUT = 0.3
+#: Variances of fewer positions tell nothing of how these vary.
+_FEWEST = 4
+_STEP = 1e-3
+
+
+@dataclass(frozen=True, slots=True)
+class _Scatter:
+    """What one test tells of its axis's scatter; cells are positions in one direction.
+
+    Attributes
+    ----------
+    mean : (approach, position) array
+        Mean deviations, m or rad; NaN where there is no reading.
+    variance, freedom : (approach, position) arrays
+        Of the posterior: scaled inverse χ².
+    run_variance, run_freedom : (approach,) arrays
+        Of the means of runs.
+    correlation
+        Of what the two directions of a run share.
+    """
+
+    mean: FloatArray
+    variance: FloatArray
+    freedom: FloatArray
+    run_variance: FloatArray
+    run_freedom: FloatArray
+    correlation: float
+
+
+def axis_intervals(
+    evaluations: Sequence[tuple[Evaluation, StandardArithmetic]], pairs: int = PAIRS
+) -> tuple[Mapping[str, tuple[float, float]], ...]:
+    """Return for each evaluation of one test the interval of each parameter, m or rad.
+
+    Empty where the test has a single run: it tells nothing of the scatter.
+
+    Parameters
+    ----------
+    evaluations
+        Of one test, one at least, each with the arithmetic that takes it from statistics to parameters.
+    pairs
+        Simulated pairs of tests.
+    """
+    measurements = evaluations[0][0].measurements
+    readings = measurements.deviations()
+    scatter = _scatter_of(readings)
+    if scatter is None:
+        return tuple({} for _ in evaluations)
+    generator = np.random.Generator(np.random.PCG64(seed_of(measurements, readings)))
+    first, second = (
+        position_statistics(each) for each in _pairs(scatter, np.isfinite(readings), pairs, generator)
+    )
+    found = []
+    for evaluation, arithmetic in evaluations:
+        one, other = arithmetic(first).parameters, arithmetic(second).parameters
+        found.append(
+            {
+                symbol: _interval(each.value, one[symbol], other[symbol])
+                for each in evaluation.parameters
+                for symbol in (each.quantity.symbol,)
+            }
+        )
+    return tuple(found)
+
+
+def _interval(value: float, one: FloatArray, other: FloatArray) -> tuple[float, float]:
+    """Return the value with the quantiles of the differences within pairs on either side."""
+    tail = (1.0 - PROBABILITY) / 2
+    differences = np.concatenate((other - one, one - other))
+    low, high = np.quantile(differences, (tail, 1.0 - tail))
+    never_negative = value >= 0 and float(min(one.min(), other.min())) >= 0
+    lowest = value + float(low)
+    return shortened(max(lowest, 0.0) if never_negative else lowest), shortened(value + float(high))
+
+
+def _scatter_of(readings: FloatArray) -> _Scatter | None:
+    """Return what readings (approach, position, run) tell of the scatter; None where they tell nothing."""
+    there = np.isfinite(readings)
+    count = there.sum(axis=-1)
+    runs = there.any(axis=1)
+    if not np.any(count > 1) or not np.any(runs.sum(axis=-1) > 1):
+        return None
+    with np.errstate(invalid="ignore", divide="ignore"):
+        mean = np.where(there, readings, 0.0).sum(axis=-1) / np.where(count > 0, count, np.nan)
+        residuals = np.where(there, readings - mean[..., np.newaxis], 0.0)
+        of_run = residuals.sum(axis=1) / np.maximum(there.sum(axis=1), 1)
+    positions = np.maximum((count > 1).sum(axis=1), 1)
+    inner = np.where(there, residuals - of_run[:, np.newaxis, :], 0.0)
+    freedom = np.maximum(count - 1, 0).astype(float)
+    # A run's mean takes its share out of each residual: 1 of the m positions is used up.
+    left = np.where(positions > 1, positions / np.maximum(positions - 1, 1), 1.0)[:, np.newaxis]
+    variance = np.where(freedom > 0, (inner**2).sum(axis=-1) * left / np.maximum(freedom, 1), np.nan)
+    run_freedom = np.maximum(runs.sum(axis=-1) - 1, 0).astype(float)
+    run_variance = (of_run**2).sum(axis=-1) / np.maximum(run_freedom, 1)
+    product = math.sqrt(float(np.prod((of_run**2).sum(axis=-1))))
+    correlation = float((of_run[0] * of_run[1]).sum()) / product if product else 0.0
+    pooled, pooled_freedom = _pooled(variance, freedom)
+    return _Scatter(mean, pooled, pooled_freedom, run_variance, run_freedom, max(-1.0, min(1.0, correlation)))
+
+
+def _pooled(variance: FloatArray, freedom: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return the posterior variances and degrees of freedom of cells, each informed by all others."""
+    known = (freedom > 0) & (variance > 0)
+    if np.count_nonzero(known) < _FEWEST:
+        total = float(freedom.sum())
+        common = float(np.nansum(variance * freedom)) / total
+        return np.full_like(freedom, common), np.full_like(freedom, total)
+    own = float(np.median(freedom[known]))
+    logarithms = np.log(np.where(known, variance, 1.0)) - _digamma(own / 2) + math.log(own / 2)
+    alike = _alike(logarithms, known, _trigamma(own / 2))
+    centre = float(logarithms[alike].mean())
+    beyond_chance = float(logarithms[alike].var(ddof=1)) - _trigamma(own / 2)
+    if beyond_chance <= _STEP:  # no more different than equal variances look
+        total = float(freedom[alike].sum())
+        common = float((variance[alike] * freedom[alike]).sum()) / total
+        pooled, pooled_freedom = np.full_like(freedom, common), np.full_like(freedom, total)
+    else:
+        prior = 2 * _inverse_trigamma(beyond_chance)
+        scale = math.exp(centre + _digamma(prior / 2) - math.log(prior / 2))
+        pooled_freedom = freedom + prior
+        pooled = (np.where(known, variance, 0.0) * freedom + prior * scale) / pooled_freedom
+    stands_out = known & ~alike
+    return np.where(stands_out, variance, pooled), np.where(stands_out, freedom, pooled_freedom)
+
+
+def _alike(logarithms: FloatArray, known: BoolArray, chance: float) -> BoolArray:
+    """Return the cells without those whose ln s² stands out from the others, the largest first."""
+    alike = known.copy()
+    while np.count_nonzero(alike) > max(_FEWEST, (1 - _MOST_STANDING_OUT) * np.count_nonzero(known)):
+        largest = np.unravel_index(np.argmax(np.where(alike, logarithms, -np.inf)), alike.shape)
+        others = alike.copy()
+        others[largest] = False
+        spread = math.sqrt(max(float(logarithms[others].var(ddof=1)), chance))
+        if logarithms[largest] - logarithms[others].mean() <= _STANDS_OUT * spread:
+            break
+        alike = others
+    return alike
+
+
+def _pairs(
+    scatter: _Scatter, there: BoolArray, count: int, generator: np.random.Generator
+) -> tuple[FloatArray, FloatArray]:
+    """Return two stacks of tests, (count, approach, position, run): of each axis one in each stack."""
+    shape = (count, *there.shape[:2])
+    variance = scatter.variance * scatter.freedom / (2 * generator.standard_gamma(scatter.freedom / 2, shape))
+    freedom = np.maximum(scatter.run_freedom, 1.0)
+    of_means = scatter.run_variance * freedom / (2 * generator.standard_gamma(freedom / 2, shape[:2]))
+    positions = np.maximum(there.any(axis=-1).sum(axis=1), 1)
+    shared = np.maximum(of_means - np.nanmean(variance, axis=-1) / positions, 0.0)
+    tests = []
+    for _ in range(2):
+        run = generator.standard_normal((count, 2, there.shape[-1]))
+        run[:, 1] = scatter.correlation * run[:, 0] + math.sqrt(1 - scatter.correlation**2) * run[:, 1]
+        test = np.sqrt(variance)[..., np.newaxis] * generator.standard_normal((count, *there.shape))
+        test += (np.sqrt(shared)[..., np.newaxis] * run)[:, :, np.newaxis, :]
+        test += scatter.mean[..., np.newaxis]
+        tests.append(np.where(there, test, np.nan))
+    return tests[0], tests[1]
+
+
+def _digamma(x: float) -> float:
+    """Return ψ(x), by a difference quotient of ln Γ: to 1e-7, where variances are known to a third."""
+    return (math.lgamma(x + _STEP) - math.lgamma(x - _STEP)) / (2 * _STEP)
+
+
+def _trigamma(x: float) -> float:
+    """Return ψ′(x) for x ≥ 1/2, by its recurrence and its asymptotic series."""
+    total = 0.0
+    while x < 6:  # where the series is good to 1e-8
+        total += 1 / x**2
+        x += 1
+    return total + 1 / x + 1 / (2 * x**2) + 1 / (6 * x**3) - 1 / (30 * x**5)
+
+
+def _inverse_trigamma(value: float) -> float:
+    """Return x with ψ′(x) = value, by bisection over all that matters."""
+    low, high = 1e-2, 1e6
+    for _ in range(60):
+        middle = math.sqrt(low * high)
+        low, high = (middle, high) if _trigamma(middle) > value else (low, middle)
+    return low
