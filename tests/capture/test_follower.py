@@ -11,6 +11,7 @@ from capture.moves import MM, SETTINGS, UM, Axis, following, happened, kinds, li
 from zlmreport.capture.events import (
     DatumMoved,
     DatumTaken,
+    Elsewhere,
     Missed,
     MovedBeforeDatum,
     Passed,
@@ -18,6 +19,7 @@ from zlmreport.capture.events import (
     Resumed,
     TooSlow,
     TrackLost,
+    Unclear,
     WrongDirection,
     ZeroLost,
 )
@@ -108,17 +110,18 @@ def test_a_standstill_outside_the_tolerance_takes_nothing() -> None:
 
 
 def test_a_standstill_of_which_one_reading_is_outside_the_tolerance_takes_nothing() -> None:
-    axis = Axis(error={0: -0.9999})
+    axis = Axis(error={0: -0.0999})
     beyond = (
-        replace(reading, value=-1.0002 * MM) if number == 550 else reading
+        replace(reading, value=-0.1002 * MM) if number == 550 else reading
         for number, reading in enumerate(chain(axis.stand(), axis.go(0, stay=2)))
     )
-    assert kinds(happened(beyond, following(listed()))) == ["visit 1"]
+    narrow = replace(SETTINGS, tolerance=0.1 * MM)
+    assert kinds(happened(beyond, following(listed(), settings=narrow))) == ["visit 1"]
 
 
 def test_the_same_standstill_is_not_read_twice() -> None:
     axis = Axis()
-    assert kinds(happened(chain(axis.stand(), axis.go(0, stay=30)), following(listed()))) == ["visit 1"]
+    assert kinds(happened(chain(axis.stand(), axis.go(0, stay=5)), following(listed()))) == ["visit 1"]
 
 
 def test_motion_of_less_than_ten_times_the_stability_range_is_no_new_visit() -> None:
@@ -139,8 +142,61 @@ def test_a_stop_short_of_its_target_gives_way_to_the_one_that_follows() -> None:
     """A feed hold 0.6 mm before the target."""
     axis, follower = Axis(), following(listed())
     events = happened(chain(axis.stand(), axis.go(-0.6), axis.go(0)), follower)
+    assert kinds(events) == ["Repeated", "visit 1"]
+    assert follower.progress.read[1, Approach.POSITIVE].position == 0.0
+
+
+def test_an_axis_that_creeps_to_its_target_is_read_where_it_stands_at_last() -> None:
+    axis, follower = Axis(), following(listed())
+    events = happened(chain(axis.stand(), axis.go(-0.025, stay=1.5), axis.go(0)), follower)
     assert kinds(events) == ["visit 1", "visit 1"]
     assert follower.progress.read[1, Approach.POSITIVE].position == 0.0
+
+
+def test_a_reading_that_departs_from_earlier_runs_is_asked_about() -> None:
+    axis, follower = Axis(), following(listed(Method.UNIDIRECTIONAL, runs=2))
+    happened(chain(axis.stand(), axis.go(0, 100, 200), axis.turn(-5)), follower)
+    axis.error = {0: 0.06}
+    (event,) = happened(axis.go(0, 20), follower)
+    assert isinstance(event, Unclear)
+    assert event.expected == pytest.approx(0.0)
+    assert event.candidates[0][0] == listed(Method.UNIDIRECTIONAL, runs=2)[3]
+
+
+@pytest.mark.parametrize(("answer", "expected"), [(1, ["Placed", "visit 1"]), (None, ["Placed", "Repeated"])])
+def test_a_doubted_reading_is_filed_or_dropped_as_the_operator_says(answer, expected: list[str]) -> None:
+    axis, follower = Axis(error={0: 0.3}), following(listed(), is_watched=True)
+    (event,) = happened(chain(axis.stand(), axis.go(0)), follower)
+    assert isinstance(event, Unclear)
+    assert kinds(follower.told(listed()[answer - 1] if answer else None)) == expected
+
+
+@pytest.mark.parametrize("factor", [-1.0, 25.4, 1000.0, 0.5])
+def test_a_display_that_reads_wrong_by_a_factor_is_known_by_it(factor: float) -> None:
+    axis, follower = Axis(), following(listed(targets=(50, 100, 150)), datum=-5 * MM)
+    wrong = (
+        replace(reading, value=(reading.value + 5 * MM) / factor)
+        for reading in chain(axis.stand(), axis.go(50))
+    )
+    *_, event = happened(wrong, follower)
+    assert isinstance(event, Elsewhere)
+    assert event.factor == factor
+
+
+def test_a_display_that_shows_the_same_for_too_long_is_named() -> None:
+    axis, follower = Axis(), following(listed())
+    events = happened(chain(axis.stand(), axis.go(0, stay=8)), follower)
+    assert kinds(events) == ["visit 1", "Frozen"]
+
+
+def test_readings_that_drift_at_a_target_are_named_with_their_rate() -> None:
+    axis, follower = Axis(), following(listed())
+    drifting = (
+        replace(reading, value=reading.value + 3 * UM * max(0.0, reading.time - 103))
+        for reading in chain(axis.stand(), axis.go(0, 50))
+    )
+    event = next(event for event in happened(drifting, follower) if isinstance(event, Passed))
+    assert event.drift == pytest.approx(3 * UM, rel=0.05)
 
 
 def test_a_stop_after_the_target_takes_no_place() -> None:

@@ -159,10 +159,13 @@ class Passed:
         The visit.
     seconds
         How long it was inside the tolerance.
+    drift
+        How fast what was shown went on there, m/s or rad/s, too slow for a motion; None if it did not.
     """
 
     visit: ListedVisit
     seconds: float
+    drift: float | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -243,6 +246,9 @@ class Unclear:
         Actual position, m or rad: the mean, seen from the datum.
     mean
         The reading, to be filed when somebody says where.
+    expected
+        Where it should stand by what was read before, m or rad, if the visit is clear and its reading is not
+        plausible; else None.
     """
 
     target: int
@@ -250,6 +256,7 @@ class Unclear:
     candidates: tuple[tuple[ListedVisit | None, float], ...]
     position: float
     mean: Mean
+    expected: float | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -261,9 +268,26 @@ class Placed:
 
 @dataclass(frozen=True, slots=True)
 class Elsewhere:
-    """The axis stands still at a position, m or rad, that is no target: a pause, or a wrong datum."""
+    """The axis stands still at a position that is no target: a pause, a wrong datum, or a wrong display.
+
+    Attributes
+    ----------
+    position
+        Where it seems to stand, m or rad.
+    factor
+        By which what the display shows must be multiplied, so that the axis stands at a visit that is next;
+        None if there is no such one.
+    """
 
     position: float
+    factor: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Frozen:
+    """What the display shows has not changed in the least for longer than the axis rests, s."""
+
+    seconds: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -344,6 +368,7 @@ Event: TypeAlias = (
     | Unclear
     | Placed
     | Elsewhere
+    | Frozen
     | ZeroLost
     | TrackLost
     | TooSlow

@@ -14,6 +14,7 @@ from zlmreport.capture.events import (
     Elsewhere,
     Event,
     Finished,
+    Frozen,
     Mean,
     Missed,
     MovedBeforeDatum,
@@ -33,11 +34,17 @@ from zlmreport.capture.events import (
 )
 from zlmreport.capture.motion import Programme, Route
 from zlmreport.capture.place import Place, Stop
+from zlmreport.capture.plausible import expected_deviation, misread_by
 from zlmreport.capture.progress import Progress
 from zlmreport.capture.standstill import Pace, Track, Window
 from zlmreport.capture.visits import FASTEST, ListedVisit, Settings
 from zlmreport.live.reading import Fault, LiveReading
 from zlmreport.measurement.approach import Approach
+
+#: Faster than any axis, m/s or rad/s: who is elsewhere sooner was not seen to go there.
+_RAPID = 1.0
+#: By so many stability ranges what nearly stands has drifted.
+_CREEPING = 3
 
 
 @dataclass(frozen=True, slots=True)
@@ -112,6 +119,11 @@ class Follower:
         self._targets = [by_position[position] for position in self._positions]
         self._latest: LiveReading | None = None
         self._lost = 0
+        self._unchanged_since: float | None = None
+        self._is_frozen = False
+        self._doubted: tuple[Stop, int] | None = None
+        self._crept: tuple[float, float] | None = None
+        self._crept_last = (0.0, 0.0)
         self._pace = Pace()
         self._stood_at: float | None = None
         self._passed = 0
@@ -172,17 +184,35 @@ class Follower:
         self._track.add(reading.value + zero)
         self._follow_route(before, reading, zero)
         yield from self._on_the_way(reading.time)
+        yield from self._unchanged(before, reading)
         if self._window.is_still and self._stood_at is None:
             yield from self._at_a_standstill(zero)
+        yield from self._when_doubted(reading, zero)
         yield from self._at_the_end(reading, zero)
 
     def _follow_route(self, before: LiveReading | None, reading: LiveReading, zero: float) -> None:
         """Follow where the axis turns round: of readings that come seldom each counts that can be true."""
         if before is None or self._track.position is None:
             return
-        reach = FASTEST * self._settings.feed * (reading.time - before.time) + self._settings.motion
+        elapsed = reading.time - before.time
+        reach = FASTEST * self._settings.feed * elapsed + self._settings.motion
         can_be = abs(reading.value - before.value) <= reach
-        self._route.add(reading.value + zero if can_be else self._track.position)
+        position = reading.value + zero if can_be else self._track.position
+        if self._route.last is not None:
+            furthest = _RAPID * (elapsed + self._settings.largest_gap) + self._settings.tolerance
+            if abs(position - self._route.last) > furthest:
+                self._route.lose()
+        self._route.add(position)
+
+    def _unchanged(self, before: LiveReading | None, reading: LiveReading) -> Iterator[Event]:
+        """Notice a display that shows the same to its last digit for longer than an axis rests."""
+        if before is None or before.value != reading.value or self._unchanged_since is None:
+            self._unchanged_since, self._is_frozen = reading.time, False
+        seconds = reading.time - self._unchanged_since
+        if self.progress.taken and seconds >= 2 * self._settings.stay and not self._is_frozen:
+            self._is_frozen = True
+            self._route.lose()
+            yield Frozen(seconds)
 
     def _without_zero(self, reading: LiveReading) -> Iterator[Event]:
         """Lose the zero; before a datum is taken there is none to lose."""
@@ -201,6 +231,7 @@ class Follower:
         if gap <= largest:
             return
         self._window.clear()
+        self._unchanged_since = None
         if gap >= self._settings.stay:
             yield TrackLost(gap)
         if self.progress.zero is not None and not self._has_stayed(latest, reading):
@@ -243,12 +274,35 @@ class Follower:
                 if not (self._comes_from_its_side and self._is_at_or_beyond(visit, position)):
                     return
                 self._inside_since = time
+                self._crept = None
                 yield Settling(visit)
             if abs(position - visit.position) <= self._settings.tolerance + self._settings.motion:
+                self._watch_creeping(time, position)
                 return
-            yield Passed(visit, time - self._inside_since)
+            yield Passed(visit, time - self._inside_since, self._drift)
             self._passed += 1
             self._look_ahead()
+
+    def _watch_creeping(self, time: float, position: float) -> None:
+        """Note where the axis is that nearly stands, first and last."""
+        if self._window.duration < self._settings.dwell / 4:
+            return
+        if self._crept is None:
+            self._crept = self._crept_last = (time, position)
+        self._crept_last = (time, position)
+
+    @property
+    def _drift(self) -> float | None:
+        """How fast the readings went on at a target, too slow for a motion; None if they did not."""
+        if self._crept is None:
+            return None
+        (begin, first), (end, last) = self._crept, self._crept_last
+        is_long = end - begin >= self._settings.dwell / 2
+        return (
+            (last - first) / (end - begin)
+            if is_long and abs(last - first) >= 3 * self._settings.stability
+            else None
+        )
 
     @property
     def _ahead(self) -> ListedVisit | None:
@@ -279,9 +333,16 @@ class Follower:
         mean = self._window.mean()
         self._stood_at = mean.value + zero
         if target is None:
-            yield Elsewhere(self._stood_at)
+            yield self._elsewhere(mean, zero)
         else:
             yield from self._at_target(target, approach, mean, zero)
+
+    def _elsewhere(self, mean: Mean, zero: float) -> Elsewhere:
+        progress, position = self.progress, mean.value + zero
+        following = progress.visits[progress.taken :]
+        near = self._settings.tolerance
+        right = zero if progress.datum is None else progress.datum
+        return Elsewhere(position, misread_by(mean.value, zero, right, following, near))
 
     def _target_around(self, zero: float) -> int | None:
         """Return the target inside whose tolerance all readings are."""
@@ -326,13 +387,59 @@ class Follower:
             yield self._out_of_turn(stop)
         elif stop.approach is not self.progress.visits[index].approach:
             yield WrongDirection(self.progress.visits[index], stop.approach)
+        elif late is None and not self._is_worse(index, stop) and not self._is_plausible(index, stop):
+            yield from self._not_taken()
+            self._doubted = (stop, index)
         else:
+            if self._doubted is not None and self._doubted[1] == index:
+                yield from self._not_taken()
             yield from self._taken(index, stop, late)
+
+    def _is_plausible(self, index: int, stop: Stop) -> bool:
+        """Tell whether a reading is near enough to those before, and to the plan."""
+        visit = self.progress.visits[index]
+        expected, limit = expected_deviation(visit, self.progress.read, self._settings)
+        return abs(stop.position - visit.position - expected) <= limit
+
+    def _not_taken(self) -> Iterator[Event]:
+        """Let a doubted reading go: another stop takes its place."""
+        if self._doubted is None:
+            return
+        (stop, index), self._doubted = self._doubted, None
+        if self.progress.question is not None:
+            yield Placed(None)
+        yield Repeated(self.progress.visits[index], stop.position, stop.mean)
+
+    def _when_doubted(self, reading: LiveReading, zero: float) -> Iterator[Event]:
+        """Ask about a doubted reading once no better one follows: the axis leaves, or stays where it is."""
+        if self._doubted is None or self.progress.question is not None:
+            return
+        stop, index = self._doubted
+        visit = self.progress.visits[index]
+        far = self._settings.tolerance + self._settings.motion
+        has_left = abs(reading.value + zero - visit.position) > far
+        stood = reading.time - stop.mean.time
+        is_last = index == len(self.progress.visits) - 1
+        if self._is_watched or has_left or (is_last and stood >= 2 * self._settings.stay):
+            expected, _ = expected_deviation(visit, self.progress.read, self._settings)
+            candidates = ((visit, 0.5), (None, 0.5))
+            yield Unclear(
+                stop.target, visit.approach, candidates, stop.position, stop.mean, visit.position + expected
+            )
 
     def _answered(self, visit: ListedVisit | None, late: float | None) -> Iterator[Event]:
         index = None if visit is None else visit.number - 1
         yield Placed(visit)
-        yield from self._filed(self._place.told(index), index, late)
+        if self._doubted is not None:
+            (stop, doubted), self._doubted = self._doubted, None
+            if index is None:
+                yield Repeated(self.progress.visits[doubted], stop.position, stop.mean)
+                return
+        else:
+            stop = self._place.told(index)
+        if late is None:
+            late = self._latest.time - stop.mean.time if self._latest else 0.0
+        yield from self._filed(stop, index, late)
         yield from self._decided()
         if self._place.undecided:
             yield self._question()
@@ -363,7 +470,7 @@ class Follower:
         self._passed = 0
         self._look_ahead()
         visit = progress.visits[index]
-        if visit.number in progress.filed and not self._is_better(visit, stop.position):
+        if self._is_worse(index, stop):
             yield Repeated(visit, stop.position, stop.mean)
             return
         for missed in progress.visits[progress.taken : index]:
@@ -376,7 +483,7 @@ class Follower:
     def _at_the_end(self, reading: LiveReading, zero: float) -> Iterator[Event]:
         """Finish when the axis leaves the last visit, or has stood there for long enough to stay."""
         progress = self.progress
-        if progress.taken < len(progress.visits) or progress.question is not None:
+        if progress.taken < len(progress.visits) or progress.question is not None or self._doubted:
             return
         visit = progress.visits[-1]
         last = progress.read.get((visit.target, visit.approach))
@@ -385,13 +492,13 @@ class Follower:
         if last is None or has_left or reading.time - last.mean.time >= rest:
             yield Finished()
 
-    def _is_better(self, visit: ListedVisit, position: float) -> bool:
-        """Tell whether a later reading of a visit takes the place of the earlier one."""
+    def _is_worse(self, index: int, stop: Stop) -> bool:
+        """Tell whether a visit has a reading that is clearly nearer to its target than a later one."""
+        visit = self.progress.visits[index]
         earlier = self.progress.read.get((visit.target, visit.approach))
-        if earlier is None:
-            return True
-        nearer = abs(position - visit.position) - abs(earlier.deviation)
-        return nearer <= self._settings.motion
+        if earlier is None or visit.number not in self.progress.filed:
+            return False
+        return abs(stop.position - visit.position) - abs(earlier.deviation) > self._settings.motion
 
     def _out_of_turn(self, stop: Stop) -> Event:
         """Name a standstill at which nothing may be taken."""

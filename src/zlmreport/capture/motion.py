@@ -23,8 +23,8 @@ class Route:
         How often the axis was out of sight.
     heading
         Which way it goes; None as long as that is not known.
-    first
-        Where it was seen first, m or rad; None before, and after a break.
+    first, last
+        Where it was seen first, and last, m or rad; None before, and after a break.
     """
 
     def __init__(self, threshold: float) -> None:
@@ -32,18 +32,20 @@ class Route:
         self.breaks = 0
         self.heading: Approach | None = None
         self.first: float | None = None
+        self.last: float | None = None
         self._threshold = threshold
         self._lowest = self._highest = 0.0
 
     def lose(self) -> None:
         """Take note that nobody sees the axis."""
         self.breaks += 1
-        self.heading = self.first = None
+        self.heading = self.first = self.last = None
 
     def add(self, position: float) -> None:
         """Take note of where it is, m or rad."""
         if self.first is None:
             self.first = self._lowest = self._highest = position
+        self.last = position
         self._lowest = min(self._lowest, position)
         self._highest = max(self._highest, position)
         if self.heading is not Approach.POSITIVE and position > self._lowest + self._threshold:

@@ -18,6 +18,7 @@ from zlmreport.capture.events import (
     Ended,
     Event,
     Finished,
+    Frozen,
     Interrupted,
     Mean,
     Missed,
@@ -62,6 +63,7 @@ _KINDS: Mapping[str, type] = MappingProxyType(
         "unclear": Unclear,
         "placed": Placed,
         "elsewhere": Elsewhere,
+        "frozen": Frozen,
         "zero-lost": ZeroLost,
         "track-lost": TrackLost,
         "too-slow": TooSlow,
@@ -73,7 +75,9 @@ _KINDS: Mapping[str, type] = MappingProxyType(
 )
 _NAMES = {kind: name for name, kind in _KINDS.items()}
 #: Fields that a record leaves out where they say nothing, with what they are then.
-_UNSTATED: Mapping[str, Any] = MappingProxyType({"late": 0.0, "position": None, "mean": None})
+_UNSTATED: Mapping[str, Any] = MappingProxyType(
+    {"late": 0.0, "position": None, "mean": None, "expected": None, "factor": None, "drift": None}
+)
 
 
 def to_record(event: Event) -> Record:
@@ -170,7 +174,10 @@ _READERS: Mapping[str, _Reader] = MappingProxyType(
         "reason": lambda record, _visits: str(record["reason"]),
         **{
             name: _number(name)
-            for name in ("position", "difference", "seconds", "silence", "spacing", "largest", "late")
+            for name in (
+                *("position", "difference", "seconds", "silence", "spacing", "largest", "late", "expected"),
+                *("factor", "drift"),
+            )
         },
     }
 )
