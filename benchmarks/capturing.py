@@ -26,6 +26,7 @@ from zlmreport.emulation.emulator import Emulator, MovingAxis, Scene, Troubles
 from zlmreport.live.dialogue import Decoder
 from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.planning.plan import Plan
+from zlmreport.planning.methods import Method
 from zlmreport.plugins import find_plugins
 from zlmreport.simulation.description import Description
 from zlmreport.simulation.machine import emulated_machine
@@ -35,6 +36,7 @@ from zlmreport_plugins.instruments.umd.lines import MODELS
 
 sys.path.append(str(Path(__file__).parents[1] / "tests"))
 from capture.bad_lines import LINES, on_a_bad_line
+from capture.wandering import trial
 
 #: 100 times the fastest device's 1000 samples a second: µs for each.
 _LONGEST = 10.0
@@ -47,7 +49,25 @@ _MICRO, _NANO = 1e6, 1e9
 def measure(sizes: Sizes) -> list[Measured]:
     """Measure decoders, the way to the disk, and the proof on a bad line."""
     is_small = sizes.rounds == 1
-    return [*_decoding(sizes), *_latency(1 if is_small else 5), *_bad_lines(1 if is_small else 0)]
+    return [
+        *_decoding(sizes),
+        *_latency(1 if is_small else 5),
+        *_bad_lines(1 if is_small else 0),
+        *_wandering(2 if is_small else 250),
+    ]
+
+
+def _wandering(seeds: int) -> Iterator[Measured]:
+    """Yield what became of programs with skips, silences, repeats, feed holds and new beginnings."""
+    done = [trial(method, seed) for method in Method for seed in range(seeds)]
+    count = len(done)
+    for what, found in (
+        ("readings filed wrongly", sum(len(each.misfiled) for each in done)),
+        ("visits lost that were seen", sum(len(each.lost) for each in done)),
+        ("visits lost and not named", sum(len(each.unnamed) for each in done)),
+        ("questions asked", sum(each.questions for each in done)),
+    ):
+        yield Measured(f"{count} programs that do not go as planned, {what}", float(found))
 
 
 def _decoding(sizes: Sizes) -> Iterator[Measured]:

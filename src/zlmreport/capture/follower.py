@@ -110,10 +110,6 @@ class Follower:
         self._settings = settings
         self._window = Window(settings.stability, settings.dwell)
         self._track = Track(settings.motion)
-        if progress.question is not None:
-            asked = progress.question
-            stop = Stop(asked.target, asked.approach, asked.approach, asked.position, asked.mean)
-            self._place.undecided.append(stop)
         by_position = {visit.position: visit.target for visit in progress.visits}
         self._positions = sorted(by_position)
         self._targets = [by_position[position] for position in self._positions]
@@ -129,6 +125,14 @@ class Follower:
         self._passed = 0
         self._comes_from_its_side = False
         self._inside_since: float | None = None
+        if progress.question is not None:
+            asked = progress.question
+            stop = Stop(asked.target, asked.approach, asked.approach, asked.position, asked.mean)
+            doubted = asked.candidates[0][0] if asked.expected is not None else None
+            if doubted is None:
+                self._place.undecided.append(stop)
+            else:
+                self._doubted = (stop, doubted.number - 1)
 
     @property
     def status(self) -> Status:

@@ -256,6 +256,8 @@ def _sittings(
             for each in follower.told(display.ask(event, journal.progress)):
                 journal.append(each, _elapsed_now(journal))
                 display.tell(each)
+            if journal.progress.is_over:
+                return
         else:
             display.see_to(event, journal.progress.after(Resumed()))
         journal.append(Resumed(), _elapsed_now(journal))

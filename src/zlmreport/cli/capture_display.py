@@ -10,7 +10,18 @@ import textwrap
 from collections.abc import Iterator
 from typing import Protocol
 
-from zlmreport.capture.events import Event, Recorded, TooSlow, Unclear
+from zlmreport.capture.events import (
+    Elsewhere,
+    Event,
+    Frozen,
+    Missed,
+    NotNext,
+    Recorded,
+    TooSlow,
+    TrackLost,
+    Unclear,
+    WrongDirection,
+)
 from zlmreport.capture.follower import Follower
 from zlmreport.capture.of_job import Assignment
 from zlmreport.capture.progress import Progress
@@ -25,6 +36,8 @@ from zlmreport.live.reading import LiveReading
 #: How often the present moment is shown, s: nobody reads it more often.
 _BEAT = 0.1
 _BELL = "\a"
+#: What an operator looks at.
+_WRONG = (Missed, WrongDirection, NotNext, TrackLost, Frozen, Unclear)
 #: An answer: the stop is no visit.
 _NO_VISIT = "none"
 _CLEAR_BELOW, _UP = "\x1b[J", "\x1b[{}A"
@@ -152,10 +165,13 @@ class LiveDisplay(PlainLines):
         self._due = 0.0
 
     def tell(self, event: Event) -> None:
-        """Print a line on an event, and ring for a reading."""
-        super().tell(event)
-        if isinstance(event, Recorded):
-            print(_BELL, end="", flush=True)
+        """Print a line on an event, and ring: once for a reading, twice and in colour for what is wrong."""
+        line = visible(line_on(event, len(self._assignment.visits), self._writer))
+        is_wrong = isinstance(event, _WRONG) or (isinstance(event, Elsewhere) and event.factor is not None)
+        if line:
+            self._line(Colour.RED.of(line) if is_wrong else line)
+        if is_wrong or isinstance(event, Recorded):
+            print(_BELL * (2 if is_wrong else 1), end="", flush=True)
 
     def show(self, follower: Follower, reading: LiveReading) -> None:
         """Show the present moment, ten times a second at most."""

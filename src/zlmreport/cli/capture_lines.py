@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from math import isclose
 
 from zlmreport.capture.events import (
     DatumHolds,
@@ -11,6 +12,7 @@ from zlmreport.capture.events import (
     DatumTaken,
     Elsewhere,
     Event,
+    Frozen,
     Missed,
     MovedBeforeDatum,
     NotChecked,
@@ -35,6 +37,8 @@ from zlmreport.quantities.formatting import MINUS, fixed_number
 SIDES = {Approach.POSITIVE: "from below", Approach.NEGATIVE: "from above"}
 #: The least probability of an explanation that is named.
 _WORTH_NAMING = 0.005
+_DRIFT_HELP = "let the axis and the instrument settle, or look what moves the optics"
+_FROZEN_HELP = "if the program runs on, the display stands still: look at its hold key and its line"
 _SECONDS_A_MINUTE, _MINUTES_AN_HOUR = 60, 60
 
 
@@ -84,8 +88,10 @@ def line_on(event: Event, visits: int, writer: AxisWriter) -> str:
 def _out_of_order(event: Event, writer: AxisWriter) -> str:
     line = ""
     match event:
-        case Passed(visit=visit, seconds=seconds):
+        case Passed(visit=visit, seconds=seconds, drift=drift):
             line = f"passed   {writer.visit(visit)}: nothing taken, it was there for {seconds:.1f} s"
+            if drift is not None:
+                line += f", drifting {writer.deviation(drift)} a second: {_DRIFT_HELP}"
         case Missed(visit=visit):
             line = f"MISSED   {writer.visit(visit)}: the axis stands at a later one"
         case Repeated(visit=visit):
@@ -95,14 +101,28 @@ def _out_of_order(event: Event, writer: AxisWriter) -> str:
             line = f"WRONG    {writer.visit(visit)}: {came}; let it come {SIDES[visit.approach]}"
         case NotNext(target=target, approach=approach, visit=visit):
             line = f"OTHER    target {target} {approach.arrow} is not next; next is {writer.visit(visit)}"
+        case _:
+            line = _out_of_sight(event, writer)
+    return line
+
+
+def _out_of_sight(event: Event, writer: AxisWriter) -> str:
+    line = ""
+    match event:
         case TrackLost(silence=silence):
             line = f"SILENT   no sound reading came for {silence:.1f} s; visits may have gone unseen"
+        case Unclear(expected=float(expected), candidates=((ListedVisit() as visit, _), *_)):
+            line = f"DOUBT    {writer.visit(visit)}: {_departs(event.position - expected, writer)}"
         case Unclear(target=target, approach=approach):
             line = f"WHERE?   target {target} {approach.arrow}: {candidates(event)}"
         case Placed(visit=visit):
             line = f"placed   {writer.visit(visit) if visit else 'no visit'}"
-        case Elsewhere(position=position):
+        case Frozen(seconds=seconds):
+            line = f"FROZEN   the display has shown the same for {seconds:.0f} s: {_FROZEN_HELP}"
+        case Elsewhere(position=position, factor=None):
             line = f"no target at {writer.position(position)}, where it stands; is the datum right?"
+        case Elsewhere(position=position, factor=float(factor)):
+            line = f"DISPLAY  {writer.position(position)} is no target, {misread(factor)}"
     return line
 
 
@@ -121,11 +141,8 @@ def halted(event: Event | None, writer: AxisWriter) -> str:
                 f"the datum has moved by {writer.deviation(difference)} since visit {visit.number} was read"
             )
             return f"{moved}. {_void(void, writer)}"
-        case Unclear(target=target, approach=approach, position=position):
-            return (
-                f"the axis stands at target {target} {approach.arrow}, {writer.position(position)}, and what "
-                f"it did before leaves open which visit that is: {candidates(event)}"
-            )
+        case Unclear():
+            return _question(event, writer)
         case TooSlow(spacing=spacing, largest=largest):
             return (
                 f"readings come every {spacing:.2g} s, and more than {largest:.2g} s apart the axis could "
@@ -134,6 +151,40 @@ def halted(event: Event | None, writer: AxisWriter) -> str:
             )
         case _:
             return "the readings ended"
+
+
+def _question(event: Unclear, writer: AxisWriter) -> str:
+    visit = event.candidates[0][0]
+    if event.expected is not None and visit is not None:
+        departs = _departs(event.position - event.expected, writer)
+        return f"the reading at visit {visit.number} ({writer.visit(visit)}) {departs}"
+    return (
+        f"the axis stands at target {event.target} {event.approach.arrow}, {writer.position(event.position)},"
+        f" and what it did before leaves open which visit that is: {candidates(event)}"
+    )
+
+
+def misread(factor: float) -> str:
+    """Say what a display does wrong whose readings come right by a factor, and the cure."""
+    inch, thousand = 25.4, 1000.0
+    match factor:
+        case -1.0:
+            return "but its mirror image is: the display counts the other way; turn the instrument's key sign"
+        case _ if isclose(factor, inch):
+            return "but 25.4 times it is: the display shows inches; set it to millimetres"
+        case _ if isclose(factor, 1 / inch):
+            return "but a 25.4th of it is: the display shows millimetres as inches; set it to inches"
+        case _ if factor in {thousand, 1 / thousand}:
+            return f"but {factor:g} times it is: the display's unit is another one; set it, or the key scale"
+        case _:
+            return f"but {factor:g} times it is: the optics' path is counted otherwise; set the key scale"
+
+
+def _departs(difference: float, writer: AxisWriter) -> str:
+    return (
+        f"departs by {writer.deviation(difference)} from what was read before and from the plan, more than "
+        "an axis does: a stop short of its target, a datum that slipped, or a display that fails"
+    )
 
 
 def candidates(event: Unclear) -> str:
