@@ -25,8 +25,8 @@ from zlmreport.emulation.channels import PseudoTerminal, serve
 from zlmreport.emulation.emulator import Emulator, MovingAxis, Scene, Troubles
 from zlmreport.live.dialogue import Decoder
 from zlmreport.measurement.axis import Axis, AxisKind
-from zlmreport.planning.plan import Plan
 from zlmreport.planning.methods import Method
+from zlmreport.planning.plan import Plan
 from zlmreport.plugins import find_plugins
 from zlmreport.simulation.description import Description
 from zlmreport.simulation.machine import emulated_machine
