@@ -21,7 +21,7 @@ def run(options: Namespace) -> int:
     registry = find_plugins(files=options.plugin)
 
     def evaluated(result: Result, job: Job) -> Result:
-        if job.source.instrument:
+        if "instrument" in type(job.source.options).model_fields:
             from zlmreport.cli.capture import awaits_capture, demand_capturable  # noqa: PLC0415 - only for live readings
 
             if awaits_capture(job):
