@@ -21,20 +21,20 @@ from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.plugins import find_plugins
 from zlmreport.quantities.arrays import BoolArray
-from zlmreport.step_gauge.calibration_file import read_calibration, section
-from zlmreport.step_gauge.deviations import deviations_of
-from zlmreport.step_gauge.gauge import Side, StepGauge
-from zlmreport.step_gauge.initial_points import InitialPoints
-from zlmreport.step_gauge.location import locate
-from zlmreport.step_gauge.measurements import Targets, measurement_set
-from zlmreport.step_gauge.probed import ProbedPoint, gridded
-from zlmreport.step_gauge.set_up import Expansion, GaugeSetUp, StatedRadius
-from zlmreport.step_gauge.simulated_cmm import MachineErrors, Simulated, SimulatedTest, simulate
-from zlmreport.step_gauge.uncertainty import gauge_contributions
 from zlmreport.uncertainty import terms
 from zlmreport.uncertainty.budget import Budget
 from zlmreport.uncertainty.contribution import Acts, Contribution, Distribution
 from zlmreport.uncertainty.expanded import mean_uncertainty
+from zlmreport_step_gauge.calibration import read_calibration, section
+from zlmreport_step_gauge.deviations import deviations_of
+from zlmreport_step_gauge.gauge import Side, StepGauge
+from zlmreport_step_gauge.initial_points import InitialPoints
+from zlmreport_step_gauge.location import locate
+from zlmreport_step_gauge.measurements import Targets, measurement_set
+from zlmreport_step_gauge.probed import ProbedPoint, gridded
+from zlmreport_step_gauge.set_up import Expansion, GaugeSetUp, StatedRadius
+from zlmreport_step_gauge.simulated_cmm import MachineErrors, Simulated, SimulatedTest, simulate
+from zlmreport_step_gauge.uncertainty import gauge_contributions
 
 GAUGE = Path(__file__).parents[1] / "configs" / "step-gauge" / "gauge.yaml"
 HERE = Place("simulated")

@@ -7,7 +7,6 @@ from typing import Any
 
 from testing.exemplary import ExemplaryRenderer, ExemplarySource, ExemplaryStandard
 from testing.exemplary_effect import ExemplaryEffect
-from testing.exemplary_probing_program import ExemplaryProbing
 from testing.exemplary_program import ExemplaryProgram
 from zlmreport.plugin import hookimpl
 from zlmreport.plugins import Plugin, Registry, collect
@@ -19,7 +18,7 @@ def offering(  # noqa: PLR0913, PLR0917 - one for each kind
     renderers: Any = (),
     effects: Any = (),
     part_programs: Any = (),
-    probing_programs: Any = (),
+    extensions: Any = (),
 ) -> SimpleNamespace:
     """Return a plugin that offers these objects."""
 
@@ -44,8 +43,8 @@ def offering(  # noqa: PLR0913, PLR0917 - one for each kind
         return part_programs
 
     @hookimpl
-    def zlmreport_probing_programs() -> Any:
-        return probing_programs
+    def zlmreport_extensions() -> Any:
+        return extensions
 
     return SimpleNamespace(
         zlmreport_standards=zlmreport_standards,
@@ -53,12 +52,12 @@ def offering(  # noqa: PLR0913, PLR0917 - one for each kind
         zlmreport_renderers=zlmreport_renderers,
         zlmreport_effects=zlmreport_effects,
         zlmreport_part_programs=zlmreport_part_programs,
-        zlmreport_probing_programs=zlmreport_probing_programs,
+        zlmreport_extensions=zlmreport_extensions,
     )
 
 
 def exemplary_registry() -> Registry:
-    """Return a registry of one standard, data source, format, effect, part program and probing program."""
+    """Return a registry of one standard, data source, format, effect and part program."""
     plugin = Plugin("exemplary", "exemplary_module", "exemplary-plugins", "1.2")
     offers = offering(
         [ExemplaryStandard()],
@@ -66,6 +65,5 @@ def exemplary_registry() -> Registry:
         [ExemplaryRenderer()],
         [ExemplaryEffect()],
         [ExemplaryProgram()],
-        [ExemplaryProbing()],
     )
     return collect([(plugin, offers)])

@@ -11,8 +11,8 @@ from pathlib import Path
 import numpy as np
 
 from zlmreport.errors import Place
-from zlmreport.step_gauge.calibration_file import read_calibration, section
-from zlmreport.step_gauge.simulated_cmm import (
+from zlmreport_step_gauge.calibration import read_calibration, section
+from zlmreport_step_gauge.simulated_cmm import (
     MachineErrors,
     SimulatedTest,
     initial_points_csv,

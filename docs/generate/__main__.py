@@ -28,6 +28,7 @@ PARTS: Mapping[str, Callable[[], str]] = {
     "commands": command_texts.text,
     "comparison": comparison.text,
     "effects": effect_pages.text,
+    "extension-keys": job_keys.extensions_text,
     "fleet-keys": job_keys.fleet_text,
     "hooks": hooks.hooks_text,
     "protocols": hooks.protocols_text,

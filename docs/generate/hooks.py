@@ -11,9 +11,10 @@ from markdown import code, table
 from zlmreport.emulation.emulator import Emulator
 from zlmreport.live.reading import LiveReading
 from zlmreport.planning.programs import Motion, ProgramStop, Reading
+from zlmreport.plugin.extension import Command, CommandHost, CommandOption, ExtensionPlan, Happening, LiveRun
 from zlmreport.plugin.kinds import KINDS
 from zlmreport.plugin.protocols import Connection, SourceContext
-from zlmreport.step_gauge.path import Probing, ProbingPath, Travel
+from zlmreport_step_gauge.paths.path import Probing, ProbingPath, Travel
 
 _PROTOCOLS = (
     *(kind.protocol for kind in KINDS),
@@ -24,6 +25,12 @@ _PROTOCOLS = (
     Connection,
     LiveReading,
     Emulator,
+    ExtensionPlan,
+    LiveRun,
+    Happening,
+    Command,
+    CommandOption,
+    CommandHost,
     ProbingPath,
     Travel,
     Probing,

@@ -10,13 +10,15 @@ from typing import Any, TypeAlias
 from markdown import code, table
 from pydantic import BaseModel
 
+from zlmreport.job.extensions import group_model
 from zlmreport.job.fields import field_at
 from zlmreport.job.fleet import FleetKeys
 from zlmreport.job.keys import JobKeys
 from zlmreport.job.types import Options
 from zlmreport.language import Language
-from zlmreport.plugin.protocols import PartProgram, ProbingProgram
+from zlmreport.plugin.protocols import PartProgram
 from zlmreport.plugins import find_plugins
+from zlmreport_step_gauge.paths.path import ProbingPath
 
 Schema: TypeAlias = Mapping[str, Any]
 
@@ -56,15 +58,20 @@ def standards_text() -> str:
 
 def programs_text() -> str:
     """Return the keys of each installed writer of part programs."""
-    return _programs_text(find_plugins().part_programs)
+    return _programs_text(find_plugins().programs_for())
 
 
 def probing_programs_text() -> str:
-    """Return the keys of each installed writer of probing programs."""
-    return _programs_text(find_plugins().probing_programs)
+    """Return the keys of each installed writer of paths of a probe."""
+    return _programs_text(find_plugins().programs_for(ProbingPath))
 
 
-def _programs_text(programs: Iterable[PartProgram | ProbingProgram]) -> str:
+def extensions_text() -> str:
+    """Return the groups of keys of the installed extensions."""
+    return "\n\n".join(_table(group_model(extension)) for extension in find_plugins().extensions)
+
+
+def _programs_text(programs: Iterable[PartProgram]) -> str:
     return "\n\n".join(
         part
         for program in programs

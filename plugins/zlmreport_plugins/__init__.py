@@ -29,12 +29,10 @@ OFFERS: Mapping[str, Mapping[str, tuple[str, ...]]] = {
             "ellipticity",
             "encoder-interpolation",
             "first-run",
-            "gauge-misalignment",
             "gear-mesh",
             "offset",
             "periodic",
             "polynomial",
-            "probe-radius",
             "reversal-relaxation",
             "scale-error",
             "scale-expansion",
@@ -83,9 +81,4 @@ OFFERS: Mapping[str, Mapping[str, tuple[str, ...]]] = {
             "vdi-vde-2617",
         )
     },
-    "dmis": {"probing_program": ("dmis",)},
-    "ippdme": {"probing_program": ("ippdme",)},
-    "mv_ms": {"probing_program": ("mv-ms",)},
-    "step_gauge_source": {"source": ("step-gauge",)},
-    "step_gauge_standard": {"standard": ("step-gauge",)},
 }

@@ -25,19 +25,19 @@ from zlmreport.files import Document
 from zlmreport.language import Words
 from zlmreport.plugin.kinds import RENDERER
 from zlmreport.plugin.protocols import Renderer, SourceContext, Standard, carries_attachments, relationship_of
-from zlmreport.step_gauge.set_up import gauge_set_up
-from zlmreport.step_gauge.uncertainty import contributions_of_job
 from zlmreport.uncertainty.budget import Budget, NoBudget
 from zlmreport.uncertainty.completeness import refusals
 from zlmreport.uncertainty.expanded import with_uncertainty
 from zlmreport.uncertainty.job_budget import budget_of
 
 if TYPE_CHECKING:
+    from zlmreport.certificate.conditions import Described
     from zlmreport.certificate.document import Certificate
     from zlmreport.certificate.model_annex import Modelled
     from zlmreport.job.job import Job
     from zlmreport.measurement.measurement_set import MeasurementSet
     from zlmreport.plugins import Registry
+    from zlmreport.presenting.writer import Writer
     from zlmreport.signing.signer import Signer
 
 #: The format that every document with attachments carries.
@@ -67,7 +67,11 @@ class Outcome:
 def read(job: Job, registry: Registry) -> MeasurementSet:
     """Read the measurements that the job names, correct them and set aside what it says."""
     source = registry.source(job.source.identifier)
-    context = SourceContext(job.axis, job.source.place, gauge_set_up(job))
+    set_ups = {
+        choice.identifier: extension.set_up(job, choice.options)
+        for extension, choice in registry.extensions_of(job)
+    }
+    context = SourceContext(job.axis, job.source.place, set_ups)
     measurements = source.read(job.source.options, context)
     corrections = corrections_of(job, measurements)
     if corrections:
@@ -82,7 +86,7 @@ def compose(job: Job, registry: Registry) -> Certificate:
         measurements = read(job, registry)
         for each, readings in ((job, measurements), (job.as_found, None)):
             if each:
-                missing += refusals(each, budget_of_job(each, readings or read(each, registry)))
+                missing += refusals(each, budget_of_job(each, readings or read(each, registry), registry))
     except InputError as error:
         raise InputError([*missing, *error.problems]) from error
     if missing:
@@ -91,19 +95,32 @@ def compose(job: Job, registry: Registry) -> Certificate:
     studied = modelled(job, measurements, registry) if job.effects else None
     found = job.as_found
     as_found = evaluated(found, read(found, registry), registry) if found else ()
-    return build(job, evaluations, registry.versions(job), studied, as_found)
+
+    def describe(writer: Writer) -> list[Described]:
+        said = [
+            extension.described(job, choice.options, writer)
+            for extension, choice in registry.extensions_of(job)
+        ]
+        return [each for each in said if each]
+
+    return build(job, evaluations, registry.versions(job), studied, as_found, describe)
 
 
-def budget_of_job(job: Job, measurements: MeasurementSet) -> Budget | NoBudget:
-    """Return the uncertainty budget of the set-up, that of its step gauge if there is one."""
-    return budget_of(job, measurements, contributions_of_job(job, measurements))
+def budget_of_job(job: Job, measurements: MeasurementSet, registry: Registry) -> Budget | NoBudget:
+    """Return the uncertainty budget of the set-up, with what its extensions contribute."""
+    own = tuple(
+        contribution
+        for extension, choice in registry.extensions_of(job)
+        for contribution in extension.contributions(job, choice.options, measurements)
+    )
+    return budget_of(job, measurements, own)
 
 
 def evaluated(job: Job, measurements: MeasurementSet, registry: Registry) -> tuple[Evaluated, ...]:
     """Evaluate readings by every standard that the job names, with uncertainties and decisions."""
     stated = job.keys.decision_rule
     rule = decision_rule(stated.rule, stated.guard_band_factor)
-    budget = budget_of_job(job, measurements)
+    budget = budget_of_job(job, measurements, registry)
     chosen = standards(job, registry)
     bare = [
         (

@@ -224,7 +224,7 @@ def test_part_programs_that_wait_for_a_folder_are_told(lines: Callable[..., str]
         (["--program", "fanuc"], "a program is a file; state its folder, too: --output DIR\n"),
         (
             ["--program", ",", "-o", "plan"],
-            "there is no program in the list; for example linuxcnc,fanuc\n",
+            "there is no program in the list; for example fanuc,heidenhain\n",
         ),
         (["--program", "fanuc,fanuc", "-o", "plan"], "fanuc is listed twice; remove one of them\n"),
         (

@@ -11,7 +11,7 @@ from zlmreport.plugin.protocols import PartProgram
 from zlmreport.plugins import find_plugins
 from zlmreport.testing import PART_PROGRAM_CHECKS
 
-PROGRAMS = find_plugins().part_programs
+PROGRAMS = find_plugins().programs_for()
 
 
 @pytest.mark.parametrize("program", PROGRAMS, ids=lambda program: program.identifier)

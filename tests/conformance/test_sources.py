@@ -13,9 +13,9 @@ from zlmreport.errors import Place
 from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.plugin.protocols import SourceContext
 from zlmreport.plugins import find_plugins
-from zlmreport.step_gauge.calibration_file import read_calibration
-from zlmreport.step_gauge.set_up import GaugeSetUp
 from zlmreport.testing import SOURCE_CHECKS
+from zlmreport_step_gauge.calibration import read_calibration
+from zlmreport_step_gauge.set_up import GaugeSetUp
 
 REGISTRY = find_plugins()
 DATA = ROOT / "tests" / "data" / "sources"
@@ -25,18 +25,20 @@ CALIBRATED = read_calibration(ROOT / "tests" / "data" / "step_gauge" / "stepgaug
 ON_A_GAUGE = SourceContext(
     Axis("Y"),
     Place("job.yaml", 1, 1),
-    GaugeSetUp(
-        gauge=CALIBRATED.gauge,
-        located=None,
-        tip_radius=2e-3,
-        radius_is_corrected=False,
-        effective_radius=None,
-        probing_uncertainty=0.0,
-        gauge_expansion=None,
-        scale_expansion=None,
-        files=(CALIBRATED.file,),
-        place=Place("job.yaml", 1, 1),
-    ),
+    {
+        "step_gauge": GaugeSetUp(
+            gauge=CALIBRATED.gauge,
+            located=None,
+            tip_radius=2e-3,
+            radius_is_corrected=False,
+            effective_radius=None,
+            probing_uncertainty=0.0,
+            gauge_expansion=None,
+            scale_expansion=None,
+            files=(CALIBRATED.file,),
+            place=Place("job.yaml", 1, 1),
+        )
+    },
 )
 #: Files that a source reads without complaint: its identifier, its job keys, and the axis.
 SAMPLES: list[tuple[str, Mapping[str, Any], Axis | SourceContext]] = [

@@ -19,14 +19,13 @@ import pytest
 
 import zlmreport_plugins.instruments
 import zlmreport_plugins.part_programs
-import zlmreport_plugins.probing_programs
 import zlmreport_plugins.renderers
 import zlmreport_plugins.sources
 import zlmreport_plugins.standards
 from environments import HOUSE_STANDARD, ROOT, Distribution
 
 #: Packages of the project's own wheel.
-OWN = {"zlmreport", "zlmreport_plugins", "zlmreport_templates"}
+OWN = {"zlmreport", "zlmreport_plugins", "zlmreport_step_gauge", "zlmreport_templates"}
 #: Imported inside functions, where the user is told what to install: for tests of PDF renderers.
 OPTIONAL = {"pypdf"}
 
@@ -79,7 +78,7 @@ def test_the_wheel_tells_type_checkers_that_it_is_typed(in_wheel: set[str]) -> N
 def test_the_wheel_holds_nothing_else(in_wheel: set[str]) -> None:
     roots = {name.partition("/")[0] for name in in_wheel}
     others = {root for root in roots if not root.endswith(".dist-info")}
-    assert others == {"zlmreport", "zlmreport_plugins", "zlmreport_templates"}
+    assert others == {"zlmreport", "zlmreport_plugins", "zlmreport_step_gauge", "zlmreport_templates"}
 
 
 @pytest.mark.parametrize(
@@ -96,7 +95,6 @@ def test_every_built_in_plugin_is_declared_as_an_entry_point(metadata: dict[str,
     kinds = [
         zlmreport_plugins.instruments,
         zlmreport_plugins.part_programs,
-        zlmreport_plugins.probing_programs,
         zlmreport_plugins.renderers,
         zlmreport_plugins.sources,
         zlmreport_plugins.standards,
@@ -104,6 +102,7 @@ def test_every_built_in_plugin_is_declared_as_an_entry_point(metadata: dict[str,
     present = {
         f"{kind.__name__}.{module.name}" for kind in kinds for module in pkgutil.iter_modules(kind.__path__)
     }
+    present |= {f"zlmreport_step_gauge.{name}" for name in ("extension", "effects", "paths.programs")}
     present.add("zlmreport_plugins.effects")  # one plugin: its pages share phrases and are declared together
     declared = set(metadata["entry-points"]["zlmreport"].values())
     assert present == declared, (
@@ -116,14 +115,14 @@ def test_the_installed_entry_points_are_those_of_this_tree(metadata: dict[str, A
     installed = {
         each.name: each.value
         for each in entry_points(group="zlmreport")
-        if each.value.startswith("zlmreport_plugins.")
+        if each.value.startswith(("zlmreport_plugins.", "zlmreport_step_gauge"))
     }
     assert installed == metadata["entry-points"]["zlmreport"], "entry points are metadata: install again"
 
 
 @pytest.mark.parametrize(
     ("project", "roots"),
-    [(ROOT, ["src", "plugins/zlmreport_plugins"]), (HOUSE_STANDARD, ["src"])],
+    [(ROOT, ["src", "plugins/zlmreport_plugins", "plugins/zlmreport_step_gauge"]), (HOUSE_STANDARD, ["src"])],
     ids=["zlmreport", "house standard"],
 )
 def test_every_library_that_is_imported_comes_with_the_dependencies(project: Path, roots: list[str]) -> None:

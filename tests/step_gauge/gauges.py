@@ -6,8 +6,8 @@ from dataclasses import replace
 from typing import Any
 
 from zlmreport.errors import Place
-from zlmreport.step_gauge.gauge import Face, Side, StepGauge
-from zlmreport.step_gauge.set_up import GaugeSetUp
+from zlmreport_step_gauge.gauge import Face, Side, StepGauge
+from zlmreport_step_gauge.set_up import GaugeSetUp
 
 HERE = Place("job.yaml", 9, 1)
 #: Departures of the faces of a gauge from their nominal places, µm.

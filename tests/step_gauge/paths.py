@@ -8,10 +8,9 @@ from typing import Any
 import numpy as np
 
 from zlmreport.errors import Place
-from zlmreport.step_gauge.gauge import Face, Location, Side, StepGauge
-from zlmreport.step_gauge.path import Point
-from zlmreport.step_gauge.path_plan import PlannedPath, plan_path
-from zlmreport.step_gauge.path_settings import PathKind, PathSettings
+from zlmreport_step_gauge.gauge import Face, Location, Side, StepGauge
+from zlmreport_step_gauge.paths.path import PathKind, PathSettings, Point
+from zlmreport_step_gauge.paths.plan import PlannedPath, plan_path
 
 PLACE = Place("job.yaml", 8, 3)
 #: 10 mm blocks of 10 mm × 10 mm every 20 mm, a tip of 4 mm.

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from zlmreport.errors import Place
-from zlmreport.step_gauge.deviations import Deviations, deviations_of
-from zlmreport.step_gauge.gauge import Side, StepGauge
-from zlmreport.step_gauge.probed import Probed, ProbedPoint, gridded
-from zlmreport.step_gauge.set_up import GaugeSetUp
+from zlmreport_step_gauge.deviations import Deviations, deviations_of
+from zlmreport_step_gauge.gauge import Side, StepGauge
+from zlmreport_step_gauge.probed import Probed, ProbedPoint, gridded
+from zlmreport_step_gauge.set_up import GaugeSetUp
 
 FILE = Place("probed.csv")
 #: The true effective radius, m.

@@ -8,8 +8,8 @@ import pytest
 
 from environments import ROOT
 from zlmreport.errors import InputError, Place
-from zlmreport.step_gauge.calibration_file import read_calibration, section
-from zlmreport.step_gauge.gauge import Side
+from zlmreport_step_gauge.calibration import read_calibration, section
+from zlmreport_step_gauge.gauge import Side
 
 TABLE = ROOT / "tests" / "data" / "step_gauge" / "stepgauge_cal.csv"
 EXAMPLE = ROOT / "configs" / "step-gauge" / "gauge.yaml"

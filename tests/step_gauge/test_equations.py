@@ -7,7 +7,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from zlmreport.step_gauge import equations
+from zlmreport_step_gauge import equations
 
 NAN = float("nan")
 

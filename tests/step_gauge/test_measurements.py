@@ -13,10 +13,10 @@ from zlmreport.language import Language
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.plugins import find_plugins
-from zlmreport.step_gauge.gauge import Side
-from zlmreport.step_gauge.measurements import Sign, Targets, measurement_set
-from zlmreport.step_gauge.probed import ProbedPoint
-from zlmreport.step_gauge.set_up import GaugeSetUp, StatedRadius
+from zlmreport_step_gauge.gauge import Side
+from zlmreport_step_gauge.measurements import Sign, Targets, measurement_set
+from zlmreport_step_gauge.probed import ProbedPoint
+from zlmreport_step_gauge.set_up import GaugeSetUp, StatedRadius
 
 GAUGE = gauge()
 STATED = StatedRadius(RADIUS, 0.2e-6)

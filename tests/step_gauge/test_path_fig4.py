@@ -22,9 +22,8 @@ import pytest
 
 from step_gauge.paths import PLACE, SETTINGS, location, step_gauge
 from zlmreport.plugins import find_plugins
-from zlmreport.step_gauge.path import ProbingPath
-from zlmreport.step_gauge.path_plan import plan_path
-from zlmreport.step_gauge.path_settings import PathKind
+from zlmreport_step_gauge.paths.path import PathKind, ProbingPath
+from zlmreport_step_gauge.paths.plan import plan_path
 
 #: As printed, its points of omission left out.
 FIGURE = """\
@@ -75,7 +74,7 @@ def path(slope: float, beside: float = BESIDE) -> ProbingPath:
 
 def written(planned: ProbingPath) -> list[list[str]]:
     """Return the words of the program, statement by statement: the figure's blanks follow no rule."""
-    program = find_plugins().probing_program("mv-ms")
+    program = find_plugins().part_program("mv-ms", takes=ProbingPath)
     return [line.split() for line in program.write(planned, program.options()).splitlines()]
 
 

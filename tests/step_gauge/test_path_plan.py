@@ -9,10 +9,9 @@ import numpy as np
 import pytest
 
 from step_gauge.paths import ORIENTATIONS, planned
-from zlmreport.step_gauge.gauge import Side
-from zlmreport.step_gauge.path import Probing, ProbingPath, Travel
-from zlmreport.step_gauge.path_plan import remaining
-from zlmreport.step_gauge.path_settings import PathKind
+from zlmreport_step_gauge.gauge import Side
+from zlmreport_step_gauge.paths.path import PathKind, Probing, ProbingPath, Travel
+from zlmreport_step_gauge.paths.plan import remaining
 
 KINDS = list(PathKind)
 MICROMETRE = 1e-6

@@ -9,9 +9,8 @@ import pytest
 
 from step_gauge.paths import PLACE, planned, step_gauge
 from zlmreport.errors import InputError
-from zlmreport.step_gauge.path_obstacles import obstacles
-from zlmreport.step_gauge.path_safety import least_gap
-from zlmreport.step_gauge.path_settings import PathKind
+from zlmreport_step_gauge.paths.path import PathKind
+from zlmreport_step_gauge.paths.room import least_gap, obstacles
 
 
 def refused(**changes: object) -> str:

@@ -7,11 +7,9 @@ from collections.abc import Iterable
 from zlmreport.plugin import Effect, hookimpl
 from zlmreport_plugins.effects.air import AirIndex, DeadPath
 from zlmreport_plugins.effects.compensation import CompensationShift, CompensationSign
-from zlmreport_plugins.effects.gauge_misalignment import GaugeMisalignment
 from zlmreport_plugins.effects.geometry import Abbe, CosineError, Offset, Polynomial, ScaleError
 from zlmreport_plugins.effects.over_time import DatumStep, FirstRun, TimePeriodic
 from zlmreport_plugins.effects.periodic import DirectionalPitch, EncoderInterpolation, Periodic, ScrewPitch
-from zlmreport_plugins.effects.probe_radius import ProbeRadius
 from zlmreport_plugins.effects.reversal import Backlash, BacklashBow, BacklashGradient, ReversalRelaxation
 from zlmreport_plugins.effects.rotary import Eccentricity, Ellipticity, GearMesh
 from zlmreport_plugins.effects.scale import ScaleJoint, ScaleKink
@@ -26,7 +24,7 @@ from zlmreport_plugins.effects.thermal import (
 
 @hookimpl
 def zlmreport_effects() -> Iterable[Effect]:
-    """Return all of them: of position, of direction, of time and temperature, of rotary axes and gauges."""
+    """Return all of them: of position, of direction, of time and temperature, of rotary axes."""
     return (
         Offset(),
         ScaleError(),
@@ -58,6 +56,4 @@ def zlmreport_effects() -> Iterable[Effect]:
         Eccentricity(),
         Ellipticity(),
         GearMesh(),
-        ProbeRadius(),
-        GaugeMisalignment(),
     )

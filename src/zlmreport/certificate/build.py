@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -15,6 +15,7 @@ from zlmreport.certificate import (
     uncertainty,
 )
 from zlmreport.certificate.attachments import sources
+from zlmreport.certificate.conditions import Described
 from zlmreport.certificate.cover import lines
 from zlmreport.certificate.document import Certificate, Letterhead, PageWords, Party, Section
 from zlmreport.certificate.logo import Logo, read_logo
@@ -42,12 +43,13 @@ _DESCRIPTION = Words(
 )
 
 
-def build(
+def build(  # noqa: PLR0913, PLR0917 - what a document is made of
     job: Job,
     evaluated: tuple[Evaluated, ...],
     plugins: Mapping[str, str],
     modelled: Modelled | None = None,
     as_found: tuple[Evaluated, ...] = (),
+    describe: Callable[[Writer], Sequence[Described]] = lambda _: (),
 ) -> Certificate:
     """Build the document.
 
@@ -63,6 +65,8 @@ def build(
         The error model, studied; None where the job names none.
     as_found
         Evaluations of the axis before it was adjusted, by the same standards; empty where it was not.
+    describe
+        Returns what extensions say of their groups of job keys.
     """
     certificate = job.keys.certificate
     measurements = evaluated[0].evaluation.measurements
@@ -84,7 +88,7 @@ def build(
         letterhead=_letterhead(job.keys.laboratory, logo),
         cover=cover.blocks(job, measurements, evaluated, writer),
         sections=(
-            conditions.section(job, measurements, writer),
+            conditions.section(job, measurements, describe(writer), writer),
             *_results(job, evaluated, as_found, writer),
             *_uncertainty(job, evaluated, as_found, writer),
             *_readings(job, measurements, as_found, writer),

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from zlmreport.certificate import step_gauge
 from zlmreport.certificate.circumstances import (
     Fact,
     date,
@@ -61,7 +61,18 @@ _ALL_CORRECTED = Words(
 )
 
 
-def section(job: Job, measurements: MeasurementSet, writer: Writer) -> Section:
+@dataclass(frozen=True, slots=True)
+class Described:
+    """What an extension says of its group of job keys: facts below a heading, and blocks at the end."""
+
+    heading: Words
+    facts: tuple[Fact, ...]
+    blocks: tuple[Block, ...] = ()
+
+
+def section(
+    job: Job, measurements: MeasurementSet, described: Sequence[Described], writer: Writer
+) -> Section:
     """Return the section on the item, the method, the instrument and the environment."""
     keys = job.keys
     environment = tuple(environment_facts(keys.environment, measurements, writer, "environment"))
@@ -70,7 +81,7 @@ def section(job: Job, measurements: MeasurementSet, writer: Writer) -> Section:
         (Words(en="Axis", de="Achse"), _axis(job, writer)),
         (Words(en="Measurement", de="Messung"), _measurement(keys, measurements, writer)),
         (Words(en="Measuring instrument", de="Messgerät"), _instrument(keys.instrument, writer)),
-        (Words(en="Step gauge", de="Stufenendmaß"), step_gauge.facts(job, writer)),
+        *((each.heading, each.facts) for each in described),
         (Words(en="Environment", de="Umgebung"), environment),
     )
     blocks: list[Block] = [
@@ -81,7 +92,7 @@ def section(job: Job, measurements: MeasurementSet, writer: Writer) -> Section:
     if keys.certificate.kind == "certificate" and not stated_facts(environment, writer):
         blocks.append(Paragraph(writer.say(_NO_INFLUENCE)))
     blocks.extend(correction_blocks(measurements, writer))
-    blocks.extend(step_gauge.graph(job))
+    blocks.extend(block for each in described for block in each.blocks)
     return Section("conditions", writer.say(_TITLE), tuple(blocks))
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import datetime as dt
+import json
 import time
 from argparse import Namespace
 from collections.abc import Callable, Iterator
@@ -25,20 +26,19 @@ from zlmreport.capture.of_job import (
     options_of,
 )
 from zlmreport.certificate.clauses import demand_mandatory_items
-from zlmreport.cli import capture_probing
 from zlmreport.cli.capture_display import Display, JsonLines, LiveDisplay, PlainLines, is_watched, visit_named
 from zlmreport.cli.job_lines import requirements
-from zlmreport.cli.terminal import Colour, shown_path
+from zlmreport.cli.terminal import Colour, shown_path, visible
 from zlmreport.errors import AccessError, InputError, Place
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
 from zlmreport.language import Language
 from zlmreport.live.reading import LiveReading
 from zlmreport.planning.plan import as_measured, propose
+from zlmreport.plugin.extension import Happening, LiveRun
 from zlmreport.plugin.protocols import Connection
 from zlmreport.plugins import Registry, find_plugins
 from zlmreport.presenting.writer import Writer
-from zlmreport.probing.run import live_probing
 
 
 def run(options: Namespace) -> int:
@@ -51,9 +51,10 @@ def run(options: Namespace) -> int:
         raise InputError.at(Place("zlmreport capture"), "--answer belongs to --resume: state both")
     registry = find_plugins(files=options.plugin)
     job = load(options.job, registry)
-    live = live_probing(job)
-    if live is not None:
-        return capture_probing.run(live, options)
+    for extension, choice in registry.extensions_of(job):
+        live = extension.live(job, choice.options)
+        if live:
+            return _run_live(live, options)
     if options.journal:
         job = _with_journal(job, options.journal)
     asked = assignment(job, registry)
@@ -66,6 +67,28 @@ def run(options: Namespace) -> int:
     if not options.json:
         print(f"next: zlmreport {shown_path(options.job)}")
     return 0
+
+
+def _run_live(live: LiveRun, options: Namespace) -> int:
+    """Let an extension take what is missing; the same command goes on where it ended."""
+    wrong = next((name for name in ("end", "journal") if getattr(options, name)), None)
+    if wrong:
+        raise InputError.at(
+            Place("zlmreport capture"), f"--{wrong} is of no use {live.without_journal}; leave it out"
+        )
+    if options.json:
+        live.run(lambda happening: print(json.dumps(happening.values), flush=True))
+        return 0
+    print(live.heading, flush=True)
+    result = live.run(_tell)
+    print(shown_path(result))
+    print(f"next: zlmreport {shown_path(options.job)}")
+    return 0
+
+
+def _tell(happening: Happening) -> None:
+    line = visible(happening.line)
+    print(f"  {Colour.YELLOW.of(happening.warning)}  {line}" if happening.warning else line, flush=True)
 
 
 def _with_journal(job: Job, journal: Path) -> Job:

@@ -19,6 +19,7 @@ from zlmreport.fleet.issuing import Happened, What
 from zlmreport.fleet.night import foretell, spend
 from zlmreport.fleet.plan import Due, Planned
 from zlmreport.job.fleet import FleetFile, load_fleet
+from zlmreport.plugins import find_plugins
 from zlmreport.version import __version__
 
 SCHEMA = "zlmreport/night/1"
@@ -28,7 +29,7 @@ _FAILED = 4
 
 def run(options: Namespace) -> int:
     """Make what is due of a fleet, or say what that is, and return the exit code."""
-    fleet = load_fleet(options.fleet)
+    fleet = load_fleet(options.fleet, extensions=lambda: find_plugins(files=options.plugin).extensions)
     if options.workers and fleet.keys.executor.kind == "dask":
         raise InputError.at(Place("zlmreport fleet --workers"), "a scheduler has the workers that it has")
     plugins = tuple(options.plugin)

@@ -22,7 +22,7 @@ from zlmreport.plugins import find_plugins
 
 def run(options: Namespace) -> int:
     """Write both files anew, each whole or not at all; the ledger is only read."""
-    fleet = load_fleet(options.fleet)
+    fleet = load_fleet(options.fleet, extensions=lambda: find_plugins(files=options.plugin).extensions)
     state = _state(fleet)
     folder: Path = options.output or fleet.output
     names = Names(find_plugins(files=options.plugin).standards)

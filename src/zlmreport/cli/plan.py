@@ -5,14 +5,15 @@ from __future__ import annotations
 import math
 from argparse import Namespace
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 from zlmreport import pipeline
 from zlmreport.capture.of_job import options_of
+from zlmreport.cli.plan_extension import plan_of_extension, show_plan
 from zlmreport.cli.plan_files import SIGNS, chosen_programs, plan_files, program_files
 from zlmreport.cli.plan_lines import plan_lines
-from zlmreport.cli.plan_path import run_path
 from zlmreport.cli.terminal import print_json, said, shown_path
 from zlmreport.files import Document, demand_free, write
 from zlmreport.job.job import Job
@@ -20,6 +21,7 @@ from zlmreport.job.loading import load
 from zlmreport.measurement.axis import Axis
 from zlmreport.model.effect import unit_of
 from zlmreport.planning.planned_test import PlannedTest, planned_test
+from zlmreport.planning.programs import motion_of
 from zlmreport.planning.targets import in_users_unit
 from zlmreport.planning.visibility import Remedy, SeenEffect
 from zlmreport.plugins import find_plugins
@@ -31,18 +33,20 @@ def run(options: Namespace) -> int:
     """Plan the test of a job; its readings need not exist."""
     registry = find_plugins(files=options.plugin)
     job = load(options.job, registry)
-    if job.keys.step_gauge is not None:
-        return run_path(options, job, registry)
+    own = plan_of_extension(job, registry)
+    if own:
+        return show_plan(options, job, registry, own)
     programs = chosen_programs(
-        options.program, options.output, job.programs, registry.part_program, "linuxcnc,fanuc"
+        options.program, options.output, job.programs, registry.part_program, registry.programs_for()
     )
     planned = planned_test(job, pipeline.standards(job, registry), registry.effects)
     documents: tuple[Document, ...] = ()
     if options.output:
-        plan = planned.proposal.plan
+        number = job.keys.certificate.number
+        motion = partial(motion_of, number, job.axis, planned.proposal.plan)
         documents = (
             *plan_files(options.output, job, planned),
-            *program_files(options.output, job, plan, programs, registry),
+            *program_files(options.output, number, motion, programs, registry.part_program),
         )
     demand_free(document.path for document in documents)
     written = write(documents)

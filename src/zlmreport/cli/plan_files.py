@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
+from typing import Any
 
 from zlmreport.errors import InputError, Place, Problem
 from zlmreport.figures.sequence import sequence
@@ -11,11 +12,10 @@ from zlmreport.files import Document
 from zlmreport.job.choices import Find, ProgramChoice, programs_by_name
 from zlmreport.job.job import Job
 from zlmreport.measurement.approach import Approach
-from zlmreport.planning.plan import Plan
 from zlmreport.planning.planned_test import PlannedTest
 from zlmreport.planning.programs import motion_of
 from zlmreport.planning.targets import in_users_unit
-from zlmreport.plugins import Registry
+from zlmreport.plugin.protocols import PartProgram
 
 SIGNS = {Approach.POSITIVE: "+", Approach.NEGATIVE: "-"}
 _OPTION = Place("zlmreport plan --program")
@@ -62,7 +62,11 @@ def _readings(job: Job, planned: PlannedTest) -> Iterator[str]:
 
 
 def chosen_programs(
-    named: str | None, folder: Path | None, stated: tuple[ProgramChoice, ...], find: Find, such_as: str
+    named: str | None,
+    folder: Path | None,
+    stated: tuple[ProgramChoice, ...],
+    find: Find,
+    known: Sequence[PartProgram],
 ) -> tuple[ProgramChoice, ...]:
     """Return the programs that the command line names, or else those of the job.
 
@@ -76,8 +80,8 @@ def chosen_programs(
         The programs of the job.
     find
         Finds the installed writers of their kind.
-    such_as
-        Two identifiers, for a message.
+    known
+        All of these, for a message.
 
     Raises
     ------
@@ -90,41 +94,46 @@ def chosen_programs(
         raise InputError.at(_OPTION, "a program is a file; state its folder, too: --output DIR")
     names = [name.strip() for name in named.split(",") if name.strip()]
     if not names:
+        such_as = ",".join(each.identifier for each in known[:2])
         raise InputError.at(_OPTION, f"there is no program in the list; for example {such_as}")
     return programs_by_name(names, _OPTION, stated, find)
 
 
 def program_files(
-    folder: Path, job: Job, plan: Plan, choices: Sequence[ProgramChoice], registry: Registry
+    folder: Path,
+    number: str,
+    subject: Callable[[Place], Any],
+    choices: Sequence[ProgramChoice],
+    find: Callable[[str], PartProgram],
 ) -> tuple[Document, ...]:
     """Return the files of part programs.
+
+    Parameters
+    ----------
+    folder, number
+        Of the plan; they name the files.
+    subject
+        Returns what the programs are written of, asked for at a place.
+    choices
+        The programs.
+    find
+        Returns an installed writer.
 
     Raises
     ------
     InputError
-        With everything that one of the controls cannot be told.
+        With everything that one of the controls or machines cannot be told.
     """
     problems: list[Problem] = []
-    documents = tuple(_documents(folder, job, plan, choices, registry, problems))
-    if problems:
-        raise InputError(problems)
-    return documents
-
-
-def _documents(  # noqa: PLR0913, PLR0917 - what is written, for whom, and where mistakes go
-    folder: Path,
-    job: Job,
-    plan: Plan,
-    choices: Sequence[ProgramChoice],
-    registry: Registry,
-    problems: list[Problem],
-) -> Iterator[Document]:
-    number = job.keys.certificate.number
+    documents: list[Document] = []
     for choice in choices:
-        program = registry.part_program(choice.identifier)
+        program = find(choice.identifier)
         try:
-            text = program.write(motion_of(number, job.axis, plan, choice.place), choice.options)
+            text = program.write(subject(choice.place), choice.options)
         except InputError as error:
             problems.extend(error.problems)
             continue
-        yield Document(folder / f"{number}{program.suffix}", text.encode("ascii"))
+        documents.append(Document(folder / f"{number}{program.suffix}", text.encode("ascii")))
+    if problems:
+        raise InputError(problems)
+    return tuple(documents)

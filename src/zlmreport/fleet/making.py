@@ -142,7 +142,7 @@ def work(task: Task) -> Made | Failed:
         try:
             begun = time.time()
             registry = _registry(task.plugins)
-            fleet = _fleet(task.fleet, task.content)
+            fleet = _fleet(task.fleet, task.content, task.plugins)
             job = load(task.job, registry, chosen_formats(fleet.formats, registry), defaults=fleet.defaults)
             subject = Subject.of(job)
             return _made(task, job, fleet, begun)
@@ -227,5 +227,5 @@ def _versions(plugins: tuple[Path, ...]) -> Mapping[str, str]:
 
 
 @functools.lru_cache(maxsize=4)
-def _fleet(path: Path, content: bytes) -> FleetFile:
-    return load_fleet(path, content)
+def _fleet(path: Path, content: bytes, plugins: tuple[Path, ...]) -> FleetFile:
+    return load_fleet(path, content, lambda: _registry(plugins).extensions)

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import datetime as dt
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import TypeAlias
 
 from pydantic import BaseModel
 
 from zlmreport.errors import Problem, did_you_mean
-from zlmreport.job import step_gauge_keys
 from zlmreport.job.evaluation_keys import uncertainty_contradictions
 from zlmreport.job.fields import keys_in, model_at
 from zlmreport.job.keys import JobKeys
@@ -25,9 +24,9 @@ Contradiction: TypeAlias = tuple[tuple[Step, ...], str]
 _VERBS = {"amendment": "amends", "replacement": "replaces"}
 
 
-def contradictions(keys: JobKeys, tree: Keys) -> Iterator[Problem]:
-    """Yield every contradiction of a job, at the key that would have to change."""
-    for path, message in _contradictions(keys):
+def contradictions(keys: JobKeys, tree: Keys, others: Iterable[Contradiction] = ()) -> Iterator[Problem]:
+    """Yield every contradiction of a job, and others that are known, at the key that would have to change."""
+    for path, message in (*_contradictions(keys), *others):
         named = ".".join(step for step in path if isinstance(step, str))
         yield Problem(place_of(tree, path), f"{named}: {message}")
     yield from supplied_problems(keys, tree)
@@ -51,10 +50,6 @@ def _contradictions(keys: JobKeys) -> Iterator[Contradiction]:
         yield ("axis", "travel"), "the first position of the travel must be less than the last"
     for key, message in plan_contradictions(keys.plan.targets):
         yield ("plan", "targets", key), message
-    if keys.step_gauge and keys.axis.kind is AxisKind.ROTARY:
-        yield ("step_gauge",), "a step gauge has lengths, and the axis is rotary (axis.kind); take one out"
-    for key, message in step_gauge_keys.contradictions(keys.step_gauge) if keys.step_gauge else ():
-        yield ("step_gauge", key), message
     for steps, message in uncertainty_contradictions(keys.uncertainty, keys.axis.kind):
         yield ("uncertainty", *steps), message
     per_metre = keys.instrument and keys.instrument.expanded_uncertainty_per_metre

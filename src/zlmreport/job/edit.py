@@ -270,6 +270,7 @@ def _is_alike_elsewhere(before: Job, after: Job, where: ListKey) -> bool:
         and after.source.options == before.source.options
         and after.standards == before.standards
         and after.axis == before.axis
+        and [each.options for each in after.extensions] == [each.options for each in before.extensions]
     )
 
 

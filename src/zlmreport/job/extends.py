@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -16,22 +16,34 @@ from zlmreport.job.text import LARGEST
 from zlmreport.job.tree import Items, Keys, Node, Scalar, keys_of, merged
 from zlmreport.measurement.provenance import SourceFile
 
-JOB = "zlmreport/job/1"
-SIMULATION = "zlmreport/simulation/1"
-FLEET = "zlmreport/fleet/1"
-STEP_GAUGE = "zlmreport/step-gauge/1"
 
-#: What a file is, and which command takes it.
-_KINDS = {
-    JOB: ("a job", "zlmreport JOB.yaml"),
-    FLEET: ("a fleet of jobs", "zlmreport fleet FLEET.yaml"),
-    SIMULATION: ("the description of a simulated test", "zlmreport simulate"),
-    STEP_GAUGE: ("the calibration of a step gauge", "step_gauge.calibration of a job"),
-}
+@dataclass(frozen=True, slots=True)
+class FileFormat:
+    """A format of files: what their key `schema` says, what such a file is, and what takes it."""
+
+    schema: str
+    what: str
+    taken_by: str
 
 
-def refuse_other_format(tree: Keys, expected: str) -> None:
+JOB = FileFormat("zlmreport/job/1", "a job", "zlmreport JOB.yaml")
+SIMULATION = FileFormat("zlmreport/simulation/1", "the description of a simulated test", "zlmreport simulate")
+FLEET = FileFormat("zlmreport/fleet/1", "a fleet of jobs", "zlmreport fleet FLEET.yaml")
+
+
+def refuse_other_format(
+    tree: Keys, expected: FileFormat, others: Callable[[], Iterable[FileFormat]] = tuple
+) -> None:
     """Refuse a file of another kind by one message, instead of by one for each of its keys.
+
+    Parameters
+    ----------
+    tree
+        The file.
+    expected
+        What it should be.
+    others
+        Returns formats that extensions add; asked only for a file of none that the core knows.
 
     Raises
     ------
@@ -40,12 +52,17 @@ def refuse_other_format(tree: Keys, expected: str) -> None:
     """
     entry = tree.entries.get("schema")
     named = entry.value if entry else None
-    if isinstance(named, Scalar) and named.text != expected and named.text in _KINDS:
-        kind, command = _KINDS[named.text]
-        wanted, _ = _KINDS[expected]
-        raise InputError.at(
-            named.place, f"this file is {kind} ({named.text}), and {wanted} is expected; {command} takes it"
-        )
+    if not isinstance(named, Scalar) or named.text == expected.schema:
+        return
+    own = (JOB, SIMULATION, FLEET)
+    known = own if any(each.schema == named.text for each in own) else tuple(others())
+    for each in known:
+        if each.schema == named.text:
+            raise InputError.at(
+                named.place,
+                f"this file is {each.what} ({named.text}), and {expected.what} is expected; {each.taken_by} "
+                "takes it",
+            )
 
 
 _PLAIN_KEY = re.compile(r"[A-Za-z_][A-Za-z0-9_-]*")

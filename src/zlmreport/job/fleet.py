@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import glob
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any, Literal
@@ -14,6 +14,8 @@ from pydantic import AfterValidator, BeforeValidator, Field, model_validator
 from zlmreport.errors import InputError, Place, Problem, did_you_mean
 from zlmreport.files import unreadable
 from zlmreport.job.extends import FLEET, Defaults, compose, refuse_other_format
+from zlmreport.job.fields import keys_in
+from zlmreport.job.installed import InstalledExtension
 from zlmreport.job.keys import JobKeys
 from zlmreport.job.parse import parse
 from zlmreport.job.references import LocatedText, path_named
@@ -191,7 +193,9 @@ class FleetFile:
         )
 
 
-def load_fleet(path: Path, content: bytes | None = None) -> FleetFile:
+def load_fleet(
+    path: Path, content: bytes | None = None, extensions: Callable[[], Sequence[InstalledExtension]] = tuple
+) -> FleetFile:
     """Read a fleet file and check all that can be checked without its jobs.
 
     Parameters
@@ -200,6 +204,8 @@ def load_fleet(path: Path, content: bytes | None = None) -> FleetFile:
         The file.
     content
         Its bytes, where they were read already.
+    extensions
+        Returns the groups of job keys that plugins add; asked only for what the core does not know.
 
     Raises
     ------
@@ -211,13 +217,13 @@ def load_fleet(path: Path, content: bytes | None = None) -> FleetFile:
     if content is None:
         content = _content(path)
     tree = parse(content, str(path))
-    refuse_other_format(tree, FLEET)
+    refuse_other_format(tree, FLEET, lambda: [each for offered in extensions() for each in offered.formats])
     problems: list[Problem] = []
     keys = validate(FleetKeys, tree, problems)
     entry = tree.entries.get("defaults")
     shared = entry.value if entry and isinstance(entry.value, Keys) else None
     if shared:
-        problems.extend(_wrong_defaults(shared))
+        problems.extend(_wrong_defaults(shared, extensions))
     if problems or keys is None:
         raise InputError(sorted(set(problems)))
     return FleetFile(
@@ -271,9 +277,13 @@ def number_of(job: Path, defaults: Defaults | None) -> tuple[str, Place]:
     return (value.text, place) if isinstance(value, Scalar) else ("", place)
 
 
-def _wrong_defaults(shared: Keys) -> Iterator[Problem]:
+def _wrong_defaults(
+    shared: Keys, extensions: Callable[[], Sequence[InstalledExtension]]
+) -> Iterator[Problem]:
     """Yield what is wrong with the defaults wherever the jobs put them."""
-    yield from problems_in_part(JobKeys, shared, "defaults")
+    others = extensions() if shared.entries.keys() - keys_in(JobKeys).keys() else ()
+    own = shared.without(*(each.identifier for each in others))
+    yield from problems_in_part(JobKeys, own, "defaults")
     number = ("certificate", "number")
     if len(list(walk(shared, number))) == len(number):
         place = key_place(shared, number)

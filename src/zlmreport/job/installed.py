@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, Protocol
 
 from zlmreport.errors import Place
+from zlmreport.job.extends import FileFormat
+from zlmreport.job.keys import JobKeys
+from zlmreport.job.tree import Step
 from zlmreport.job.types import Options
 
 
@@ -54,11 +57,49 @@ class InstalledRenderer(Named, Protocol):
 
 
 class InstalledProgram(WithKeys, Protocol):
-    """A writer of part programs or probing programs."""
+    """A writer of part programs."""
 
     @property
     def suffix(self) -> str:
         """Of its files."""
+
+
+class InstalledExtension(Protocol):
+    """A group of job keys, where in it part programs are listed, and what it says of a job."""
+
+    @property
+    def identifier(self) -> str:
+        """The key of the group."""
+
+    @property
+    def options(self) -> type[Options]:
+        """Its keys."""
+
+    @property
+    def description(self) -> str:
+        """What it is."""
+
+    @property
+    def example(self) -> Mapping[str, Any]:
+        """Some of its keys."""
+
+    @property
+    def programs(self) -> tuple[str, ...]:
+        """The path to its part programs; empty for none."""
+
+    @property
+    def takes(self) -> type | None:
+        """What they are written of."""
+
+    @property
+    def formats(self) -> Sequence[FileFormat]:
+        """Files with a key `schema` that its keys name."""
+
+    def contradictions(self, keys: JobKeys, options: Any) -> Iterable[tuple[tuple[Step, ...], str]]:
+        """Yield what no single key of a job shows to be wrong."""
+
+    def completed(self, keys: JobKeys, options: Any) -> JobKeys:
+        """Return the keys of a job with what the group says of them."""
 
 
 class NamedParameter(Protocol):
@@ -111,8 +152,12 @@ class Installed(Protocol):
         """All writers of part programs."""
 
     @property
-    def probing_programs(self) -> Sequence[InstalledProgram]:
-        """All writers of probing programs."""
+    def extension_keys(self) -> Sequence[str]:
+        """The keys of the groups that plugins add."""
+
+    @property
+    def extensions(self) -> Sequence[InstalledExtension]:
+        """All groups of keys that plugins add."""
 
     @property
     def instruments(self) -> Sequence[WithKeys]:
@@ -130,11 +175,16 @@ class Installed(Protocol):
     def effect(self, identifier: str, named_at: Place | None = None) -> InstalledEffect:
         """Return an effect."""
 
-    def part_program(self, identifier: str, named_at: Place | None = None) -> InstalledProgram:
-        """Return a writer of part programs."""
+    def programs_for(self, takes: type | None = None) -> Sequence[InstalledProgram]:
+        """Return the writers of part programs that take this; without it, the motion of a planned test."""
 
-    def probing_program(self, identifier: str, named_at: Place | None = None) -> InstalledProgram:
-        """Return a writer of probing programs."""
+    def part_program(
+        self, identifier: str, named_at: Place | None = None, takes: type | None = None
+    ) -> InstalledProgram:
+        """Return a writer of part programs that takes this; without it, the motion of a planned test."""
+
+    def extension(self, identifier: str, named_at: Place | None = None) -> InstalledExtension:
+        """Return a group of keys that a plugin adds."""
 
     def instrument(self, identifier: str, named_at: Place | None = None) -> WithKeys:
         """Return a live instrument."""

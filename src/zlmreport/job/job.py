@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import Any
 
 from zlmreport.errors import Place
 from zlmreport.job.choices import EffectChoice, InstrumentChoice, ProgramChoice
@@ -48,6 +49,15 @@ class SourceChoice:
 
 
 @dataclass(frozen=True, slots=True)
+class ExtensionChoice:
+    """A group of job keys that belongs to an extension: its name, its keys, and the part programs in it."""
+
+    identifier: str
+    options: Any
+    programs: tuple[ProgramChoice, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
 class Job:
     """A checked job.
 
@@ -65,8 +75,8 @@ class Job:
         The effects of the error model, with the parameters that it fixes.
     programs
         The part programs of its plan.
-    probing_programs
-        The probing programs of its path over a step gauge.
+    extensions
+        The groups of keys that belong to extensions.
     formats
         Identifiers of the renderers.
     directory
@@ -87,7 +97,7 @@ class Job:
     files: tuple[SourceFile, ...]
     source_as_found: SourceChoice | None = None
     programs: tuple[ProgramChoice, ...] = ()
-    probing_programs: tuple[ProgramChoice, ...] = ()
+    extensions: tuple[ExtensionChoice, ...] = ()
     tree: Keys = field(default_factory=lambda: keys_of(Place("job")))
 
     @property
@@ -102,6 +112,10 @@ class Job:
         environment = keys.environment or self.keys.environment
         own = self.keys.model_copy(update={"measurement": keys.measurement, "environment": environment})
         return replace(self, keys=own, source=source, source_as_found=None)
+
+    def own_keys(self, extension: str) -> Any:
+        """Return the keys of an extension's group; None where the job does not have it."""
+        return next((each.options for each in self.extensions if each.identifier == extension), None)
 
     def place_of(self, key: str) -> Place:
         """Return where a key stands, for messages: of one that is missing, its nearest parent's place.

@@ -33,7 +33,6 @@ from zlmreport.job.measurement_keys import (
     Measurement,
 )
 from zlmreport.job.plan_keys import PlanKeys
-from zlmreport.job.step_gauge_keys import StepGaugeKeys
 from zlmreport.job.types import JobPart, Lines, Text
 
 
@@ -83,11 +82,6 @@ class JobKeys(JobPart):
     )
     instrument: Instrument | None = Field(None, description="The measuring instrument.")
     environment: Environment | None = Field(None, description="Conditions during the measurement.")
-    step_gauge: StepGaugeKeys | None = Field(
-        None,
-        description="A calibrated step gauge instead of a laser: the gauge, where it lies, how it is probed.",
-        examples=[{"calibration": "gauge.yaml", "initial_points": "initial-points.csv", "tip_radius": 2}],
-    )
     corrections: CorrectionKeys | None = Field(
         None,
         description="What the readings are corrected for; without it they are taken as they are.",

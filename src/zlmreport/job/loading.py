@@ -10,13 +10,13 @@ from zlmreport.errors import InputError, Place, Problem, did_you_mean
 from zlmreport.job.choices import effect_choices, instrument_choice, program_choices
 from zlmreport.job.contradictions import contradictions
 from zlmreport.job.extends import JOB, Defaults, compose, refuse_other_format
+from zlmreport.job.extensions import extension_choices
 from zlmreport.job.installed import Installed, InstalledStandard
 from zlmreport.job.job import Job, SourceChoice, StandardChoice
 from zlmreport.job.keys import JobKeys
 from zlmreport.job.measurement_keys import AxisKeys
-from zlmreport.job.step_gauge_file import with_gauge_as_instrument
 from zlmreport.job.text import quoted
-from zlmreport.job.tree import Entry, Items, Keys, Node, Scalar, keys_of, place_of, walk
+from zlmreport.job.tree import Entry, Items, Keys, Node, Scalar, found_at, keys_of, place_of
 from zlmreport.job.validate import validate
 from zlmreport.measurement.axis import Axis, position_units
 from zlmreport.measurement.position_table import TableColumn, read_position_table
@@ -26,7 +26,6 @@ _SOURCE = ("measurement", "source")
 _SOURCE_AS_FOUND = ("as_found", "measurement", "source")
 _EFFECTS = ("model", "effects")
 _PROGRAMS = ("plan", "programs")
-_PROBING_PROGRAMS = ("step_gauge", "path", "programs")
 
 
 def load(
@@ -60,25 +59,32 @@ def load(
     """
     composition = compose(path, content, defaults)
     tree = composition.keys
-    refuse_other_format(tree, JOB)
+    refuse_other_format(
+        tree, JOB, lambda: [each for offered in registry.extensions for each in offered.formats]
+    )
     problems: list[Problem] = []
-    keys = validate(JobKeys, tree, problems)
+    own = tree.without(*registry.extension_keys)
+    keys = validate(JobKeys, own, problems, also_known=registry.extension_keys)
     source = _source(tree, _SOURCE, registry, problems)
     source_as_found = _source(tree, _SOURCE_AS_FOUND, registry, problems)
     standards = list(standard_choices(tree, registry, problems))
-    effects = effect_choices(_at(tree, _EFFECTS), registry, problems, within=".".join(_EFFECTS))
+    effects = effect_choices(found_at(tree, _EFFECTS), registry, problems, within=".".join(_EFFECTS))
     programs = program_choices(
-        _at(tree, _PROGRAMS), registry.part_program, problems, within=".".join(_PROGRAMS)
+        found_at(tree, _PROGRAMS), registry.part_program, problems, within=".".join(_PROGRAMS)
     )
-    probing_programs = program_choices(
-        _at(tree, _PROBING_PROGRAMS), registry.probing_program, problems, within=".".join(_PROBING_PROGRAMS)
-    )
+    extensions = tuple(extension_choices(tree, registry, problems))
     formats = formats or _formats(tree, keys, registry, problems)
     if keys:
-        problems.extend(contradictions(keys, tree))
+        found = [
+            each
+            for choice in extensions
+            for each in registry.extension(choice.identifier).contradictions(keys, choice.options)
+        ]
+        problems.extend(contradictions(keys, tree, found))
     if problems or keys is None or source is None:
         raise InputError(sorted(set(problems)))
-    keys = with_gauge_as_instrument(keys)
+    for choice in extensions:
+        keys = registry.extension(choice.identifier).completed(keys, choice.options)
     axis = axis_in_si(keys.axis)
     return Job(
         keys=keys,
@@ -91,7 +97,7 @@ def load(
         ),
         effects=effects,
         programs=programs,
-        probing_programs=probing_programs,
+        extensions=extensions,
         formats=formats,
         directory=keys.output.directory or path.parent,
         files=(*composition.files, *axis.files),
@@ -103,8 +109,8 @@ def _source(
     tree: Keys, path: tuple[str, ...], registry: Installed, problems: list[Problem]
 ) -> SourceChoice | None:
     """Return the data source at a path, with its own keys; None where there is none, or a wrong one."""
-    keys = _at(tree, path)
-    plugin = _at(tree, (*path, "plugin"))
+    keys = found_at(tree, path)
+    plugin = found_at(tree, (*path, "plugin"))
     if not isinstance(keys, Keys) or not isinstance(plugin, Scalar) or plugin.is_nothing:
         return None
     try:
@@ -124,7 +130,7 @@ def standard_choices(tree: Keys, registry: Installed, problems: list[Problem]) -
 
     Mistakes are added to the problems: tolerances for what is no parameter among them.
     """
-    evaluate = _at(tree, ("evaluate",))
+    evaluate = found_at(tree, ("evaluate",))
     first_named: dict[str, Place] = {}
     for item in evaluate.items if isinstance(evaluate, Items) else ():
         keys = _with_identifier(item)
@@ -161,7 +167,7 @@ def _with_identifier(item: Node) -> Keys:
 
 def _unknown_tolerances(keys: Keys, standard: InstalledStandard) -> Iterator[Problem]:
     """Yield tolerances for what is no parameter of the standard, or cannot have one."""
-    tolerances = _at(keys, ("tolerances",))
+    tolerances = found_at(keys, ("tolerances",))
     limitable = [quantity.symbol for quantity in standard.quantities if quantity.can_be_limited]
     symbols = {quantity.symbol for quantity in standard.quantities}
     for symbol, entry in tolerances.entries.items() if isinstance(tolerances, Keys) else ():
@@ -178,7 +184,7 @@ def _formats(
     tree: Keys, keys: JobKeys | None, registry: Installed, problems: list[Problem]
 ) -> tuple[str, ...]:
     """Return the output formats; without a list of them, the usual ones."""
-    stated = _at(tree, ("output", "formats"))
+    stated = found_at(tree, ("output", "formats"))
     if isinstance(stated, Items):
         named = [(item.text, item.place) for item in stated.items if isinstance(item, Scalar)]
     else:
@@ -223,12 +229,6 @@ def chosen_formats(named: Iterable[tuple[str, Place]], registry: Installed) -> t
     if problems:
         raise InputError(problems)
     return tuple(by_suffix.values())
-
-
-def _at(tree: Node, path: tuple[str, ...]) -> Node | None:
-    """Return the value at a path, if there is one."""
-    found = list(walk(tree, path))
-    return found[-1][2] if len(found) == len(path) else None
 
 
 def axis_in_si(keys: AxisKeys) -> Axis:

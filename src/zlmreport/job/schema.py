@@ -9,11 +9,13 @@ from pydantic import BaseModel
 from pydantic.errors import PydanticInvalidForJsonSchema
 
 from zlmreport.job.evaluation_keys import DecisionRuleKeys, StandardKeys
+from zlmreport.job.extensions import group_model
+from zlmreport.job.fields import model_at
 from zlmreport.job.installed import Installed, InstalledEffect, InstalledStandard, WithKeys
 from zlmreport.job.keys import JobKeys
 from zlmreport.job.measurement_keys import SourceKeys
 from zlmreport.job.plan_keys import ProgramKeys
-from zlmreport.job.step_gauge_keys import ProbingProgramKeys
+from zlmreport.job.tree import Step
 from zlmreport.job.types import LiveInstrumentKeys
 
 Schema: TypeAlias = dict[str, Any]
@@ -55,12 +57,14 @@ def job_schema(registry: Installed) -> Schema:
             *(_effect(effect, definitions) for effect in registry.effects),
         ]
     }
-    for keys, programs in (
-        (ProgramKeys, registry.part_programs),
-        (ProbingProgramKeys, registry.probing_programs),
-    ):
-        definitions[keys.__name__] = {
-            "description": definitions[keys.__name__]["description"],
+    for extension in registry.extensions:
+        own = group_model(extension).model_json_schema()
+        definitions.update(own["$defs"])
+        schema["properties"].update(own["properties"])
+    for name, takes in _listed_programs(registry).items():
+        programs = registry.programs_for(takes)
+        definitions[name] = {
+            "description": definitions[name]["description"],
             "anyOf": [
                 {"enum": [program.identifier for program in programs]},
                 *(_by_name("program", "part program", each, definitions) for each in programs),
@@ -77,6 +81,17 @@ def job_schema(registry: Installed) -> Schema:
         "if": {"not": {"required": ["extends"]}},
         "then": _demands(schema, definitions),
     }
+
+
+def _listed_programs(registry: Installed) -> dict[str, type | None]:
+    """Return what the part programs are written of, by the definition of what names them in a list."""
+    listed: dict[str, type | None] = {ProgramKeys.__name__: None}
+    for extension in registry.extensions:
+        path: tuple[Step, ...] = (extension.identifier, *extension.programs, 0)
+        named = model_at(group_model(extension), path) if extension.programs else None
+        if named:
+            listed[named.__name__] = extension.takes
+    return listed
 
 
 def _by_name(key: str, what: str, plugin: WithKeys, definitions: Schema) -> Schema:

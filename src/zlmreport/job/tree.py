@@ -112,6 +112,12 @@ def key_place(tree: Node, path: tuple[Step, ...]) -> Place:
     return place_of(tree, path)
 
 
+def found_at(tree: Node, path: tuple[Step, ...]) -> Node | None:
+    """Return the value at a path; None if there is none."""
+    found = list(walk(tree, path))
+    return found[-1][2] if len(found) == len(path) else None
+
+
 def merged(base: Keys, own: Keys) -> Keys:
     """Return the keys of two files together: groups are merged, anything else of `own` replaces."""
     entries = dict(base.entries)

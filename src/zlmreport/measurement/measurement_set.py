@@ -127,11 +127,11 @@ class MeasurementSet:
     provenance
         Where the readings come from.
     one_sided_targets
-        Whether each target can be reached in one direction only, as the faces of a step gauge: the other
+        Whether each target can be reached in one direction only, as faces that a probe touches: the other
         direction is then no reading that is missing.
     reversal_is_relative
         Whether the readings of the two directions were brought together by means of themselves, as by a
-        probe's radius that the gauge tells: reversal values are then relative to their mean.
+        probe's radius that the readings themselves tell: reversal values are then relative to their mean.
     datum
         Position at which the instrument was set to zero, m or rad; None where the source does not tell.
     is_indication

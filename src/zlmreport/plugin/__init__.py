@@ -21,6 +21,8 @@ if TYPE_CHECKING:
     from zlmreport.capture.records import Header as JournalHeader
     from zlmreport.certificate.attachments import Attachment, Relationship
     from zlmreport.certificate.attachments import Source as CertificateSource
+    from zlmreport.certificate.circumstances import Fact
+    from zlmreport.certificate.conditions import Described
     from zlmreport.certificate.conformity import STATEMENTS as CONFORMITY_STATEMENTS
     from zlmreport.certificate.cover import lines as address_lines
     from zlmreport.certificate.cover import place_of_work
@@ -88,30 +90,45 @@ if TYPE_CHECKING:
     from zlmreport.evaluation.ranges import width as range_over_positions
     from zlmreport.evaluation.report import report_evaluation
     from zlmreport.evaluation.requirements import Basis, Finding
-    from zlmreport.evaluation.statistics import PositionStatistics
+    from zlmreport.evaluation.statistics import PositionStatistics, position_statistics
     from zlmreport.figures.alternatives import graph_of as graph_in_words
     from zlmreport.figures.alternatives import marks as marks_in_words
     from zlmreport.figures.alternatives import range_of as range_in_words
     from zlmreport.figures.alternatives import text as alternative_text
-    from zlmreport.figures.canvas import Colour, Fill, Segment, Stroke
+    from zlmreport.figures.canvas import Canvas, Colour, Fill, Segment, Stroke
     from zlmreport.figures.canvas import Face as FontFace
+    from zlmreport.figures.canvas import Label as TextLabel
     from zlmreport.figures.canvas import Run as TextRun
     from zlmreport.figures.draw import draw as draw_figure
     from zlmreport.figures.draw import to_svg as figure_to_svg
     from zlmreport.figures.figure import Arrow, Band, Bracket, Curve, Figure, Level, Panel, Role
+    from zlmreport.figures.layout import WIDTH as GRAPH_WIDTH
     from zlmreport.figures.layout import figure_size
     from zlmreport.figures.metrics import advance as text_advance
-    from zlmreport.figures.metrics import has_letter, mark_offset
+    from zlmreport.figures.metrics import has_letter, mark_offset, plain_label
     from zlmreport.figures.prescribed import DIRECTIONS as APPROACH_TITLES
     from zlmreport.figures.prescribed import LIMITS as LIMIT_ROLES
     from zlmreport.figures.prescribed import MEANS as MEAN_ROLES
     from zlmreport.figures.prescribed import Diagram
     from zlmreport.figures.prescribed import panel as diagram_panel
     from zlmreport.figures.prescribed import worst as worst_position
+    from zlmreport.figures.scale import round_ticks
+    from zlmreport.figures.style import INK as INK_COLOUR
+    from zlmreport.figures.style import ROLES as ROLE_STYLES
+    from zlmreport.figures.style import TEXT_SIZE as GRAPH_TEXT_SIZE
+    from zlmreport.figures.svg import SvgCanvas
     from zlmreport.figures.svg import hexadecimal as hexadecimal_colour
+    from zlmreport.files import sync_folder, take_names, unwritable
     from zlmreport.job.document_keys import Customer, Laboratory
+    from zlmreport.job.extends import FileFormat
     from zlmreport.job.job import Job
-    from zlmreport.job.types import Finite, JobPath, Options
+    from zlmreport.job.keys import JobKeys
+    from zlmreport.job.keys_file import KeysFile, read_keys_file
+    from zlmreport.job.measurement_keys import Instrument as JobInstrument
+    from zlmreport.job.plan_keys import ProgramKeys
+    from zlmreport.job.tree import Step as KeyStep
+    from zlmreport.job.types import Date, Finite, JobPart, JobPath, NotNegative, Options, Positive
+    from zlmreport.job.types import Text as TextLine
     from zlmreport.language import Language, Words
     from zlmreport.language import same as same_in_all_languages
     from zlmreport.live.dialogue import Lines as WholeLines
@@ -134,7 +151,7 @@ if TYPE_CHECKING:
         STATE_OF_AIR,
         MeasurementSet,
     )
-    from zlmreport.measurement.provenance import Provenance, SourceFile
+    from zlmreport.measurement.provenance import Correction, Provenance, SourceFile
     from zlmreport.measurement.text_file import TextFile, known_encoding, parse_number, quoted, read_text
     from zlmreport.model.design import Design
     from zlmreport.model.effect import (
@@ -158,29 +175,41 @@ if TYPE_CHECKING:
     from zlmreport.planning.programs import Motion, ProgramOptions, axis_address, program_number
     from zlmreport.planning.programs import heading as program_heading
     from zlmreport.planning.programs import remark as reading_remark
+    from zlmreport.plugin.extension import (
+        Command,
+        CommandHost,
+        CommandOption,
+        Extension,
+        ExtensionPlan,
+        Happening,
+        LiveRun,
+    )
     from zlmreport.plugin.kinds import hookimpl
     from zlmreport.plugin.protocols import (
         Connection,
         DataSource,
         Instrument,
         PartProgram,
-        ProbingProgram,
         Renderer,
         SourceContext,
         Standard,
     )
-    from zlmreport.quantities.arrays import BoolArray, FloatArray
+    from zlmreport.presenting.writer import Writer
+    from zlmreport.quantities.arrays import BoolArray, FloatArray, read_only_floats
     from zlmreport.quantities.formatting import MINUS as MINUS_SIGN
-    from zlmreport.quantities.formatting import DecimalSign
+    from zlmreport.quantities.formatting import DecimalSign, fixed_number, general_number
     from zlmreport.quantities.notation import spans as notation_spans
     from zlmreport.quantities.temperature import REFERENCE_TEMPERATURE
     from zlmreport.quantities.temperature import above_reference as above_reference_temperature
     from zlmreport.quantities.units import (
         CELSIUS,
+        DEGREE,
         HECTOPASCAL,
         INCH,
         LENGTH_UNITS,
         MICROMETRE,
+        MICROMETRE_PER_METRE_KELVIN,
+        MICRORADIAN,
         MILLIMETRE,
         MILLIRADIAN,
         PERCENT,
@@ -211,6 +240,9 @@ if TYPE_CHECKING:
     from zlmreport.uncertainty.budget import COVERAGE_PROBABILITY, Budget, NoBudget
     from zlmreport.uncertainty.contribution import Acts, Contribution, Distribution
     from zlmreport.uncertainty.expanded import with_uncertainty
+    from zlmreport.uncertainty.wording import STATED as STATED_IN_THE_JOB
+    from zlmreport.uncertainty.wording import USUAL as USUAL_CONTRIBUTIONS
+    from zlmreport.uncertainty.wording import calibration as calibration_in_words
 
 __all__ = [
     "APPROACH_TITLES",
@@ -219,15 +251,21 @@ __all__ = [
     "CONDITION_NAMES",
     "CONFORMITY_STATEMENTS",
     "COVERAGE_PROBABILITY",
+    "DEGREE",
     "FONT_FACES",
     "GRAPH_ADDRESS",
+    "GRAPH_TEXT_SIZE",
+    "GRAPH_WIDTH",
     "HECTOPASCAL",
     "INCH",
+    "INK_COLOUR",
     "LENGTH_UNITS",
     "LIMIT_ROLES",
     "LOGO_ADDRESS",
     "MEAN_ROLES",
     "MICROMETRE",
+    "MICROMETRE_PER_METRE_KELVIN",
+    "MICRORADIAN",
     "MILLIMETRE",
     "MILLIRADIAN",
     "MINUS_SIGN",
@@ -237,11 +275,14 @@ __all__ = [
     "PERCENT",
     "POSITION_UNITS",
     "REFERENCE_TEMPERATURE",
+    "ROLE_STYLES",
     "SECOND",
     "STANDARD_HUMIDITY",
     "STANDARD_PRESSURE",
+    "STATED_IN_THE_JOB",
     "STATE_OF_AIR",
     "TIME_UNITS",
+    "USUAL_CONTRIBUTIONS",
     "AccessError",
     "Acts",
     "Align",
@@ -257,6 +298,7 @@ __all__ = [
     "BoolArray",
     "Bracket",
     "Budget",
+    "Canvas",
     "CaptureEnded",
     "CaptureOptions",
     "CaptureResumed",
@@ -265,17 +307,23 @@ __all__ = [
     "CertificateSource",
     "Colour",
     "Column",
+    "Command",
+    "CommandHost",
+    "CommandOption",
     "Conformity",
     "Confusion",
     "Connection",
     "Contribution",
+    "Correction",
     "Curve",
     "Customer",
     "DataSource",
+    "Date",
     "DatumHolds",
     "DatumMoved",
     "DecimalSign",
     "Decision",
+    "Described",
     "Design",
     "Diagram",
     "Dimension",
@@ -285,9 +333,13 @@ __all__ = [
     "EvaluatedParameter",
     "Evaluation",
     "Explained",
+    "Extension",
+    "ExtensionPlan",
+    "Fact",
     "Facts",
     "Fault",
     "Figure",
+    "FileFormat",
     "Fill",
     "Finding",
     "Finite",
@@ -297,24 +349,32 @@ __all__ = [
     "Framing",
     "GatheredBlock",
     "Graph",
+    "Happening",
     "HtmlSetting",
     "InputError",
     "Instrument",
     "Job",
+    "JobInstrument",
+    "JobKeys",
+    "JobPart",
     "JobPath",
     "JournalEntry",
     "JournalHeader",
     "JournalHistory",
+    "KeyStep",
+    "KeysFile",
     "Laboratory",
     "Language",
     "Letterhead",
     "Level",
     "LiveConnection",
     "LiveReading",
+    "LiveRun",
     "Mark",
     "MeasurementSet",
     "Motion",
     "NoBudget",
+    "NotNegative",
     "Notice",
     "Options",
     "PageWords",
@@ -329,8 +389,9 @@ __all__ = [
     "PortOptions",
     "PositionQuantity",
     "PositionStatistics",
-    "ProbingProgram",
+    "Positive",
     "Problem",
+    "ProgramKeys",
     "ProgramOptions",
     "Provenance",
     "Quantity",
@@ -350,15 +411,19 @@ __all__ = [
     "SourceFile",
     "Standard",
     "Stroke",
+    "SvgCanvas",
     "Symbol",
     "Table",
     "TextFile",
+    "TextLabel",
+    "TextLine",
     "TextRun",
     "Trouble",
     "Unit",
     "Verdict",
     "WholeLines",
     "Words",
+    "Writer",
     "WrongDeviceError",
     "ZeroLost",
     "above_reference_temperature",
@@ -367,6 +432,7 @@ __all__ = [
     "ask_instrument",
     "axis_address",
     "both_directions",
+    "calibration_in_words",
     "collect_readings",
     "column_measures",
     "column_widths",
@@ -385,9 +451,11 @@ __all__ = [
     "fewest_runs",
     "figure_size",
     "figure_to_svg",
+    "fixed_number",
     "font_face_rules",
     "font_file",
     "gather_facts",
+    "general_number",
     "graph_in_words",
     "harmonic_columns",
     "harmonic_parameters",
@@ -420,7 +488,9 @@ __all__ = [
     "number_of_runs",
     "parse_number",
     "place_of_work",
+    "plain_label",
     "position_in_words",
+    "position_statistics",
     "position_units",
     "positions_by_angle",
     "positions_in_all",
@@ -436,6 +506,8 @@ __all__ = [
     "range_in_words",
     "range_over_positions",
     "read_journal",
+    "read_keys_file",
+    "read_only_floats",
     "read_text",
     "reading_remark",
     "readings_at_rate",
@@ -443,6 +515,7 @@ __all__ = [
     "report_error",
     "report_evaluation",
     "report_model",
+    "round_ticks",
     "runs_in_words",
     "same_in_all_languages",
     "script_fingerprint",
@@ -450,17 +523,38 @@ __all__ = [
     "spacing_against_periods",
     "streamed_readings",
     "style_sheet",
+    "sync_folder",
     "table_lines",
     "table_size",
+    "take_names",
     "text_advance",
     "unit_named",
     "unreadable_reading",
+    "unwritable",
     "with_uncertainty",
     "worst_position",
 ]
 
 #: Where each name lives; ``new=old`` where it has another one there.
 _ROOMS = {
+    "zlmreport.uncertainty.wording": (
+        "USUAL_CONTRIBUTIONS=USUAL STATED_IN_THE_JOB=STATED calibration_in_words=calibration"
+    ),
+    "zlmreport.plugin.extension": (
+        "Command CommandHost CommandOption Extension ExtensionPlan Happening LiveRun"
+    ),
+    "zlmreport.job.tree": "KeyStep=Step",
+    "zlmreport.job.plan_keys": "ProgramKeys",
+    "zlmreport.job.keys": "JobKeys",
+    "zlmreport.job.measurement_keys": "JobInstrument=Instrument",
+    "zlmreport.job.keys_file": "KeysFile read_keys_file",
+    "zlmreport.job.extends": "FileFormat",
+    "zlmreport.files": "sync_folder take_names unwritable",
+    "zlmreport.figures.style": "INK_COLOUR=INK GRAPH_TEXT_SIZE=TEXT_SIZE ROLE_STYLES=ROLES",
+    "zlmreport.figures.scale": "round_ticks",
+    "zlmreport.presenting.writer": "Writer",
+    "zlmreport.certificate.circumstances": "Fact",
+    "zlmreport.certificate.conditions": "Described",
     "zlmreport.capture.events": (
         "CaptureEnded=Ended CaptureResumed=Resumed DatumHolds DatumMoved ReadingRecorded=Recorded ZeroLost"
     ),
@@ -501,26 +595,26 @@ _ROOMS = {
     ),
     "zlmreport.evaluation.report": "report_evaluation",
     "zlmreport.evaluation.requirements": "Basis Finding",
-    "zlmreport.evaluation.statistics": "PositionStatistics",
+    "zlmreport.evaluation.statistics": "PositionStatistics position_statistics",
     "zlmreport.figures.alternatives": (
         "alternative_text=text graph_in_words=graph_of marks_in_words=marks range_in_words=range_of"
     ),
-    "zlmreport.figures.canvas": "Colour Fill FontFace=Face Segment Stroke TextRun=Run",
+    "zlmreport.figures.canvas": "Colour Fill FontFace=Face Segment Stroke TextRun=Run Canvas TextLabel=Label",
     "zlmreport.figures.draw": "draw_figure=draw figure_to_svg=to_svg",
     "zlmreport.figures.figure": "Arrow Band Bracket Curve Figure Level Panel Role",
-    "zlmreport.figures.layout": "figure_size",
-    "zlmreport.figures.metrics": "has_letter mark_offset text_advance=advance",
+    "zlmreport.figures.layout": "figure_size GRAPH_WIDTH=WIDTH",
+    "zlmreport.figures.metrics": "has_letter mark_offset text_advance=advance plain_label",
     "zlmreport.figures.prescribed": (
         "APPROACH_TITLES=DIRECTIONS Diagram LIMIT_ROLES=LIMITS MEAN_ROLES=MEANS diagram_panel=panel "
         "worst_position=worst"
     ),
-    "zlmreport.figures.svg": "hexadecimal_colour=hexadecimal",
+    "zlmreport.figures.svg": "hexadecimal_colour=hexadecimal SvgCanvas",
     "zlmreport.planning.programs": (
         "Motion ProgramOptions axis_address program_heading=heading program_number reading_remark=remark"
     ),
     "zlmreport.job.document_keys": "Customer Laboratory",
     "zlmreport.job.job": "Job",
-    "zlmreport.job.types": "Finite JobPath Options",
+    "zlmreport.job.types": "Finite JobPath Options Date JobPart NotNegative Positive TextLine=Text",
     "zlmreport.language": "Language Words same_in_all_languages=same",
     "zlmreport.live.dialogue": (
         "Patience WholeLines=Lines WrongDeviceError ask_instrument=ask readings_at_rate=at_rate "
@@ -534,7 +628,7 @@ _ROOMS = {
         "Reading collect_readings=collect is_run_number=is_run no_run_number=no_run"
     ),
     "zlmreport.measurement.measurement_set": "CONDITIONS CONDITION_NAMES MeasurementSet STATE_OF_AIR",
-    "zlmreport.measurement.provenance": "Provenance SourceFile",
+    "zlmreport.measurement.provenance": "Provenance SourceFile Correction",
     "zlmreport.measurement.text_file": "TextFile known_encoding parse_number quoted read_text",
     "zlmreport.model.design": "Design",
     "zlmreport.model.effect": (
@@ -545,15 +639,16 @@ _ROOMS = {
     "zlmreport.model.report": "report_error report_model",
     "zlmreport.plugin.kinds": "hookimpl",
     "zlmreport.plugin.protocols": (
-        "Connection DataSource Instrument PartProgram ProbingProgram Renderer SourceContext Standard"
+        "Connection DataSource Instrument PartProgram Renderer SourceContext Standard"
     ),
-    "zlmreport.quantities.arrays": "BoolArray FloatArray",
-    "zlmreport.quantities.formatting": "DecimalSign MINUS_SIGN=MINUS",
+    "zlmreport.quantities.arrays": "BoolArray FloatArray read_only_floats",
+    "zlmreport.quantities.formatting": "DecimalSign MINUS_SIGN=MINUS fixed_number general_number",
     "zlmreport.quantities.notation": "notation_spans=spans",
     "zlmreport.quantities.temperature": "REFERENCE_TEMPERATURE above_reference_temperature=above_reference",
     "zlmreport.quantities.units": (
         "CELSIUS HECTOPASCAL INCH LENGTH_UNITS MICROMETRE MILLIMETRE MILLIRADIAN PERCENT POSITION_UNITS "
-        "ReadingScale=Scale SECOND TIME_UNITS Unit unit_named"
+        "ReadingScale=Scale SECOND TIME_UNITS Unit unit_named DEGREE MICROMETRE_PER_METRE_KELVIN "
+        "MICRORADIAN"
     ),
     "zlmreport.typesetting.columns": (
         "GatheredBlock column_measures=measures column_widths=widths columns_stand_apart=stands_apart "

@@ -17,11 +17,11 @@ from zlmreport import plugin as door
 
 if TYPE_CHECKING:
     from zlmreport.model.effect import Effect
+    from zlmreport.plugin.extension import Extension
     from zlmreport.plugin.protocols import (
         DataSource,
         Instrument,
         PartProgram,
-        ProbingProgram,
         Renderer,
         Standard,
     )
@@ -147,14 +147,12 @@ PART_PROGRAM: Kind[PartProgram] = Kind(
     reserved=frozenset({"program"}),
     suffix=".ngc",
 )
-PROBING_PROGRAM: Kind[ProbingProgram] = Kind(
-    name="probing_program",
-    label="probing program",
-    offers="the languages in which this plugin writes probing programs",
-    interface="ProbingProgram",
-    kit="check_probing_program",
-    reserved=frozenset({"program"}),
-    suffix=".dmi",
+EXTENSION: Kind[Extension] = Kind(
+    name="extension",
+    label="extension",
+    offers="the groups of job keys that this plugin adds, with all that a job gets by them",
+    interface="Extension",
+    kit="check_extension",
 )
 INSTRUMENT: Kind[Instrument] = Kind(
     name="instrument",
@@ -172,7 +170,7 @@ KINDS: tuple[Kind[Any], ...] = (
     RENDERER,
     EFFECT,
     PART_PROGRAM,
-    PROBING_PROGRAM,
+    EXTENSION,
     INSTRUMENT,
 )
 

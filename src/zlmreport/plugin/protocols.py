@@ -5,11 +5,11 @@ An `Effect` is declared in `zlmreport.model.effect`: it is all that the error mo
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Protocol, Self, runtime_checkable
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Iterable, Iterator, Mapping
     from types import TracebackType
 
     from zlmreport.certificate.attachments import Relationship
@@ -26,9 +26,6 @@ if TYPE_CHECKING:
     from zlmreport.live.reading import LiveReading
     from zlmreport.measurement.axis import Axis
     from zlmreport.measurement.measurement_set import MeasurementSet
-    from zlmreport.planning.programs import Motion
-    from zlmreport.step_gauge.path import ProbingPath
-    from zlmreport.step_gauge.set_up import GaugeSetUp
 
 
 @runtime_checkable
@@ -87,13 +84,13 @@ class SourceContext:
         The axis under test, as the job describes it.
     place
         Where the job names the source: for messages about what a file leaves open.
-    step_gauge
-        The step gauge that was probed; None where the job describes none.
+    set_ups
+        What extensions made of their groups of job keys, by the names of these (`Extension.set_up`).
     """
 
     axis: Axis
     place: Place
-    step_gauge: GaugeSetUp | None = None
+    set_ups: Mapping[str, Any] = field(default_factory=dict)
 
 
 @runtime_checkable
@@ -167,7 +164,10 @@ def made(renderer: Renderer, creator: str) -> bool:
 
 @runtime_checkable
 class PartProgram(Protocol):
-    """A writer of part programs: the motion of a planned test in the language of a control.
+    """A writer of part programs: a planned test in the language of a control or a measuring machine.
+
+    One more attribute, ``takes``, is the type of what it writes, and one that lacks it writes the `Motion`
+    of an axis. An extension names the type of its own plans (`Extension.takes`).
 
     Attributes
     ----------
@@ -186,40 +186,19 @@ class PartProgram(Protocol):
     suffix: str
     options: type[Options]
 
-    def write(self, motion: Motion, options: Any) -> str:
+    def write(self, motion: Any, options: Any) -> str:
         """Return the program in ASCII; raise `InputError` at ``motion.place`` for what cannot be programmed.
 
         The axis stops at every stop of the motion and stays at those that are read for ``motion.dwell``.
         """
 
 
-@runtime_checkable
-class ProbingProgram(Protocol):
-    """A writer of probing programs: the path over a step gauge in the language of a measuring machine.
+def taken_by(program: PartProgram) -> type:
+    """Return the type of what a writer of part programs writes."""
+    from zlmreport.planning.programs import Motion  # noqa: PLC0415 (a type alone loads no room)
 
-    Attributes
-    ----------
-    identifier
-        As ``step_gauge.path.programs`` names it: ``dmis``.
-    title
-        In words.
-    suffix
-        Of the file: ``.dmi``.
-    options
-        Its job keys beside ``program``; all have a default, for a command line has no keys.
-    """
-
-    identifier: str
-    title: Words
-    suffix: str
-    options: type[Options]
-
-    def write(self, path: ProbingPath, options: Any) -> str:
-        """Return the program in ASCII; raise `InputError` at ``path.place`` for what cannot be programmed.
-
-        The tip's centre goes along the moves of the path in their order. Whatever the language, what is
-        measured is the centre of the tip: the effective radius is found from the gauge itself.
-        """
+    takes: type = getattr(program, "takes", Motion)
+    return takes
 
 
 class Connection(Protocol):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -14,13 +14,13 @@ from zlmreport.plugins.candidate import Candidate
 from zlmreport.plugins.origin import DISABLE, FailedPlugin, Plugin
 
 if TYPE_CHECKING:
-    from zlmreport.job.job import Job
+    from zlmreport.job.job import ExtensionChoice, Job
     from zlmreport.model.effect import Effect
+    from zlmreport.plugin.extension import Extension
     from zlmreport.plugin.protocols import (
         DataSource,
         Instrument,
         PartProgram,
-        ProbingProgram,
         Renderer,
         Standard,
     )
@@ -83,11 +83,16 @@ class Registry:
             if key in offered:
                 found: Wanted = offered[key]
                 return found
-        nearest = did_you_mean(identifier, self.identifiers(kind))
-        lines = [f"no plugin provides {kind.label} {identifier[:60]!r}; {nearest}"]
+        raise self._nothing(kind, identifier, self.identifiers(kind), place)
+
+    def _nothing(
+        self, kind: Kind[Any], identifier: str, known: Sequence[str], named_at: Place | None
+    ) -> InputError:
+        """Return the error that there is nothing of this name, with the nearest and what does not work."""
+        lines = [f"no plugin provides {kind.label} {identifier[:60]!r}; {did_you_mean(identifier, known)}"]
         lines.extend(f"plugin {each.plugin.name} was not loaded: {each.reason}" for each in self.failed)
         lines.extend(f"plugin {name} is switched off by {DISABLE}" for name in self.disabled)
-        raise InputError.at(place, "\n  ".join(lines))
+        return InputError([Problem(named_at or Place("zlmreport"), "\n  ".join(lines))])
 
     def all(self, kind: Kind[Wanted]) -> tuple[Wanted, ...]:
         """Return everything of one kind, in the order of identifiers."""
@@ -190,9 +195,14 @@ class Registry:
         return self.all(kinds.PART_PROGRAM)
 
     @property
-    def probing_programs(self) -> tuple[ProbingProgram, ...]:
-        """All writers of probing programs."""
-        return self.all(kinds.PROBING_PROGRAM)
+    def extensions(self) -> tuple[Extension, ...]:
+        """All groups of job keys that plugins add."""
+        return self.all(kinds.EXTENSION)
+
+    @property
+    def extension_keys(self) -> tuple[str, ...]:
+        """The keys of these groups; only plugins that say so are loaded."""
+        return self.identifiers(kinds.EXTENSION)
 
     @property
     def instruments(self) -> tuple[Instrument, ...]:
@@ -215,17 +225,41 @@ class Registry:
         """Return an effect, as `find` does."""
         return self.find(kinds.EFFECT, identifier, named_at)
 
-    def part_program(self, identifier: str, named_at: Place | None = None) -> PartProgram:
-        """Return a writer of part programs, as `find` does."""
-        return self.find(kinds.PART_PROGRAM, identifier, named_at)
+    def part_program(
+        self, identifier: str, named_at: Place | None = None, takes: type | None = None
+    ) -> PartProgram:
+        """Return a writer of part programs, as `find` does, among those that `programs_for` returns."""
+        if identifier in self.identifiers(kinds.PART_PROGRAM):
+            program = self.find(kinds.PART_PROGRAM, identifier, named_at)
+            if _is_for(program, takes):
+                return program
+        known = [each.identifier for each in self.programs_for(takes)]
+        raise self._nothing(kinds.PART_PROGRAM, identifier, known, named_at)
 
-    def probing_program(self, identifier: str, named_at: Place | None = None) -> ProbingProgram:
-        """Return a writer of probing programs, as `find` does."""
-        return self.find(kinds.PROBING_PROGRAM, identifier, named_at)
+    def programs_for(self, takes: type | None = None) -> tuple[PartProgram, ...]:
+        """Return the part programs that are written of this; without it, of the motion of a planned test."""
+        return tuple(each for each in self.part_programs if _is_for(each, takes))
+
+    def extension(self, identifier: str, named_at: Place | None = None) -> Extension:
+        """Return a group of job keys that a plugin adds, as `find` does."""
+        return self.find(kinds.EXTENSION, identifier, named_at)
+
+    def extensions_of(self, job: Job) -> Iterator[tuple[Extension, ExtensionChoice]]:
+        """Yield the extensions whose groups of keys a job has."""
+        for choice in job.extensions:
+            yield self.extension(choice.identifier), choice
 
     def instrument(self, identifier: str, named_at: Place | None = None) -> Instrument:
         """Return a live instrument, as `find` does."""
         return self.find(kinds.INSTRUMENT, identifier, named_at)
+
+
+def _is_for(program: PartProgram, takes: type | None) -> bool:
+    """Return whether a part program is written of this, or without it of the motion of a planned test."""
+    from zlmreport.planning.programs import Motion  # noqa: PLC0415 (only who asks for programs loads them)
+    from zlmreport.plugin.protocols import taken_by  # noqa: PLC0415
+
+    return taken_by(program) is (takes or Motion)
 
 
 def _as_it_is(module: object) -> object:

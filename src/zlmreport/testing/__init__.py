@@ -21,36 +21,34 @@ expected. The kit needs no test framework.
 from zlmreport.testing.certificates import sample_certificate
 from zlmreport.testing.designs import full_designs
 from zlmreport.testing.effects import EFFECT_CHECKS, check_effect
+from zlmreport.testing.extensions import EXTENSION_CHECKS, check_extension
 from zlmreport.testing.instruments import INSTRUMENT_CHECKS, check_instrument
 from zlmreport.testing.measurements import bidirectional_test, simulated_test
 from zlmreport.testing.motions import sample_motion
 from zlmreport.testing.part_programs import PART_PROGRAM_CHECKS, check_part_program
-from zlmreport.testing.probing_paths import sample_path
-from zlmreport.testing.probing_programs import PROBING_PROGRAM_CHECKS, Stated, check_probing_program
 from zlmreport.testing.renderers import RENDERER_CHECKS, check_renderer
 from zlmreport.testing.sources import SOURCE_CHECKS, check_source
 from zlmreport.testing.standards import STANDARD_CHECKS, check_standard
 
 __all__ = [
     "EFFECT_CHECKS",
+    "EXTENSION_CHECKS",
     "INSTRUMENT_CHECKS",
     "PART_PROGRAM_CHECKS",
     "PROBING_PROGRAM_CHECKS",
     "RENDERER_CHECKS",
     "SOURCE_CHECKS",
     "STANDARD_CHECKS",
-    "Stated",
     "bidirectional_test",
     "check_effect",
+    "check_extension",
     "check_instrument",
     "check_part_program",
-    "check_probing_program",
     "check_renderer",
     "check_source",
     "check_standard",
     "full_designs",
     "sample_certificate",
     "sample_motion",
-    "sample_path",
     "simulated_test",
 ]

@@ -16,8 +16,8 @@ class Acts(Enum):
     distance from it. Of an error that parts the directions (the radius of a probe that touches one face in
     each of them) all of the negative direction: the datum lies in the positive one. Of an error of the datum
     all, and alike. Of an error of position (the faces of a polygon, the nonlinearity of a sensor)
-    all readings of one target position; of a face that is touched from one side only (that of a gauge's
-    block) all readings of one target position in one direction. Of a drift those that are near in time
+    all readings of one target position; of a face that is touched from one side only all
+    readings of one target position in one direction. Of a drift those that are near in time
     (`zlmreport.uncertainty.drift`). Of a fluctuation none: each reading has its own.
     """
 

@@ -40,7 +40,7 @@ def budget_of(
     measurements
         Its readings.
     of_the_instrument
-        The instrument's own contributions where it is no device of one uncertainty, but a step gauge.
+        The instrument's own contributions where it is no device of one uncertainty.
 
     Raises
     ------

@@ -14,6 +14,8 @@ from zlmreport.errors import InputError, Place, did_you_mean
 
 #: The job's own name, for it has no word of its own on the command line.
 MAIN_JOB = "report"
+#: The module that runs the commands of extensions.
+EXTENSION = "extension"
 
 #: Each command: what it does, in a line, and what makes its parser.
 _COMMANDS: Mapping[str, tuple[str, Callable[[str], CommandParser]]] = MappingProxyType(
@@ -70,6 +72,12 @@ def parse(arguments: Sequence[str]) -> tuple[str, argparse.Namespace]:
         After ``--help`` and ``--version`` have been printed.
     """
     words = 2 if " ".join(arguments[:2]) in _COMMANDS else 1
+    if _may_be_an_extensions(arguments):
+        from zlmreport.cli.arguments.extension import command_of_extension, parser_of
+
+        own = command_of_extension(arguments)
+        if own:
+            return EXTENSION, parser_of(own[0]).parse_strictly(arguments[own[1] :])
     command, rest = " ".join(arguments[:words]), arguments[words:]
     if command in _COMMANDS:
         _, make = _COMMANDS[command]
@@ -82,6 +90,18 @@ def parse(arguments: Sequence[str]) -> tuple[str, argparse.Namespace]:
     for job in options.jobs:
         _refuse_mistaken_command(job)
     return MAIN_JOB, options
+
+
+def _may_be_an_extensions(arguments: Sequence[str]) -> bool:
+    """Return whether only the plugins can tell if arguments begin with a command of an extension.
+
+    It is a word that is no command, option or file, or a device behind `emulate`.
+    """
+    first, *rest = (*arguments[:2], "")
+    if first == "emulate":
+        return bool(rest[0]) and not rest[0].startswith("-")
+    word = Path(first)
+    return bool(first) and first not in _COMMANDS and first.isidentifier() and not word.exists()
 
 
 def _main_parser() -> CommandParser:

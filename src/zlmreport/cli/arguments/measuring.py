@@ -6,11 +6,9 @@ from pathlib import Path
 
 from zlmreport.cli.arguments.parser import (
     FAULTS,
-    POINT_FAULTS,
     CommandParser,
     course,
     fault,
-    point_fault,
     port,
     position,
 )
@@ -23,7 +21,7 @@ def plan(command: str) -> CommandParser:
         "Plan the test of a job before anything is measured: target positions with random fractions, the\n"
         "sequence of its positioning method, and what such a test will see of each installed effect.\n"
         "The readings that the job names need not exist. Numbers come from its key plan.\n"
-        "For a job with a step gauge: the path of the probe over it, by its key step_gauge.path.",
+        "A job with a group of keys of an extension is planned by that: the path of a probe, for example.",
         "examples:\n  zlmreport plan x-axis.yaml\n"
         "  zlmreport plan x-axis.yaml --output plan --program linuxcnc",
     )
@@ -39,13 +37,12 @@ def plan(command: str) -> CommandParser:
     parser.add_argument(
         "--program",
         metavar="P,P",
-        help="with --output: part programs, parted by commas, instead of the job's: linuxcnc,fanuc; for a "
-        "step gauge probing programs: dmis,ippdme",
+        help="with --output: part programs, parted by commas, instead of the job's: linuxcnc,fanuc",
     )
     parser.add_argument(
         "--json",
         action="store_true",
-        help="print the plan as JSON (zlmreport/plan/1, zlmreport/probing-path/1)",
+        help="print the plan as JSON (zlmreport/plan/1, or that of an extension)",
     )
     return parser
 
@@ -60,11 +57,11 @@ def emulate(command: str) -> CommandParser:
         "examples:\n"
         "  zlmreport emulate umd1\n"
         "  zlmreport emulate umd1 --link interferometer --course 0,100,200,100,0 --fault lost-beam@30\n"
-        "  zlmreport emulate ids3010 --port 9090\n"
-        "  zlmreport emulate ippdme --job gauge.yaml --scale-error 5",
+        "  zlmreport emulate ids3010 --port 9090\n\n"
+        "Devices of extensions have options of their own: zlmreport emulate ippdme --help",
     )
-    parser.add_argument("instrument", metavar="INSTRUMENT", help="umd1, nd28x, ids3010, ippdme or another")
-    _add_line(parser)
+    parser.add_argument("instrument", metavar="INSTRUMENT", help="umd1, nd28x, ids3010 or another")
+    add_line(parser)
     parser.add_argument(
         "--course",
         metavar="P,P",
@@ -86,45 +83,17 @@ def emulate(command: str) -> CommandParser:
             default=without,
             help=f"{meaning}; {without:g} without it",
         )
-    _add_machine(parser)
     return parser
 
 
-def _add_machine(parser: CommandParser) -> None:
-    """Add the options of an emulated coordinate measuring machine."""
-    parser.add_argument(
-        "--job",
-        metavar="JOB.yaml",
-        type=Path,
-        help="ippdme: the job whose step gauge lies on the machine, where its initial points say; the TCP "
-        "port is 1294 without --port",
-    )
-    parser.add_argument(
-        "--scale-error",
-        metavar="E",
-        type=position,
-        default=0.0,
-        help="ippdme: error of the machine along the gauge, micrometres a metre; 0 without it",
-    )
-    parser.add_argument(
-        "--point-fault",
-        metavar="KIND@N",
-        type=point_fault,
-        action="append",
-        default=[],
-        help=f"ippdme: what goes wrong at the N-th measuring move: {', '.join(POINT_FAULTS)}; may be given "
-        "several times",
-    )
-
-
-def _add_line(parser: CommandParser) -> None:
-    """Add the options of an emulated instrument's line."""
-    parser.add_argument(
-        "--link", metavar="PATH", type=Path, help="a name for the pseudo-terminal that stays the same"
-    )
-    parser.add_argument(
-        "--port", metavar="N", type=port, help="a TCP port instead of a pseudo-terminal; 0 for any free one"
-    )
+def add_line(parser: CommandParser, *, with_link: bool = True) -> None:
+    """Add the options of an emulated instrument's line; one without a link has a TCP port in any case."""
+    if with_link:
+        parser.add_argument(
+            "--link", metavar="PATH", type=Path, help="a name for the pseudo-terminal that stays the same"
+        )
+    instead = " instead of a pseudo-terminal" if with_link else ""
+    parser.add_argument("--port", metavar="N", type=port, help=f"a TCP port{instead}; 0 for any free one")
     parser.add_argument(
         "--fault",
         metavar="KIND@S",
@@ -157,7 +126,7 @@ def simulate(command: str) -> CommandParser:
     parser.add_argument(
         "--emulate", metavar="INSTRUMENT", help="let this instrument watch the axis: umd1, nd28x or another"
     )
-    _add_line(parser)
+    add_line(parser)
     parser.add_argument(
         "--start",
         metavar="S",
@@ -174,8 +143,8 @@ def capture(command: str) -> CommandParser:
         f"zlmreport {command}",
         "Take the readings of a job's test from the instrument that its key measurement.source names, while\n"
         "the axis follows its plan. Each reading is on the disk, in the job's journal, before the next is\n"
-        "waited for. Ctrl-C ends; nothing that was taken is lost. A step gauge is probed by the machine\n"
-        "that the key names, along its path; the same command again probes what is missing.",
+        "waited for. Ctrl-C ends; nothing that was taken is lost. Points that a machine\n"
+        "probes for an extension are taken along its path; the same command again takes what is missing.",
         "examples:\n  zlmreport capture x-axis.yaml\n"
         "  zlmreport capture x-axis.yaml --resume\n"
         "  zlmreport capture x-axis.yaml --resume --answer 17\n"

@@ -13,7 +13,6 @@ from zlmreport.errors import InputError, Place, did_you_mean
 JSON_HELP = "print a machine-readable summary (zlmreport/summary/1) instead of tables"
 #: As `zlmreport.emulation.emulator` knows them; a test holds the two together.
 FAULTS = ("lost-beam", "skipped", "error", "garbled", "unplugged")
-POINT_FAULTS = ("no-touch", "no-surface", "collision", "emergency-stop", "lost-connection")
 
 
 class CommandParser(argparse.ArgumentParser):
@@ -76,16 +75,6 @@ def fault(text: str) -> tuple[str, float]:
     if not (math.isfinite(start) and start >= 0):
         raise argparse.ArgumentTypeError(f"{text!r} does not say when; write seconds, such as {kind}@30")
     return kind, start
-
-
-def point_fault(text: str) -> tuple[str, int]:
-    """Read a fault of a coordinate measuring machine and the measuring move at which it happens."""
-    kind, _, number = text.partition("@")
-    if kind not in POINT_FAULTS:
-        raise argparse.ArgumentTypeError(f"{kind!r} is no fault; {did_you_mean(kind, POINT_FAULTS)}")
-    if not (number.isascii() and number.isdigit() and int(number)):
-        raise argparse.ArgumentTypeError(f"{text!r} does not say at which move; write such as {kind}@7")
-    return kind, int(number)
 
 
 def course(text: str) -> tuple[float, ...]:

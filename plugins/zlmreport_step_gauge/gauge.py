@@ -1,0 +1,122 @@
+"""A step gauge as its calibration describes it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import IntEnum
+
+from zlmreport.plugin import (
+    Place,
+)
+
+
+class Side(IntEnum):
+    """Which face of a block; the value is the direction of the outward normal along the gauge.
+
+    A front face is reached by a probe that moves from the beginning of the gauge to its end, a back face by
+    one that moves the other way.
+    """
+
+    FRONT = -1
+    BACK = 1
+
+
+@dataclass(frozen=True, slots=True)
+class Face:
+    """A calibrated face.
+
+    Attributes
+    ----------
+    number
+        From 1 at the beginning of the gauge: block b has the front face 2b − 1 and the back face 2b.
+    side
+        Front or back.
+    nominal
+        Nominal distance of its centre from the reference face, m.
+    distance
+        Calibrated distance S from the reference face at the reference temperature, m.
+    expanded_uncertainty
+        U of the calibrated distance (k = 2), m.
+    """
+
+    number: int
+    side: Side
+    nominal: float
+    distance: float
+    expanded_uncertainty: float
+
+    @property
+    def block(self) -> int:
+        """Number of the block, from 1."""
+        return (self.number + 1) // 2
+
+
+@dataclass(frozen=True, slots=True)
+class StepGauge:
+    """A calibrated step gauge, or the section of it that is used.
+
+    Attributes
+    ----------
+    name, serial, certificate
+        What identifies it, and its calibration; empty where the file does not say.
+    faces
+        In the order along the gauge: front and back of each block.
+    expansion_coefficient
+        α, 1/K; None where the calibration does not state it.
+    expansion_uncertainty
+        Standard uncertainty of α, 1/K; None where it is not stated.
+    reference_temperature
+        At which the distances hold, K.
+    block_width, block_height
+        Across the gauge, m: for the clearance of a probing path. None where not stated; the initial points
+        tell them too (`zlmreport_step_gauge.location.Located`).
+    place
+        Where the calibration stands: for messages.
+    """
+
+    name: str
+    serial: str
+    certificate: str
+    faces: tuple[Face, ...]
+    expansion_coefficient: float | None
+    expansion_uncertainty: float | None
+    reference_temperature: float
+    block_width: float | None
+    block_height: float | None
+    place: Place
+
+    @property
+    def blocks(self) -> tuple[int, ...]:
+        """Numbers of the blocks, rising."""
+        return tuple(sorted({face.block for face in self.faces}))
+
+    def face(self, number: int) -> Face | None:
+        """Return a face by its number; None if the section does not hold it."""
+        return next((face for face in self.faces if face.number == number), None)
+
+
+@dataclass(frozen=True, slots=True)
+class Location:
+    """Where a step gauge lies in the coordinates of the machine.
+
+    Attributes
+    ----------
+    begin, end
+        C1 and C2: centres of the first and the last block of the section, m.
+    direction
+        Unit vector from C1 to C2.
+    upward
+        Unit vector out of the top of the blocks, at right angles to `direction`: the way over them.
+    begin_normal, end_normal
+        Outward normals N1 and N2 of the faces that were probed, unit vectors.
+    direction_uncertainty
+        Standard uncertainty of the direction at right angles to it, rad.
+    """
+
+    begin: tuple[float, float, float]
+    end: tuple[float, float, float]
+    direction: tuple[float, float, float]
+    upward: tuple[float, float, float]
+    begin_normal: tuple[float, float, float]
+    end_normal: tuple[float, float, float]
+    direction_uncertainty: float

@@ -1,0 +1,220 @@
+"""Where a step gauge lies: the line through the centres of its first and its last block."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from zlmreport.plugin import (
+    FloatArray,
+    InputError,
+)
+from zlmreport_step_gauge.blocks import (
+    Block,
+    angle_between,
+    another_section,
+    askew,
+    block_along,
+    block_of,
+    no_blocks,
+)
+from zlmreport_step_gauge.gauge import Location, StepGauge
+from zlmreport_step_gauge.initial_points import BLOCKS, InitialPoints
+
+#: An angle from a direction that scatters alike both ways across, in units of its standard uncertainty:
+#: beyond, 5 % of all angles lie by chance (√(−2·ln 0.05)).
+SIGNIFICANT = math.sqrt(-2 * math.log(0.05))
+
+#: Points are moved by this much to see what becomes of the direction, m: far more than rounding, far less
+#: than a block.
+_MOVED = 1e-6
+
+
+@dataclass(frozen=True, slots=True)
+class Misalignment:
+    """The angle between a face's normal and the direction C1C2.
+
+    Attributes
+    ----------
+    angle
+        rad.
+    uncertainty
+        Standard uncertainty of the angle, rad, from that of the points.
+    """
+
+    angle: float
+    uncertainty: float
+
+    @property
+    def is_significant(self) -> bool:
+        """Whether the scatter of the points explains so large an angle in less than 5 % of all cases."""
+        return self.angle > SIGNIFICANT * self.uncertainty
+
+
+@dataclass(frozen=True, slots=True)
+class Located:
+    """A located gauge.
+
+    Attributes
+    ----------
+    location
+        Where it lies.
+    begin, end
+        The blocks that were touched.
+    point_uncertainty
+        Standard uncertainty of a coordinate that was taken, m: the stated one, or the scatter of the
+        blocks' sizes where that is larger.
+    begin_misalignment, end_misalignment
+        Of N1 and N2.
+    """
+
+    location: Location
+    begin: Block
+    end: Block
+    point_uncertainty: float
+    begin_misalignment: Misalignment
+    end_misalignment: Misalignment
+
+
+def direction_of(coordinates: FloatArray, radius: float) -> FloatArray:
+    """Return the unit vector from C1 to C2, shape (..., 3), of points of shape (..., block, point, 3).
+
+    The centres are taken twice: with the normals of the faces, and then with the direction that these give.
+    So the small face, of which three points know the normal badly, tilts no centre out of its place.
+    """
+    direction = _between(block_of(coordinates, radius))
+    return _between(_squared(coordinates, radius, direction))
+
+
+def _squared(coordinates: FloatArray, radius: float, direction: FloatArray) -> Block:
+    """Return both blocks with their faces square to a direction."""
+    return block_along(coordinates, radius, -direction[..., np.newaxis, :])
+
+
+def _between(blocks: Block) -> FloatArray:
+    """Return the unit vector between the centres of two blocks."""
+    between = np.diff(blocks.centre, axis=-2)[..., 0, :]
+    unit: FloatArray = between / np.linalg.norm(between, axis=-1, keepdims=True)
+    return unit
+
+
+def locate(points: InitialPoints, gauge: StepGauge, radius: float, uncertainty: float) -> Located:
+    """Return where the section of a gauge lies.
+
+    Parameters
+    ----------
+    points
+        On the first and on the last block of the section.
+    gauge
+        The section.
+    radius
+        Nominal radius of the tip, m; 0 where the points are those of the surface.
+    uncertainty
+        Standard uncertainty of a coordinate, m.
+
+    Raises
+    ------
+    InputError
+        If the points define no block, blocks of another size, or a section of another length; or if the
+        beginning and the end are exchanged.
+
+    Notes
+    -----
+    The uncertainty of the direction is that of the 48 coordinates by the law of propagation (JCGM 100,
+    5.1.2), its sensitivities found by moving each of them.
+    """
+    coordinates = _top_first(points.coordinates)
+    blocks = block_of(coordinates, radius)
+    begin, end = (_of(blocks, index) for index in range(len(BLOCKS)))
+    problems = list(no_blocks(points, coordinates, (begin, end), gauge))
+    if problems:
+        raise InputError(problems)
+    direction = direction_of(coordinates, radius)
+    problems = [
+        *askew(points, (begin, end), direction),
+        *another_section(points, (begin, end), gauge),
+    ]
+    if problems:
+        raise InputError(problems)
+    taken = max(uncertainty, _spread(blocks))
+    of_direction, of_normals = _propagated(coordinates, radius, taken)
+    begin_misalignment, end_misalignment = (
+        Misalignment(angle_between(-block.normal, direction), math.hypot(of_normal, of_direction))
+        for block, of_normal in zip((begin, end), of_normals, strict=True)
+    )
+    squared = _squared(coordinates, radius, direction)
+    upward = squared.upward.sum(axis=0)
+    upward = upward - np.dot(upward, direction) * direction
+    location = Location(
+        begin=_triple(squared.centre[0]),
+        end=_triple(squared.centre[1]),
+        direction=_triple(direction),
+        upward=_triple(upward / np.linalg.norm(upward)),
+        begin_normal=_triple(begin.normal),
+        end_normal=_triple(end.normal),
+        direction_uncertainty=of_direction,
+    )
+    return Located(location, begin, end, taken, begin_misalignment, end_misalignment)
+
+
+def _triple(vector: FloatArray) -> tuple[float, float, float]:
+    x, y, z = vector.tolist()
+    return x, y, z
+
+
+def _of(blocks: Block, index: int) -> Block:
+    """Return one block of a stack."""
+    return Block(
+        *(
+            each[index]
+            for each in (
+                blocks.normal,
+                blocks.sideward,
+                blocks.upward,
+                blocks.centre,
+                blocks.length,
+                blocks.width,
+                blocks.height,
+            )
+        )
+    )
+
+
+def _top_first(coordinates: FloatArray) -> FloatArray:
+    """Return the points with P6 above P7 where they were exchanged and the top of the gauge looks up."""
+    ordered = coordinates.copy()
+    for points in ordered:
+        rise = points[5] - points[6]
+        if rise[2] < -0.5 * np.linalg.norm(rise):
+            points[[5, 6]] = points[[6, 5]]
+    return ordered
+
+
+def _spread(blocks: Block) -> float:
+    """Return the standard deviation of a coordinate by the sizes of the two blocks, m.
+
+    Each size is a difference of two coordinates, and the difference of two sizes one of four; three sizes
+    make three degrees of freedom.
+    """
+    sizes = np.stack([blocks.length, blocks.width, blocks.height])
+    return float(np.sqrt(np.sum(np.diff(sizes, axis=-1) ** 2) / (4 * len(sizes))))
+
+
+def _propagated(coordinates: FloatArray, radius: float, uncertainty: float) -> tuple[float, list[float]]:
+    """Return the standard uncertainties of the direction and of the two normals, across each of them, rad."""
+    moves = np.eye(coordinates.size).reshape(-1, *coordinates.shape) * _MOVED
+    moved = coordinates + moves
+    per_metre = uncertainty / _MOVED
+    of_direction = direction_of(moved, radius) - direction_of(coordinates, radius)
+    of_normals = block_of(moved, radius).normal - block_of(coordinates, radius).normal
+    return (
+        _across(of_direction * per_metre),
+        [_across(of_normals[:, index] * per_metre) for index in range(len(BLOCKS))],
+    )
+
+
+def _across(parts: FloatArray) -> float:
+    """Return the root of the mean variance in the two directions across, of the parts of shape (part, 3)."""
+    return float(np.sqrt(np.sum(parts**2) / 2))

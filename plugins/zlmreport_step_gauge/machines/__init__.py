@@ -1,0 +1,1 @@
+"""Measuring machines over I++ DME: led along a path, and emulated."""

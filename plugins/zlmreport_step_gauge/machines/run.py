@@ -1,0 +1,188 @@
+"""Runs a planned path on a live machine, and collects its points.
+
+A face that is not found is noted, and the path goes on: the tip draws back the way it came. Anything else
+that the machine calls an error ends the run. Every point is on the disk before the next move, and the same
+call again goes on with the faces that are missing.
+"""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Protocol
+
+from zlmreport.plugin import (
+    MILLIMETRE,
+    AccessError,
+    InputError,
+    Job,
+    Place,
+    Problem,
+)
+from zlmreport_step_gauge.keys import MachineKeys, StepGaugeKeys
+from zlmreport_step_gauge.machines.answers import MachineError, UnreadableError, is_missed_face, read_data
+from zlmreport_step_gauge.machines.journal import Journal
+from zlmreport_step_gauge.machines.session import Connection, Session
+from zlmreport_step_gauge.paths.path import Point, Probing, ProbingPath
+from zlmreport_step_gauge.paths.plan import PlannedPath, path_of_job, remaining
+from zlmreport_step_gauge.paths.programs import beginning, command
+
+
+class Watcher(Protocol):
+    """Who is told how a run goes on."""
+
+    def begun(self, done: int, points: int) -> None:
+        """Hear how many of all points are on the disk already."""
+
+    def probed(self, probing: Probing, centre: Point, done: int) -> None:
+        """Hear of a point: the tip's centre, m, and how many there are now."""
+
+    def missed(self, probing: Probing, error: MachineError) -> None:
+        """Hear of a face that was not found."""
+
+    def told(self, text: str) -> None:
+        """Hear what the machine says unasked."""
+
+
+@dataclass(frozen=True, slots=True)
+class LiveProbing:
+    """What a job asks for that is to be probed live.
+
+    Attributes
+    ----------
+    planned
+        The path.
+    machine
+        The machine.
+    result
+        Where the table of points goes, which the job's data source reads.
+    """
+
+    planned: PlannedPath
+    machine: MachineKeys
+    result: Path
+
+
+def live_probing(job: Job, keys: StepGaugeKeys) -> LiveProbing | None:
+    """Return what a job asks to be probed live; None if its data source is none that a machine probes for.
+
+    Raises
+    ------
+    AccessError
+        If a file of the gauge cannot be read.
+    InputError
+        If no machine is stated, or the path cannot be planned.
+    """
+    options = job.source.options
+    if not hasattr(options, "machine"):
+        return None
+    machine, result = options.machine, getattr(options, "file", None)
+    if not isinstance(machine, MachineKeys) or not isinstance(result, Path):
+        raise InputError.at(
+            job.source.place,
+            "a step gauge is probed by a machine; state measurement.source.machine, such as "
+            "{host: 192.168.1.20, tool: RefTool}",
+        )
+    return LiveProbing(path_of_job(job, keys), machine, result)
+
+
+def run_probing(probing: LiveProbing, watcher: Watcher) -> Path:
+    """Probe what is missing, and return the table of all points.
+
+    Raises
+    ------
+    AccessError
+        If the machine cannot be reached or stops, if faces were missed, or the table cannot be written: with
+        what the operator can do. What was probed is kept.
+    InputError
+        If what is there was probed on another path.
+    """
+    whole = probing.planned.path
+    with Journal(probing.result, whole) as journal:
+        watcher.begun(len(journal.done), len(whole.probings))
+        path = remaining(probing.planned, journal.done)
+        missed: dict[Probing, MachineError] = {}
+        if path.probings:
+            missed = _probe(path, probing.machine, journal, watcher)
+        if missed:
+            raise AccessError(_problems(missed, journal.part))
+        return journal.finish()
+
+
+def _probe(
+    path: ProbingPath, machine: MachineKeys, journal: Journal, watcher: Watcher
+) -> dict[Probing, MachineError]:
+    """Make the moves of a path; return the faces that were missed."""
+    missed: dict[Probing, MachineError] = {}
+    with Connection(machine.host, machine.port) as connection:
+        session = Session(connection, machine.timeout, watcher.told)
+        with _stopped_on_interrupt(session):
+            session.begin(beginning(path, machine.tool))
+            for move in path.moves:
+                if not isinstance(move, Probing):
+                    session.order(command(move))
+                    continue
+                point = _touched(session, move, connection.place)
+                if isinstance(point, MachineError):
+                    missed[move] = point
+                    watcher.missed(move, point)
+                else:
+                    centre, others = point
+                    journal.take(move, centre, others)
+                    watcher.probed(move, centre, len(journal.done))
+            session.order("EndSession()")
+    return missed
+
+
+def _touched(
+    session: Session, probing: Probing, place: Place
+) -> tuple[Point, Mapping[str, float]] | MachineError:
+    """Measure towards a face; return the tip's centre and what else is reported, or why there is none."""
+    outcome = session.ask(command(probing))
+    for error in outcome.errors:
+        if is_missed_face(error):
+            if error.is_in_the_way:
+                session.clear()
+            return error
+        if error.is_in_the_way:
+            session.fail(error)
+    reports = []
+    for text in outcome.data:
+        try:
+            reports.append(read_data(text))
+        except UnreadableError as error:
+            raise AccessError.at(place, f"{error}; version 1.4 is expected") from error
+    report = reports[0] if len(reports) == 1 else {}
+    if not {"X", "Y", "Z"} <= report.keys():
+        raise AccessError.at(
+            place, f"face {probing.face}: the machine reports no point with X, Y and Z; see OnPtMeasReport"
+        )
+    x, y, z = (MILLIMETRE.to_si(report[name][0]) for name in "XYZ")
+    others = {
+        name: values[0]
+        for name, values in report.items()
+        if name not in {"X", "Y", "Z", "IJK"} and len(values) == 1
+    }
+    return (x, y, z), others
+
+
+@contextlib.contextmanager
+def _stopped_on_interrupt(session: Session) -> Iterator[None]:
+    """Stop the machine when the operator interrupts the run."""
+    try:
+        yield
+    except KeyboardInterrupt:
+        with contextlib.suppress(AccessError):
+            session.abort()
+        raise
+
+
+def _problems(missed: Mapping[Probing, MachineError], part: Path) -> Iterator[Problem]:
+    for probing, error in missed.items():
+        yield Problem(
+            Place(str(part)),
+            f"face {probing.face}, cycle {probing.cycle}, was missed: {error}; look at the gauge and the "
+            "tip, and start again: only what is missing is probed",
+        )

@@ -1,0 +1,254 @@
+"""A session with an I++ DME server: one command after the other, each to its end."""
+
+from __future__ import annotations
+
+import socket
+import time
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
+from types import TracebackType
+from typing import NoReturn, Self
+
+from zlmreport.plugin import (
+    AccessError,
+    Place,
+    Problem,
+)
+from zlmreport_step_gauge.machines.answers import (
+    NOT_CLEARED,
+    UNASKED,
+    Answer,
+    Kind,
+    MachineError,
+    UnreadableError,
+    advice,
+    read_answer,
+    read_error,
+)
+
+_LAST_TAG = 99999
+#: How long a server may take to acknowledge a command, s.
+_ACKNOWLEDGED_WITHIN = 10.0
+
+
+@dataclass(slots=True)
+class Outcome:
+    """How a command ended.
+
+    Attributes
+    ----------
+    data
+        The texts of its data lines.
+    errors
+        Its errors.
+    """
+
+    data: list[str] = field(default_factory=list)
+    errors: list[MachineError] = field(default_factory=list)
+
+
+class Session:
+    """A session with a server.
+
+    Parameters
+    ----------
+    connection
+        The line to it.
+    timeout
+        How long a command may take from its acknowledgement to its end, s.
+    event
+        Is told what the server sends unasked, as it is written.
+    """
+
+    def __init__(self, connection: Connection, timeout: float, event: Callable[[str], None]) -> None:
+        self._connection = connection
+        self._timeout = timeout
+        self._event = event
+        self._tag = 0
+
+    def order(self, command: str) -> list[str]:
+        """Give a command that must succeed; return its data.
+
+        Raises
+        ------
+        AccessError
+            For any error that is in the way, and for a machine that does not answer.
+        """
+        outcome = self.ask(command)
+        self._see_to(outcome)
+        return outcome.data
+
+    def begin(self, commands: Iterable[str]) -> None:
+        """Give the commands before the first move; an error that an earlier session has left is cleared."""
+        for command in commands:
+            outcome = self.ask(command)
+            if any(error.number == NOT_CLEARED for error in outcome.errors):
+                self.clear()
+                outcome = self.ask(command)
+            self._see_to(outcome)
+
+    def clear(self) -> None:
+        """Let the server take commands again after an error."""
+        self._see_to(self.ask("ClearAllErrors()"))
+
+    def abort(self) -> None:
+        """Stop the machine, whatever it does; nothing is waited for."""
+        self._connection.send("E0001 AbortE()")
+
+    def fail(self, error: MachineError) -> NoReturn:
+        """Raise the error of the machine, with what the operator can do."""
+        raise AccessError.at(self._connection.place, f"the machine stopped: {error}; {advice(error)}")
+
+    def ask(self, command: str) -> Outcome:
+        """Give a command, and return how it ended."""
+        self._tag = self._tag % _LAST_TAG + 1
+        tag = f"{self._tag:05d}"
+        self._connection.send(f"{tag} {command}")
+        outcome = Outcome()
+        is_acknowledged = False
+        until = time.monotonic() + _ACKNOWLEDGED_WITHIN
+        while True:
+            answer = self._next(until, command)
+            if answer.tag == UNASKED:
+                self._take_event(answer)
+            elif answer.tag == "E0001":
+                continue  # of AbortE, whose own end is of no matter
+            elif answer.tag != tag:
+                self._misunderstood(f"an answer to {answer.tag} where one to {tag} is expected")
+            elif answer.kind is Kind.ACKNOWLEDGED and not is_acknowledged:
+                is_acknowledged = True
+                until = time.monotonic() + self._timeout
+            elif answer.kind is Kind.ACKNOWLEDGED or not (is_acknowledged or answer.kind is Kind.ERROR):
+                self._misunderstood(f"{answer.kind.value} at the wrong place in the answers to {tag}")
+            elif answer.kind is Kind.DATA:
+                outcome.data.append(answer.text)
+            elif answer.kind is Kind.ERROR:
+                is_acknowledged = True  # an order that makes no sense may be refused at once
+                outcome.errors.append(self._error(answer))
+            else:
+                return outcome
+
+    def _see_to(self, outcome: Outcome) -> None:
+        """Tell the errors that are not in the way; the first that is ends the session."""
+        for error in outcome.errors:
+            if error.is_in_the_way:
+                self.fail(error)
+            self._event(str(error))
+
+    def _next(self, until: float, command: str) -> Answer:
+        line = self._connection.receive(until - time.monotonic())
+        if line is None:
+            name = command.partition("(")[0]
+            raise AccessError.at(
+                self._connection.place,
+                f"the machine does not answer to {name}; look at the machine, state a larger timeout if it "
+                "is slow, and start again",
+            )
+        try:
+            return read_answer(line)
+        except UnreadableError as error:
+            self._misunderstood(str(error))
+
+    def _take_event(self, answer: Answer) -> None:
+        """Tell what was sent unasked; an error that is in the way ends the session."""
+        if answer.kind is Kind.ERROR:
+            error = self._error(answer)
+            if error.is_in_the_way:
+                self.fail(error)
+            self._event(str(error))
+        else:
+            self._event(answer.text)
+
+    def _error(self, answer: Answer) -> MachineError:
+        try:
+            return read_error(answer.text)
+        except UnreadableError as error:
+            self._misunderstood(str(error))
+
+    def _misunderstood(self, what: str) -> NoReturn:
+        raise AccessError.at(
+            self._connection.place,
+            f"{what}; is this the port of an I++ DME server, and are both of version 1.4?",
+        )
+
+
+_CHUNK = 4096
+#: Longer than any line of the protocol: a wrong server fills no memory.
+_LONGEST_LINE = 65536
+#: How long a server may take to accept a connection, s.
+_PATIENCE = 10.0
+
+
+class Connection:
+    """Lines to and from a server.
+
+    Parameters
+    ----------
+    host, port
+        Where it is.
+
+    Raises
+    ------
+    AccessError
+        If it cannot be reached; here and in every method, with what the operator can do.
+    """
+
+    def __init__(self, host: str, port: int) -> None:
+        self.place = Place(f"{host}:{port}")
+        try:
+            self._socket = socket.create_connection((host, port), timeout=_PATIENCE)
+        except OSError as error:
+            raise AccessError.at(
+                self.place,
+                f"the machine's server cannot be reached ({_said(error)}); is it started, and are host and "
+                "port right?",
+            ) from error
+        self._socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        self._rest = b""
+
+    def __enter__(self) -> Self:
+        """Return the connection."""
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        """Hang up."""
+        self._socket.close()
+
+    def send(self, line: str) -> None:
+        """Send a line."""
+        try:
+            self._socket.sendall(f"{line}\r\n".encode("ascii"))
+        except OSError as error:
+            raise self._lost(_said(error)) from error
+
+    def receive(self, patience: float) -> str | None:
+        """Return the next line without its end; None if none comes within a time, s."""
+        until = time.monotonic() + patience
+        while b"\n" not in self._rest:
+            if len(self._rest) > _LONGEST_LINE:
+                raise self._lost("what it sends has no lines")
+            self._socket.settimeout(max(0.001, until - time.monotonic()))
+            try:
+                data = self._socket.recv(_CHUNK)
+            except TimeoutError:
+                return None
+            except OSError as error:
+                raise self._lost(_said(error)) from error
+            if not data:
+                raise self._lost("it has hung up")
+            self._rest += data
+        line, _, self._rest = self._rest.partition(b"\n")
+        return line.rstrip(b"\r").decode("ascii", errors="replace")
+
+    def _lost(self, why: str) -> AccessError:
+        message = (
+            f"the connection to the machine is lost ({why}); look at the machine and the network, then start "
+            "again: what was probed is kept"
+        )
+        return AccessError([Problem(self.place, message)])
+
+
+def _said(error: OSError) -> str:
+    return " ".join(str(error.strerror or error).split())[:200]

@@ -1,0 +1,163 @@
+"""Small tables whose columns have fixed names: faces, initial points, probed points."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from zlmreport.plugin import (
+    InputError,
+    Place,
+    Problem,
+    SourceFile,
+    TextFile,
+    did_you_mean,
+    parse_number,
+    quoted,
+    read_text,
+)
+
+_DELIMITERS = ("\t", ";", ",")
+
+
+@dataclass(frozen=True, slots=True)
+class Cell:
+    """A cell with its place."""
+
+    text: str
+    place: Place
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """A row: its cells by the names of their columns; a column that the table lacks has no cell."""
+
+    place: Place
+    cells: dict[str, Cell]
+
+    def text(self, column: str) -> str:
+        """Return what a cell holds; nothing where the table lacks the column."""
+        return self.cells[column].text if column in self.cells else ""
+
+    def number(self, column: str, problems: list[Problem]) -> float | None:
+        """Return the number in a cell; None, and a problem, where it holds none."""
+        cell = self.cells[column]
+        try:
+            return parse_number(cell.text)
+        except ValueError as error:
+            message = str(error) if cell.text else "a number is missing"
+            problems.append(Problem(cell.place, f"column {column}: {message}"))
+            return None
+
+    def integer(self, column: str, problems: list[Problem]) -> int | None:
+        """Return the positive whole number in a cell; None, and a problem, where it holds none."""
+        value = self.number(column, problems)
+        if value is not None and not (value >= 1 and value.is_integer()):
+            cell = self.cells[column]
+            problems.append(
+                Problem(cell.place, f"column {column}: {quoted(cell.text)} is no number that counts from 1")
+            )
+            return None
+        return None if value is None else int(value)
+
+
+@dataclass(frozen=True, slots=True)
+class NamedColumns:
+    """A table that was read.
+
+    Attributes
+    ----------
+    text
+        The file.
+    rows
+        Those with as many cells as the header.
+    problems
+        What is wrong with the others.
+    """
+
+    text: TextFile
+    rows: tuple[Row, ...]
+    problems: list[Problem] = field(default_factory=list)
+
+    @property
+    def source(self) -> SourceFile:
+        """The file's name, digest and bytes."""
+        return self.text.source
+
+
+def read_named_columns(path: Path, needed: Sequence[str], optional: Sequence[str] = ()) -> NamedColumns:
+    """Read a table: a header that names the columns, then one row a line, in any order of columns.
+
+    Tab, semicolon or comma parts the columns; lines that begin with ``#`` and empty lines are left out.
+
+    Raises
+    ------
+    AccessError
+        If the file cannot be read.
+    InputError
+        If the header lacks a column that is needed, or names one that is unknown.
+    """
+    text = read_text(path)
+    lines = [
+        (number, line)
+        for number, line in enumerate(text.lines, 1)
+        if line.strip() and not line.lstrip().startswith("#")
+    ]
+    example = ",".join((*needed, *optional))
+    if not lines:
+        raise InputError.at(text.place(), f"holds no table; its first row names the columns: {example}")
+    delimiter = next((each for each in _DELIMITERS if each in lines[0][1]), ",")
+    header = _cells(text, *lines[0], delimiter)
+    names = [cell.text.casefold() for cell in header]
+    _refuse_other_columns(header, names, needed, optional)
+    canonical = {name.casefold(): name for name in (*needed, *optional)}
+    table = NamedColumns(text, ())
+    rows = []
+    for number, line in lines[1:]:
+        cells = _cells(text, number, line, delimiter)
+        if len(cells) != len(header):
+            table.problems.append(
+                Problem(cells[0].place, f"a row has {len(header)} cells, and this one {len(cells)}")
+            )
+            continue
+        by_name = {canonical[name]: cell for name, cell in zip(names, cells, strict=True)}
+        rows.append(Row(text.place(number, 1), by_name))
+    return NamedColumns(text, tuple(rows), table.problems)
+
+
+def _cells(text: TextFile, number: int, line: str, delimiter: str) -> list[Cell]:
+    found = []
+    start = 0
+    for part in line.split(delimiter):
+        lead = len(part) - len(part.lstrip())
+        found.append(Cell(part.strip(), text.place(number, start + lead + 1)))
+        start += len(part) + 1
+    return found
+
+
+def _refuse_other_columns(
+    header: Sequence[Cell], names: Sequence[str], needed: Sequence[str], optional: Sequence[str]
+) -> None:
+    known = {name.casefold(): name for name in (*needed, *optional)}
+    problems = [
+        Problem(cell.place, f"{quoted(cell.text)} is no column of this table; {_nearest(cell, known)}")
+        for cell, name in zip(header, names, strict=True)
+        if name not in known
+    ]
+    problems += [
+        Problem(cell.place, f"column {quoted(cell.text)} is there twice")
+        for index, cell in enumerate(header)
+        if names[index] in names[:index]
+    ]
+    missing = [name for name in needed if name.casefold() not in names]
+    if missing:
+        problems.append(
+            Problem(header[0].place, f"the header lacks {', '.join(missing)}; it names {','.join(needed)}")
+        )
+    if problems:
+        raise InputError(problems)
+
+
+def _nearest(cell: Cell, known: dict[str, str]) -> str:
+    return did_you_mean(cell.text[:40], list(known.values()))

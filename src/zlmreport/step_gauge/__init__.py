@@ -1,1 +1,0 @@
-"""Calibration with a step gauge: the gauge, where it lies, and what its faces tell of the axis."""

@@ -1,0 +1,66 @@
+"""What every group of job keys that a plugin adds must do."""
+
+from __future__ import annotations
+
+from zlmreport.job.extensions import group_model
+from zlmreport.job.fields import keys_in, model_at
+from zlmreport.job.keys import JobKeys
+from zlmreport.job.tree import Step
+from zlmreport.plugin.extension import Extension
+from zlmreport.testing.expectations import expect, expect_members, expect_options, expect_words, run_all
+
+
+def is_named(extension: Extension) -> None:
+    """Check that its identifier is a key that a job can have and the core has not, and its title."""
+    expect_members(extension, Extension)
+    name = extension.identifier
+    expect(
+        name.isidentifier() and name.islower(),
+        f"extension {name!r}: the identifier is a job key: lower-case ASCII letters, digits and '_'",
+    )
+    expect(name not in keys_in(JobKeys), f"extension {name!r}: the job has this key itself")
+    expect_words(extension.title, f"{name}: title")
+    expect(extension.description.strip(), f"{name}: description says nothing")
+
+
+def keys_are_described(extension: Extension) -> None:
+    """Check that its keys are described, and that its example uses no others."""
+    expect_options(extension.options, extension.identifier)
+    unknown = sorted(extension.example.keys() - keys_in(extension.options).keys())
+    expect(not unknown, f"{extension.identifier}: the example has the unknown keys {', '.join(unknown)}")
+
+
+def lists_part_programs_where_it_says(extension: Extension) -> None:
+    """Check that the keys which list part programs are there, and that it says what these are written of."""
+    if not extension.programs:
+        return
+    path: tuple[Step, ...] = (extension.identifier, *extension.programs, 0)
+    where = f"{extension.identifier}: {'.'.join(extension.programs)}"
+    item = model_at(group_model(extension), path)
+    expect(item and "program" in keys_in(item), f"{where} is no list of part programs")
+    expect(extension.takes, f"{where} lists part programs, and takes says not what they are written of")
+
+
+def commands_are_described(extension: Extension) -> None:
+    """Check that its commands and their options have a help, and that each option is there once."""
+    for command in extension.commands:
+        expect(command.description.strip(), f"command {command.words!r} has no description")
+        names = [option.name for option in command.options]
+        twice = sorted({name for name in names if names.count(name) > 1})
+        expect(not twice, f"command {command.words!r} has the option --{twice[:1]} twice")
+        silent = [option.name for option in command.options if not option.help.strip()]
+        expect(not silent, f"command {command.words!r}: --{', --'.join(silent)} has no help")
+
+
+#: Every check of an extension, each called with it.
+EXTENSION_CHECKS = (
+    is_named,
+    keys_are_described,
+    lists_part_programs_where_it_says,
+    commands_are_described,
+)
+
+
+def check_extension(extension: Extension) -> None:
+    """Run every check on an extension; raise `AssertionError` with a line for every check that fails."""
+    run_all(EXTENSION_CHECKS, extension)

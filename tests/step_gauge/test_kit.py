@@ -1,0 +1,125 @@
+"""Each check of a writer of probing programs passes the exemplary one, and finds the sin it is there for."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+from pydantic import Field
+
+from step_gauge.exemplary_program import ExemplaryProbing, read_words
+from zlmreport.errors import InputError, Place
+from zlmreport.job.types import Options
+from zlmreport.language import Words
+from zlmreport_step_gauge import testing as probing_programs
+from zlmreport_step_gauge.paths.path import ProbingPath
+from zlmreport_step_gauge.testing import PROBING_PROGRAM_CHECKS, check_probing_program
+
+COUNTER = itertools.count()
+
+
+def on_paper(change: Callable[[str], str]) -> Callable[..., str]:
+    return lambda _, path, options: change(ExemplaryProbing().write(path, options))
+
+
+def inwards(text: str) -> str:
+    """Turn the normals of a program over."""
+    lines = []
+    for line in text.splitlines():
+        word, *numbers = line.split(" ")
+        if word == "TOUCH":
+            numbers[3:] = [f"{-float(each):.7f}" for each in numbers[3:]]
+        lines.append(" ".join([word, *numbers]))
+    return "\n".join(lines) + "\n"
+
+
+def named(_self: object, path: ProbingPath, options: Any) -> str:
+    return f"SAY {path.number}\n{ExemplaryProbing().write(path, options)}"
+
+
+def elsewhere(_self: object, path: ProbingPath, options: Any) -> str:
+    if path.radius_correction:
+        raise InputError.at(Place("elsewhere"), "no")
+    return ExemplaryProbing().write(path, options)
+
+
+class Undescribed(Options):
+    speed: float = 1.0
+
+
+class Greedy(Options):
+    program: str = Field("", description="Taken.")
+
+
+class Demanding(Options):
+    speed: float = Field(description="Without a default.")
+
+
+SINS = [
+    (probing_programs.is_named, {"identifier": "Words!"}, "lower-case ASCII"),
+    (probing_programs.is_named, {"title": Words(en="", de="Titel")}, "title says nothing in 'en'"),
+    (probing_programs.is_named, {"suffix": "words"}, "must be like '.dmi'"),
+    (probing_programs.options_are_described, {"options": Undescribed}, "job key 'speed' needs a description"),
+    (probing_programs.options_are_described, {"options": Greedy}, "job keys program belong to the core"),
+    (probing_programs.options_are_described, {"options": Demanding}, "job keys speed need a default"),
+    (
+        probing_programs.leads_along_the_path,
+        {"write": on_paper(lambda text: text.replace("GO 0.0000 0.0000 400.0000\n", "", 1))},
+        "vertical path: 61 moves; expected 62",
+    ),
+    (
+        probing_programs.leads_along_the_path,
+        {"write": on_paper(lambda text: text.replace("400.0000", "399.0000", 1))},
+        "move 1 is going to (0.0000, 0.0000, 399.0000); expected going to (0.0000, 0.0000, 400.0000)",
+    ),
+    (probing_programs.leads_along_the_path, {"write": on_paper(inwards)}, "has the normal"),
+    (probing_programs.is_plain_text, {"write": lambda *_: b"GO\n"}, "must return the text of a program"),
+    (probing_programs.is_plain_text, {"write": on_paper(lambda text: f"SAY ä\n{text}")}, "beyond ASCII"),
+    (
+        probing_programs.is_plain_text,
+        {"write": on_paper(lambda text: f"SAY \x07\n{text}")},
+        "control characters",
+    ),
+    (probing_programs.is_plain_text, {"write": on_paper(str.rstrip)}, "the last line has no end"),
+    (
+        probing_programs.is_plain_text,
+        {"write": on_paper(lambda text: f"SAY {'a' * 300}\n{text}")},
+        "304 characters",
+    ),
+    (
+        probing_programs.writes_the_same_again,
+        {"write": on_paper(lambda text: f"SAY {next(COUNTER)}\n{text}")},
+        "again gives another program",
+    ),
+    (probing_programs.takes_no_name_for_a_statement, {"write": named}, "the program cannot be read"),
+    (probing_programs.minds_the_radius, {"write": elsewhere}, "elsewhere than at path.place"),
+]
+
+
+@pytest.mark.parametrize("check", PROBING_PROGRAM_CHECKS)
+def test_exemplary_probing_program_passes(check: Callable[..., None]) -> None:
+    check(ExemplaryProbing(), read_words, {})
+
+
+@pytest.mark.parametrize(
+    ("check", "sin", "sentence"), SINS, ids=lambda value: getattr(value, "__name__", None)
+)
+def test_a_check_finds_its_sin(check: Callable[..., None], sin: dict[str, Any], sentence: str) -> None:
+    sinner = type("Sinner", (ExemplaryProbing,), sin)()
+    with pytest.raises(AssertionError) as failure:
+        check(sinner, read_words, {})
+    assert sentence in str(failure.value)
+
+
+def test_every_check_has_a_sin() -> None:
+    assert {check for check, *_ in SINS} == set(PROBING_PROGRAM_CHECKS)
+
+
+def test_all_failures_are_reported_at_once() -> None:
+    sinner = type("Sinner", (ExemplaryProbing,), {"write": on_paper(lambda text: inwards(text).rstrip())})()
+    with pytest.raises(AssertionError) as failure:
+        check_probing_program(sinner, read_words)
+    checks = [line.partition(":")[0] for line in str(failure.value).splitlines()]
+    assert checks == ["leads_along_the_path", "is_plain_text"]
