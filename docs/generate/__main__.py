@@ -58,6 +58,7 @@ def generate(folder: Path) -> set[str]:
         after = _PART.sub(filled, before)
         if after != before:
             page.write_text(after, encoding="utf-8")
+    (folder / "reference" / "job.schema.json").write_text(job_keys.schema_text(), encoding="utf-8")
     for name, picture in {**sequences.pictures(), **probing_path.pictures()}.items():
         (folder / "images" / name).write_text(picture, encoding="utf-8")
     return used

@@ -14,6 +14,7 @@ from zlmreport.job.extensions import group_model
 from zlmreport.job.fields import field_at
 from zlmreport.job.fleet import FleetKeys
 from zlmreport.job.keys import JobKeys
+from zlmreport.job.schema import job_schema
 from zlmreport.job.types import Options
 from zlmreport.language import Language
 from zlmreport.plugin.protocols import PartProgram
@@ -28,6 +29,11 @@ _HEADING = ("Key", "Value", "Without it", "Meaning")
 def job_text() -> str:
     """Return every key of a job file that does not belong to a plugin."""
     return _table(JobKeys)
+
+
+def schema_text() -> str:
+    """Return the JSON Schema of the job file with the keys of all plugins that come with the program."""
+    return f"{json.dumps(job_schema(find_plugins()), indent=1, ensure_ascii=False)}\n"
 
 
 def fleet_text() -> str:

@@ -56,3 +56,8 @@ def test_every_part_that_can_be_generated_stands_in_a_page() -> None:
     source = (DOCS / "generate" / "__main__.py").read_text(encoding="utf-8")
     known = set(re.findall(r'^    "([a-z0-9-]+)": ', source, re.MULTILINE))
     assert known == {part for page in _GENERATED for part in _PART.findall(page.read_text(encoding="utf-8"))}
+
+
+def test_the_published_schema_is_up_to_date(regenerated: Path) -> None:
+    stands, should = (folder / "reference" / "job.schema.json" for folder in (DOCS, regenerated))
+    assert stands.read_text(encoding="utf-8") == should.read_text(encoding="utf-8")

@@ -10,13 +10,14 @@ import pytest
 import yaml
 from pydantic import BaseModel, Field, create_model
 
+from environments import ROOT
 from job.jobs import REGISTRY, SOUND, with_line, with_lines
 from offers import offering
 from testing.exemplary import ExemplarySource
 from zlmreport.job.keys import JobKeys
 from zlmreport.job.schema import job_schema
 from zlmreport.job.types import Options
-from zlmreport.plugins import Plugin, collect
+from zlmreport.plugins import Plugin, collect, find_plugins
 
 
 class _Loader(yaml.SafeLoader):
@@ -182,5 +183,40 @@ def test_groups_of_a_plugins_keys_are_described_under_its_own_name() -> None:
 
 def test_plugin_whose_keys_json_does_not_know_is_taken_as_it_is() -> None:
     schema = _source_schema(PythonOptions)
-    other = schema["$defs"]["SourceKeys"]["oneOf"][-1]
+    other = schema["$defs"]["SourceKeys"]["then"]["oneOf"][-1]
     assert other["properties"]["plugin"]["const"] == "other"
+
+
+def test_every_example_and_every_part_of_one_fits() -> None:
+    """Whole jobs, what they extend, and a job of a fleet that says only its file."""
+    validator = jsonschema.Draft202012Validator(job_schema(find_plugins({})))
+    files = (ROOT / "configs").rglob("*.yaml")
+    values = {path: yaml.load(path.read_text("utf-8"), Loader=_Loader) for path in files}
+    jobs = {path: each for path, each in values.items() if each.get("schema") in {None, "zlmreport/job/1"}}
+    assert len(jobs) > 140
+    assert [path for path, each in jobs.items() if not validator.is_valid(each)] == []
+
+
+def test_a_misspelt_key_never_fits() -> None:
+    schema = job_schema(REGISTRY)
+    groups = {
+        name: schema["$defs"].get(part.get("$ref", "").rpartition("/")[2], {}).get("properties", {})
+        for name, part in schema["properties"].items()
+    }
+    misspelt: list[dict[str, Any]] = [{f"{name}x": 1} for name in groups]
+    misspelt += [{name: {f"{key}x": 1}} for name, keys in groups.items() for key in keys]
+    validator = jsonschema.Draft202012Validator(schema)
+    assert len(misspelt) > 60
+    assert [each for each in misspelt if validator.is_valid({"extends": "base.yaml", **each})] == []
+
+
+def test_a_part_may_leave_the_data_source_or_its_file_to_others() -> None:
+    base = "extends: other.yaml\n"
+    assert _complaints(f"{base}measurement: {{source: {{file: six.txt}}}}\n") == []
+    assert _complaints(f"{base}measurement: {{source: {{plugin: exemplary-text}}}}\n") == []
+    assert _complaints(f"{base}measurement: {{source: {{fil: six.txt}}}}\n") != []
+
+
+def test_a_whole_job_names_its_data_source_and_what_that_demands() -> None:
+    assert _complaints(with_line(11, "    # no plugin")) != []
+    assert _complaints(with_line(12, "    # no file")) != []

@@ -10,6 +10,7 @@ from zlmreport.job.extends import FileFormat
 from zlmreport.job.keys import JobKeys
 from zlmreport.job.tree import Step
 from zlmreport.job.types import Options
+from zlmreport.language import Words
 
 
 class Named(Protocol):
@@ -34,6 +35,10 @@ class LimitedQuantity(Protocol):
     @property
     def symbol(self) -> str:
         """As jobs and results name it."""
+
+    @property
+    def name(self) -> Words:
+        """In the wording of the standard."""
 
     @property
     def can_be_limited(self) -> bool:
@@ -109,9 +114,17 @@ class NamedParameter(Protocol):
     def name(self) -> str:
         """As jobs name it."""
 
+    @property
+    def description(self) -> Words:
+        """In words."""
+
 
 class InstalledEffect(WithKeys, Protocol):
     """An effect, and the parameters that a job may give."""
+
+    @property
+    def title(self) -> Words:
+        """In words."""
 
     @property
     def linear(self) -> Sequence[NamedParameter]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any, TypeAlias
 
 from pydantic import BaseModel
@@ -17,6 +17,7 @@ from zlmreport.job.measurement_keys import SourceKeys
 from zlmreport.job.plan_keys import ProgramKeys
 from zlmreport.job.tree import Step
 from zlmreport.job.types import LiveInstrumentKeys
+from zlmreport.language import Language
 
 Schema: TypeAlias = dict[str, Any]
 
@@ -24,13 +25,15 @@ Schema: TypeAlias = dict[str, Any]
 def job_schema(registry: Installed) -> Schema:
     """Return the JSON Schema (draft 2020-12) of the job file.
 
-    What a job must have is asked only of a job that extends no other file: from there it may come too.
+    A file may be a job, or a part of one that others extend. What a job must have is asked only of a whole
+    job: of one that states its schema and extends no other file.
     """
     schema = JobKeys.model_json_schema()
     definitions = schema["$defs"]
+    sources = [_by_name("plugin", "data source", each, definitions) for each in registry.sources]
     definitions[SourceKeys.__name__] = {
         "description": definitions[SourceKeys.__name__]["description"],
-        "oneOf": [_by_name("plugin", "data source", each, definitions) for each in registry.sources],
+        **_whole_or_part("plugin", sources),
     }
     for name in [name for name in definitions if name.endswith(f".{LiveInstrumentKeys.__name__}")]:
         definitions[name] = {
@@ -72,14 +75,15 @@ def job_schema(registry: Installed) -> Schema:
         }
     formats = definitions["Output"]["properties"]["formats"]
     formats["items"] = {"enum": [renderer.identifier for renderer in registry.renderers]}
+    _describe_references(schema, definitions)
     for part in _parts(schema):
         _take_numbers_for_text(part)
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "$id": "urn:zlmreport:job:1",
         **_without_demands(schema),
-        "if": {"not": {"required": ["extends"]}},
-        "then": _demands(schema, definitions),
+        "if": {"required": ["schema"], "not": {"required": ["extends"]}},
+        "then": _demands(schema, definitions, {SourceKeys.__name__: _named_demands("plugin", sources)}),
     }
 
 
@@ -94,6 +98,48 @@ def _listed_programs(registry: Installed) -> dict[str, type | None]:
     return listed
 
 
+def _whole_or_part(key: str, alternatives: Sequence[Schema]) -> Schema:
+    """Return the schema of a group that names a plugin, or of a part of it; what it demands stands apart.
+
+    A file that is extended may name the plugin and leave its keys to others, or the other way about: without
+    the name, the keys of all plugins are known.
+    """
+    known: Schema = {}
+    for alternative in alternatives:
+        for name, value in alternative["properties"].items():
+            if name != key:
+                known.setdefault(name, {"description": value.get("description", ""), "anyOf": []})
+                known[name]["anyOf"].append(value)
+    return {
+        "if": {"required": [key]},
+        "then": {"oneOf": [{**each, "required": [key]} for each in alternatives]},
+        "else": {"type": "object", "properties": known, "additionalProperties": False},
+    }
+
+
+def _named_demands(key: str, alternatives: Sequence[Schema]) -> Schema:
+    """Return what a whole group must have: the plugin's name, and the keys that this plugin demands."""
+    return {
+        "required": [key],
+        "allOf": [
+            {
+                "if": {"required": [key], "properties": {key: {"const": each["properties"][key]["const"]}}},
+                "then": {"required": each["required"]},
+            }
+            for each in alternatives
+        ],
+    }
+
+
+def _describe_references(schema: Schema, definitions: Schema) -> None:
+    """Give keys that refer to a definition its description: not every editor looks there."""
+    for part in list(_parts(schema)):
+        for value in part.get("properties", {}).values():
+            if isinstance(value, dict) and "$ref" in value and "description" not in value:
+                referred = definitions.get(value["$ref"].removeprefix("#/$defs/"), {})
+                value["description"] = referred.get("description", "")
+
+
 def _by_name(key: str, what: str, plugin: WithKeys, definitions: Schema) -> Schema:
     """Return the schema of a plugin's keys with the one that names it."""
     named = {"const": plugin.identifier, "description": f"Identifier of the {what}."}
@@ -102,13 +148,20 @@ def _by_name(key: str, what: str, plugin: WithKeys, definitions: Schema) -> Sche
 
 def _standard(standard: InstalledStandard, definitions: Schema) -> Schema:
     """Return the schema of a standard's keys."""
-    limitable = [quantity.symbol for quantity in standard.quantities if quantity.can_be_limited]
     keys = {
         "standard": {"const": standard.identifier, "description": "Identifier of the standard."},
         "tolerances": {
             "type": "object",
             "description": StandardKeys.model_fields["tolerances"].description,
-            "properties": {symbol: {"type": "number", "exclusiveMinimum": 0} for symbol in limitable},
+            "properties": {
+                each.symbol: {
+                    "type": "number",
+                    "exclusiveMinimum": 0,
+                    "description": f"{each.name.in_language(Language.ENGLISH)}, µm (″).",
+                }
+                for each in standard.quantities
+                if each.can_be_limited
+            },
             "additionalProperties": False,
         },
     }
@@ -122,7 +175,10 @@ def _effect(effect: InstalledEffect, definitions: Schema) -> Schema:
     """
     keys = _own_keys(effect.options, effect.identifier, definitions)
     parameters = {
-        parameter.name: {"type": "number", "description": "Fixes this parameter at the value."}
+        parameter.name: {
+            "type": "number",
+            "description": f"Fixes the parameter: {parameter.description.in_language(Language.ENGLISH)}.",
+        }
         for parameter in (*effect.linear, *effect.searched)
     }
     known = {**keys, "properties": {**parameters, **keys.get("properties", {})}}
@@ -130,7 +186,12 @@ def _effect(effect: InstalledEffect, definitions: Schema) -> Schema:
         known["additionalProperties"] = {"type": "number"}
     return {
         "type": "object",
-        "properties": {effect.identifier: {"anyOf": [{"type": "null"}, known]}},
+        "properties": {
+            effect.identifier: {
+                "description": f"{effect.title.in_language(Language.ENGLISH)}.",
+                "anyOf": [{"type": "null"}, known],
+            }
+        },
         "required": [effect.identifier],
         "additionalProperties": False,
     }
@@ -188,24 +249,23 @@ def _without_demands(schema: Schema) -> Schema:
     return relaxed
 
 
-def _demands(schema: Schema, definitions: Schema) -> Schema:
-    """Return what a part of a job must have, and what its parts must."""
-    inner = {
-        name: demands
-        for name, part in schema.get("properties", {}).items()
-        if (demands := _demands(_referred(part, definitions), definitions))
-    }
+def _demands(schema: Schema, definitions: Schema, of_plugins: Schema) -> Schema:
+    """Return what a part of a job must have, and what its parts must; `of_plugins` by their definition."""
+    inner = {}
+    for name, part in schema.get("properties", {}).items():
+        referred = _referred(part, definitions)
+        if referred in of_plugins:
+            inner[name] = of_plugins[referred]
+        elif referred and (demands := _demands(definitions[referred], definitions, of_plugins)):
+            inner[name] = demands
     return {
         **({"required": schema["required"]} if "required" in schema else {}),
         **({"properties": inner} if inner else {}),
     }
 
 
-def _referred(part: Schema, definitions: Schema) -> Schema:
-    """Return the definition that a part refers to, alone or beside null."""
+def _referred(part: Schema, definitions: Schema) -> str:
+    """Return the name of the definition that a part refers to, alone or beside null; empty for none."""
     alternatives: Iterable[Schema] = part.get("anyOf", [part])
-    for alternative in alternatives:
-        name = alternative.get("$ref", "").removeprefix("#/$defs/")
-        if name in definitions:
-            return {} if "oneOf" in definitions[name] else definitions[name]
-    return {}
+    names = (alternative.get("$ref", "").removeprefix("#/$defs/") for alternative in alternatives)
+    return next((name for name in names if name in definitions), "")
