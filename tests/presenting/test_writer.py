@@ -7,6 +7,7 @@ from zlmreport.language import Language
 from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.presenting.writer import NOTHING, Writer
+from zlmreport.quantities.units import CELSIUS
 
 
 def measured(deviations_um, targets_mm, axis=None):
@@ -73,5 +74,5 @@ def test_a_rotary_axis_is_written_in_degrees_and_arc_seconds():
 
 def test_logged_temperatures_are_written_as_their_range():
     writer = Writer.of(measured([1.0], [0.0]), Language.GERMAN)
-    assert writer.celsius_span(np.array([293.15, np.nan, 293.655])) == "20,00 … 20,50 °C"
-    assert writer.celsius_span(np.array([293.15, 293.15])) == "20,00 °C"
+    assert writer.condition_span(np.array([293.15, np.nan, 293.655]), CELSIUS) == "20,00 … 20,50 °C"
+    assert writer.condition_span(np.array([293.15, 293.15]), CELSIUS) == "20,00 °C"

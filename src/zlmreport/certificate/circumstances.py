@@ -23,8 +23,6 @@ _METHODS = {
     "quasi-pilgrim": Words(en="quasi-pilgrim step method", de="Quasi-Pilgerschrittverfahren"),
 }
 _DAYS = Words(en="{first} to {last}", de="{first} bis {last}")
-_PASCAL_PER_HECTOPASCAL = 100.0
-_PERCENT = 100.0
 
 
 def days(measurement: Measurement, writer: Writer) -> str | None:
@@ -98,7 +96,7 @@ def environment_facts(
         if from_job is not None:
             yield Fact(name, with_unit(from_job, unit, writer), (f"{within}.{key}",))
         elif logged:
-            yield Fact(name, _logged(measurements.conditions.get(key), unit, writer))
+            yield Fact(name, _logged(measurements.conditions.get(key), key, writer))
     if environment is not None:
         yield Fact(Words(en="Remarks", de="Bemerkungen"), environment.remarks, (f"{within}.remarks",))
 
@@ -156,15 +154,11 @@ def _runs(measurements: MeasurementSet) -> Words:
     ).given(arrow=measurements.approaches[0].arrow, count=count)
 
 
-def _logged(values: FloatArray | None, unit: str, writer: Writer) -> str | None:
+def _logged(values: FloatArray | None, key: str, writer: Writer) -> str | None:
     """Write the range of a logged condition in the unit that is printed."""
     if values is None or not np.any(np.isfinite(values)):
         return None
-    if unit == "°C":
-        return writer.celsius_span(values)
-    if unit == "hPa":
-        return f"{writer.span(values / _PASCAL_PER_HECTOPASCAL, 1)} hPa"
-    return f"{writer.span(values * _PERCENT, 1)} %"
+    return writer.condition_span(values, CONDITIONS[key].unit)
 
 
 class Fact(NamedTuple):

@@ -10,8 +10,7 @@ from collections import Counter
 from collections.abc import Iterator, Mapping
 from typing import Any, TextIO
 
-from zlmreport.cli.terminal import visible
-from zlmreport.errors import Problem
+from zlmreport.cli.terminal import problem_values, visible
 from zlmreport.fleet.issuing import Happened, What
 
 _WORD = 9
@@ -80,7 +79,7 @@ def of_job(happened: Happened) -> dict[str, Any]:
         "why": happened.why or None,
         "files": list(happened.files),
         "conforms": happened.conforms,
-        "problems": [_problem(each) for each in happened.problems],
+        "problems": [problem_values(each) for each in happened.problems],
     }
 
 
@@ -108,15 +107,6 @@ def duration(seconds: float) -> str:
         return f"{seconds:.0f} s"
     minutes, rest = divmod(round(seconds), 60)
     return f"{minutes}:{rest:02} min" if minutes < 60 else f"{minutes // 60}:{minutes % 60:02} h"
-
-
-def _problem(problem: Problem) -> dict[str, Any]:
-    return {
-        "file": problem.place.file,
-        "line": problem.place.line or None,
-        "column": problem.place.column or None,
-        "message": problem.message,
-    }
 
 
 class Progress:

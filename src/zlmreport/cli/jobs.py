@@ -9,8 +9,8 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from zlmreport.cli.terminal import print_json, print_problems
-from zlmreport.errors import InputError, Problem, ZlmreportError, as_problems
+from zlmreport.cli.terminal import print_json, print_problems, problem_values
+from zlmreport.errors import InputError, ZlmreportError, as_problems
 from zlmreport.job.loading import load
 from zlmreport.language import Language
 from zlmreport.version import __version__
@@ -174,7 +174,7 @@ def _job(result: Result) -> dict[str, Any]:
         "files": [str(path) for path in result.files],
         "evaluations": [_evaluation(evaluation) for evaluation in result.evaluations],
         "missing_readings": _missing_readings(result),
-        "problems": [_problem(problem) for problem in (result.error.problems if result.error else ())],
+        "problems": [problem_values(problem) for problem in (result.error.problems if result.error else ())],
     }
 
 
@@ -224,12 +224,3 @@ def _missing_readings(result: Result) -> list[dict[str, Any]]:
         }
         for reading in measurements.missing()
     ]
-
-
-def _problem(problem: Problem) -> dict[str, Any]:
-    return {
-        "file": problem.place.file,
-        "line": problem.place.line or None,
-        "column": problem.place.column or None,
-        "message": problem.message,
-    }

@@ -7,7 +7,6 @@ from collections.abc import Iterator, Sequence
 from zlmreport.cli.terminal import Colour, line_width, said, table, wrapped
 from zlmreport.evaluation import printed
 from zlmreport.job.job import Job
-from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.axis import Axis
 from zlmreport.model import wording
 from zlmreport.model.design import Design
@@ -27,7 +26,6 @@ _SEQUENCES = {
     Method.PENDULUM: "each target from below and from above in turn, {runs}, before the next",
     Method.QUASI_PILGRIM: "to and fro between neighbours, the next upwards and this one downwards: {runs}",
 }
-_ARROWS = {Approach.POSITIVE: "↑", Approach.NEGATIVE: "↓"}
 
 
 def plan_lines(job: Job, planned: PlannedTest) -> Iterator[str]:
@@ -101,7 +99,7 @@ def _stretches(visits: Sequence[Visit]) -> Iterator[str]:
         if index < len(visits) and _goes_on(visits[index - 1], visits[index]):
             continue
         first, last = visits[start], visits[index - 1]
-        arrow = _ARROWS[first.approach]
+        arrow = first.approach.arrow
         whole = f"{first.target + 1}{arrow}"
         yield whole if first is last else f"{whole} … {last.target + 1}{arrow}"
         start = index

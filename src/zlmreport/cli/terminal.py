@@ -14,7 +14,7 @@ from enum import Enum
 from pathlib import Path
 from typing import Any
 
-from zlmreport.errors import ZlmreportError
+from zlmreport.errors import Problem, ZlmreportError
 from zlmreport.language import Language, Words
 from zlmreport.quantities.formatting import HELD
 
@@ -92,6 +92,16 @@ def print_problems(error: ZlmreportError) -> None:
     """Print mistakes one a line, to the standard error output."""
     for problem in error.problems:
         print(visible(str(problem)), file=sys.stderr)
+
+
+def problem_values(problem: Problem) -> dict[str, Any]:
+    """Return a mistake as JSON has it."""
+    return {
+        "file": problem.place.file,
+        "line": problem.place.line or None,
+        "column": problem.place.column or None,
+        "message": problem.message,
+    }
 
 
 def visible(text: str) -> str:

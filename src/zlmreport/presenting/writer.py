@@ -14,14 +14,14 @@ from zlmreport.presenting.marks import NO_MARKS, Marks
 from zlmreport.quantities.arrays import FloatArray
 from zlmreport.quantities.decimals import decimals_of
 from zlmreport.quantities.formatting import fixed_number, general_number
-from zlmreport.quantities.temperature import ZERO_CELSIUS
-from zlmreport.quantities.units import Unit
+from zlmreport.quantities.units import CELSIUS, Scale, Unit
 
 #: What stands in a table where a value does not exist.
 NOTHING = "–"
 
 _MOST_DECIMALS = 3
 _MOST_TARGET_DECIMALS = 6
+_DECIMALS_OF_CELSIUS, _DECIMALS_OF_CONDITIONS = 2, 1
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,6 +107,7 @@ class Writer:
         last = fixed_number(high, decimals, self.language.decimal_sign)
         return first if first == last else f"{first} … {last}"
 
-    def celsius_span(self, kelvin: FloatArray) -> str:
-        """Write the range of logged temperatures in °C."""
-        return f"{self.span(kelvin - ZERO_CELSIUS, 2)} °C"
+    def condition_span(self, values: FloatArray, scale: Scale) -> str:
+        """Write the range of a logged condition (SI) in the unit that is printed."""
+        decimals = _DECIMALS_OF_CELSIUS if scale is CELSIUS else _DECIMALS_OF_CONDITIONS
+        return f"{self.span(scale.from_si(values), decimals)} {scale.symbol}"
