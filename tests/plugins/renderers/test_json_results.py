@@ -28,7 +28,7 @@ from zlmreport.measurement.provenance import Exclusion, SourceFile
 from zlmreport.uncertainty.budget import Budget, NoBudget
 from zlmreport.uncertainty.contribution import Acts, Distribution
 from zlmreport.uncertainty.expanded import with_uncertainty
-from zlmreport_plugins.renderers.json_results import JsonResultsRenderer
+from zlmreport_plugins.renderers.json_results.document import JsonResultsRenderer
 
 SCHEMA = json.loads((files("zlmreport_plugins.renderers") / "results.schema.json").read_text("utf-8"))
 

@@ -2,7 +2,7 @@
 
 Micrometres, or seconds of arc on a rotary axis; positions in millimetres or degrees; symbols in ASCII.
 What a test does not define is absent: there is no NaN, and no zero in its place. The format is published
-as a JSON schema in ``results.schema.json`` beside this module.
+as a JSON schema in ``results.schema.json`` above this module.
 """
 
 from __future__ import annotations
@@ -23,7 +23,6 @@ from zlmreport.plugin import (
     Relationship,
     SourceFile,
     Words,
-    hookimpl,
     report_evaluation,
 )
 
@@ -44,12 +43,13 @@ class JsonResultsRenderer:
 
     def render(self, certificate: Certificate) -> bytes:
         """Return the file, UTF-8."""
-        text = json.dumps(_results(certificate), indent=2, ensure_ascii=False, allow_nan=False)
+        text = json.dumps(results(certificate), indent=2, ensure_ascii=False, allow_nan=False)
         # Half a surrogate pair has no UTF-8, but an escape that JSON knows.
         return f"{text}\n".encode("utf-8", "backslashreplace")
 
 
-def _results(certificate: Certificate) -> Json:
+def results(certificate: Certificate) -> Json:
+    """Return the results as values of JSON."""
     measurements = certificate.measurements
     return {
         "schema": SCHEMA,
@@ -225,9 +225,3 @@ def _source(source: CertificateSource) -> Json:
         "sha256": source.file.sha256,
         "size": source.file.size,
     }
-
-
-@hookimpl
-def zlmreport_renderers() -> list[JsonResultsRenderer]:
-    """Offer the renderer."""
-    return [JsonResultsRenderer()]

@@ -1,0 +1,239 @@
+"""The results as a workbook: parameters, positions with a chart, readings, error model.
+
+Every text is a text, also one that begins as a formula does. The same certificate gives the same bytes: what
+openpyxl writes of the clock is taken out again.
+"""
+
+from __future__ import annotations
+
+import io
+import re
+from collections.abc import Iterable, Sequence
+from datetime import datetime, time
+from typing import Any, TypeAlias
+from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
+
+from zlmreport.plugin import Approach, Certificate, Words
+from zlmreport_plugins.renderers.json_results.document import Json, results
+
+#: A number, a text, or nothing.
+Value: TypeAlias = float | str | None
+
+_PARAMETERS = Words(en="Parameters", de="Kenngrößen")
+_AS_FOUND = Words(en="{sheet} as found", de="{sheet} vorher")
+_POSITIONS = Words(en="Positions", de="Positionen")
+_READINGS = Words(en="Readings", de="Messwerte")
+_MODEL = Words(en="Error model", de="Fehlermodell")
+_STANDARD = Words(en="Standard", de="Norm")
+_PARAMETER_HEADINGS = (
+    Words(en="Certificate", de="Schein"),
+    _STANDARD,
+    Words(en="Symbol", de="Formelzeichen"),
+    Words(en="Name", de="Benennung"),
+    Words(en="Value", de="Wert"),
+    Words(en="Unit", de="Einheit"),
+    Words(en="U", de="U"),
+    Words(en="k", de="k"),
+    Words(en="Limit", de="Grenzwert"),
+    Words(en="Decision", de="Entscheidung"),
+)
+_READING_HEADINGS = (
+    Words(en="Run", de="Durchlauf"),
+    Words(en="Direction", de="Richtung"),
+    Words(en="Target", de="Sollposition"),
+    Words(en="Deviation", de="Abweichung"),
+)
+_MODEL_HEADINGS = (
+    Words(en="Effect", de="Einfluss"),
+    Words(en="Parameter", de="Parameter"),
+    Words(en="Value", de="Wert"),
+    Words(en="Unit", de="Einheit"),
+    Words(en="U", de="U"),
+)
+_TARGET = Words(en="Target", de="Sollposition")
+_DEVIATION = Words(en="Deviation", de="Abweichung")
+
+#: What no cell can hold.
+_NOT_IN_CELLS = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff\ud800-\udfff]")
+_LONGEST_TEXT = 32_767
+_WIDEST_COLUMN = 60
+_CHART_CM = (24.0, 11.0)
+#: Means of each direction, as the results file calls them.
+_MEANS = {"mean_fwd": "0063A6", "mean_bwd": "CC5500"}
+#: The first date that an archive can state.
+_NO_DATE = (1980, 1, 1, 0, 0, 0)
+_CLOCK = re.compile(rb"(<dcterms:modified[^>]*>)[^<]*")
+
+
+class XlsxRenderer:
+    """Results as a workbook of Office Open XML."""
+
+    identifier = "xlsx"
+    title = Words(en="Workbook of results (XLSX)", de="Arbeitsmappe der Ergebnisse (XLSX)")
+    suffix = ".xlsx"
+
+    def render(self, certificate: Certificate) -> bytes:
+        """Return the workbook."""
+        from openpyxl import Workbook  # noqa: PLC0415 (slow to load)
+
+        book = Workbook()
+        book.remove(book.active)
+        _Sheets(book, certificate).fill()
+        moment = datetime.combine(certificate.issued, time()) if certificate.issued else datetime(*_NO_DATE)  # noqa: DTZ001 (a date that the job states has no zone)
+        book.properties.created = moment
+        book.properties.title = _clean(certificate.number)
+        book.properties.creator = certificate.generator
+        file = io.BytesIO()
+        book.save(file)
+        return _without_clock(file.getvalue(), moment)
+
+
+class _Sheets:
+    """Fills the sheets of one workbook."""
+
+    def __init__(self, book: Any, certificate: Certificate) -> None:
+        self._book = book
+        self._certificate = certificate
+
+    def fill(self) -> None:
+        """Add every sheet that has something to say."""
+        found = results(self._certificate)
+        self._evaluations(found, "{sheet}")
+        if "as_found" in found:
+            self._evaluations(found["as_found"], self._say(_AS_FOUND))
+        self._readings()
+        if found["model"]["parameters"]:
+            self._model(found["model"])
+
+    def _evaluations(self, found: Json, title: str) -> None:
+        rows = [
+            self._parameter(evaluation, parameter)
+            for evaluation in found["evaluations"]
+            for parameter in evaluation["parameters"]
+        ]
+        self._sheet(title.format(sheet=self._say(_PARAMETERS)), map(self._say, _PARAMETER_HEADINGS), rows)
+        units = found["measurements"]["units"]
+        positions = [
+            (evaluation["standard"], position)
+            for evaluation in found["evaluations"]
+            for position in evaluation["positions"]
+        ]
+        keys = list(dict.fromkeys(key for _, position in positions for key in position if key != "target"))
+        headings = [
+            self._say(_STANDARD),
+            f"{self._say(_TARGET)} / {units['position']}",
+            *(key if key.startswith("n_") else f"{key} / {units['deviation']}" for key in keys),
+        ]
+        table = [[standard, row["target"], *map(row.get, keys)] for standard, row in positions]
+        sheet = self._sheet(title.format(sheet=self._say(_POSITIONS)), headings, table)
+        drawn = [(2 + index, key) for index, key in enumerate(["target", *keys]) if key in _MEANS]
+        of_first = sum(row[0] == table[0][0] for row in table) if table else 0
+        if drawn and of_first:
+            self._chart(sheet, drawn, of_first, units)
+
+    def _parameter(self, evaluation: Json, parameter: Json) -> list[Value]:
+        return [
+            self._certificate.number,
+            evaluation["standard"],
+            parameter["symbol"],
+            parameter["name"],
+            parameter["value"],
+            parameter["unit"],
+            parameter.get("expanded_uncertainty"),
+            parameter.get("coverage_factor"),
+            parameter.get("limit"),
+            parameter.get("decision", {}).get("statement"),
+        ]
+
+    def _readings(self) -> None:
+        if self._certificate.job and self._certificate.job.keys.agreement.simplified:
+            return  # agreed with the customer: a document without them
+        measurements = self._certificate.measurements
+        axis = measurements.axis
+        units = ("", "", f" / {axis.position_unit.ascii}", f" / {axis.deviation_unit.ascii}")
+        headings = [self._say(each) + unit for each, unit in zip(_READING_HEADINGS, units, strict=True)]
+        targets = axis.position_unit.from_si(measurements.target_positions)
+        deviations = axis.deviation_unit.from_si(measurements.deviation)
+        rows: list[list[Value]] = [
+            [
+                int(run),
+                Approach(approach).arrow,
+                float(f"{targets[target]:.15g}"),
+                None if deviation != deviation else float(deviation),  # noqa: PLR0124 (what is missing is no number)
+            ]
+            for run, approach, target, deviation in zip(
+                measurements.run, measurements.approach, measurements.target, deviations, strict=True
+            )
+        ]
+        self._sheet(self._say(_READINGS), headings, rows)
+
+    def _model(self, model: Json) -> None:
+        rows = [
+            [each["effect"], each["name"], each["value"], each["unit"], each.get("expanded_uncertainty")]
+            for each in model["parameters"]
+        ]
+        self._sheet(self._say(_MODEL), map(self._say, _MODEL_HEADINGS), rows)
+
+    def _sheet(self, title: str, headings: Iterable[str], rows: Iterable[Sequence[Value]]) -> Any:
+        from openpyxl.styles import Font  # noqa: PLC0415 (slow to load)
+        from openpyxl.utils import get_column_letter  # noqa: PLC0415 (slow to load)
+
+        sheet = self._book.create_sheet(title)
+        widths: dict[int, int] = {}
+        for number, row in enumerate([list(headings), *rows], start=1):
+            for column, value in enumerate(row, start=1):
+                if value is None:
+                    continue
+                cell = sheet.cell(number, column)
+                if isinstance(value, str):
+                    cell.value = _clean(value)
+                    cell.data_type = "s"  # never a formula
+                else:
+                    cell.value = repr(value)  # all digits of the results file; openpyxl would write sixteen
+                    cell.data_type = "n"
+                widths[column] = max(widths.get(column, 0), len(str(value)[:_WIDEST_COLUMN]))
+                if number == 1:
+                    cell.font = Font(bold=True)
+        for column, width in widths.items():
+            sheet.column_dimensions[get_column_letter(column)].width = width + 2
+        sheet.freeze_panes = "A2"
+        return sheet
+
+    def _chart(self, sheet: Any, drawn: Sequence[tuple[int, str]], rows: int, units: Json) -> None:
+        """Add a chart of the means over the targets of the first standard, beside the table."""
+        from openpyxl.chart import Reference, ScatterChart, Series  # noqa: PLC0415 (slow to load)
+        from openpyxl.utils import get_column_letter  # noqa: PLC0415 (slow to load)
+
+        chart = ScatterChart(scatterStyle="lineMarker")
+        chart.x_axis.title = f"{self._say(_TARGET)} / {units['position']}"
+        chart.y_axis.title = f"{self._say(_DEVIATION)} / {units['deviation']}"
+        chart.x_axis.delete = chart.y_axis.delete = False
+        chart.x_axis.tickLblPos = "low"
+        chart.width, chart.height = _CHART_CM
+        targets = Reference(sheet, min_col=2, min_row=2, max_row=1 + rows)
+        for column, key in drawn:
+            values = Reference(sheet, min_col=column, min_row=1, max_row=1 + rows)
+            series = Series(values, targets, title_from_data=True)
+            series.smooth = False
+            series.graphicalProperties.line.solidFill = _MEANS[key]
+            series.marker.symbol = "triangle"
+            chart.series.append(series)
+        sheet.add_chart(chart, f"{get_column_letter(sheet.max_column + 2)}2")
+
+    def _say(self, words: Words) -> str:
+        return words.in_language(self._certificate.language)
+
+
+def _clean(text: str) -> str:
+    return _NOT_IN_CELLS.sub("\N{REPLACEMENT CHARACTER}", text)[:_LONGEST_TEXT]
+
+
+def _without_clock(workbook: bytes, moment: datetime) -> bytes:
+    """Return a workbook whose archive and properties tell of no other time than this."""
+    stated = moment.isoformat().encode() + b"Z"
+    file = io.BytesIO()
+    with ZipFile(io.BytesIO(workbook)) as source, ZipFile(file, "w") as target:
+        for name in source.namelist():
+            content = _CLOCK.sub(rb"\g<1>" + stated, source.read(name))
+            target.writestr(ZipInfo(name, _NO_DATE), content, ZIP_DEFLATED)
+    return file.getvalue()
