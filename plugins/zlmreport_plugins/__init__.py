@@ -57,7 +57,7 @@ OFFERS: Mapping[str, Mapping[str, tuple[str, ...]]] = {
             "iso230-2:2014",
         )
     },
-    "json_results": {"renderer": ("json",)},
+    "json_results": {"renderer": ("csv", "json", "xlsx")},
     "laser_csv": {"source": ("laser-csv",)},
     "linuxcnc": {"part_program": ("linuxcnc",)},
     "nd28x": {"instrument": ("nd28x",)},
