@@ -13,6 +13,7 @@ from pathlib import Path
 
 import command_texts
 import comparison
+import door
 import effect_pages
 import hooks
 import job_keys
@@ -27,6 +28,7 @@ _PART = re.compile(r"(<!-- generated: (?P<name>[a-z0-9-]+) -->\n).*?(<!-- end: (
 PARTS: Mapping[str, Callable[[], str]] = {
     "commands": command_texts.text,
     "comparison": comparison.text,
+    "door": door.text,
     "effects": effect_pages.text,
     "extension-keys": job_keys.extensions_text,
     "fleet-keys": job_keys.fleet_text,

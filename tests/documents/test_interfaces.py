@@ -4,17 +4,26 @@ from __future__ import annotations
 
 import inspect
 import re
+from pathlib import Path
 
 import pytest
 
 from documents.pages import DOCS
-from zlmreport import errors
+from zlmreport import errors, plugin
 from zlmreport.emulation.emulator import Emulator
 from zlmreport.live.reading import LiveReading
 from zlmreport.plugin.kinds import KINDS
 from zlmreport.plugin.protocols import Connection, SourceContext
 
 _PAGE = (DOCS / "reference" / "plugin-interfaces.md").read_text(encoding="utf-8")
+#: Guides to writing a plugin.
+_GUIDES = sorted([*(DOCS / "how-to").glob("write-a*-*.md"), *(DOCS / "how-to").glob("add-a*-*.md")])
+_GUIDES = [
+    guide
+    for guide in _GUIDES
+    if guide.stem
+    not in {"write-a-digital-certificate", "write-a-probing-program"}  # no plugin; of the step gauge
+]
 _LIVE_HOOKS = [kind.hook for kind in KINDS]
 _MEMBERS = [
     f"{protocol.__name__}.{member}"
@@ -44,6 +53,22 @@ def test_no_hook_is_documented_that_does_not_live() -> None:
 def test_a_member_of_a_protocol_is_documented(member: str) -> None:
     protocol, _, name = member.partition(".")
     assert re.search(rf"^\| `{name}[:(]", _section(protocol), re.MULTILINE)
+
+
+def test_the_page_lists_the_names_of_the_door_and_no_others() -> None:
+    listed = re.findall(
+        r"^\| `(\w+)(?:\([^`]*\))?` \| \S", _PAGE.partition("\n## The door\n")[2], re.MULTILINE
+    )
+    assert sorted(name for name in listed if not name.startswith("check_")) == sorted(plugin.__all__)
+
+
+@pytest.mark.parametrize("guide", _GUIDES, ids=lambda guide: guide.stem)
+def test_a_plugin_that_follows_the_guide_imports_only_the_door(guide: Path) -> None:
+    imported = re.findall(
+        r"^[+ ]?from (zlmreport(?:\.\w+)*) import", guide.read_text(encoding="utf-8"), re.MULTILINE
+    )
+    assert imported
+    assert set(imported) <= {"zlmreport.plugin", "zlmreport.testing"}
 
 
 def test_every_exit_code_of_an_error_is_documented() -> None:

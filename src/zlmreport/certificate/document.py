@@ -55,6 +55,7 @@ class Explained:
     meaning: str
 
 
+#: Whatever stands in a cell of a table.
 Cell: TypeAlias = str | Symbol | Verdict | Explained
 
 
@@ -137,6 +138,7 @@ class Formulas:
     rows: tuple[tuple[Symbol, Symbol, str], ...]
 
 
+#: Whatever stands in a section of the document.
 Block: TypeAlias = Table | Facts | Paragraph | Notice | Graph | Formulas
 
 

@@ -18,6 +18,7 @@ from zlmreport.quantities.temperature import REFERENCE_TEMPERATURE, ZERO_CELSIUS
 HELIUM_NEON = 632.991e-9
 #: What an interferometer assumes that measures no air: 20 °C, 1013.25 hPa, 50 % relative humidity.
 STANDARD_PRESSURE = 101_325.0
+#: Relative humidity of standard air, as a share of 1.
 STANDARD_HUMIDITY = 0.5
 
 

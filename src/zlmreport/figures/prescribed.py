@@ -33,8 +33,11 @@ from zlmreport.quantities.arrays import BoolArray, FloatArray, read_only_floats
 
 Mark = TypeVar("Mark")
 
+#: What the curve of the mean of each approach is drawn as.
 MEANS = {Approach.POSITIVE: Role.MEAN_POSITIVE, Approach.NEGATIVE: Role.MEAN_NEGATIVE}
+#: What the limits of the scatter of each approach are drawn as.
 LIMITS = {Approach.POSITIVE: Role.LIMIT_POSITIVE, Approach.NEGATIVE: Role.LIMIT_NEGATIVE}
+#: What the graph of each approach is called.
 DIRECTIONS = {
     Approach.POSITIVE: Words("Positive direction of approach ↑", "Positive Anfahrrichtung ↑"),
     Approach.NEGATIVE: Words("Negative direction of approach ↓", "Negative Anfahrrichtung ↓"),

@@ -132,6 +132,7 @@ InWords = Annotated[Text, AfterValidator(_in_words)]
 InstrumentUncertainty = Annotated[InWords, AfterValidator(_instrument_uncertainty)]
 Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
 NotNegative = Annotated[float, Field(ge=0, allow_inf_nan=False)]
+#: A number that is neither infinite nor "not a number".
 Finite = Annotated[float, Field(allow_inf_nan=False)]
 Date = Annotated[dt.date, BeforeValidator(_date)]
 

@@ -681,6 +681,11 @@ if not TYPE_CHECKING:  # a type checker knows the names from above, and reports 
         return value
 
 
+def home_of(name: str) -> tuple[str, str]:
+    """Return the module in which a name of the door lives, and its name there."""
+    return _HOMES[name]
+
+
 def __dir__() -> list[str]:
     """Return the names of the door."""
     return sorted(__all__)

@@ -7,8 +7,10 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+#: An array of doubles.
 FloatArray: TypeAlias = NDArray[np.float64]
 IntArray: TypeAlias = NDArray[np.int64]
+#: An array of truth values.
 BoolArray: TypeAlias = NDArray[np.bool_]
 
 

@@ -6,6 +6,7 @@ from decimal import ROUND_HALF_EVEN, Decimal
 from enum import StrEnum
 from math import log10
 
+#: The minus sign, U+2212.
 MINUS = "\N{MINUS SIGN}"
 #: A blank at which no line ends.
 HELD = "\N{NO-BREAK SPACE}"

@@ -115,6 +115,7 @@ def _spelled(units: Mapping[str, _U]) -> Mapping[str, _U]:
     )
 
 
+#: Units of length by the spellings that files and jobs use.
 LENGTH_UNITS = _spelled(
     {
         "m": METRE,
@@ -147,6 +148,7 @@ PRESSURE_UNITS = _spelled(
     }
 )
 RATIO_UNITS = _spelled({"% %RH percent": PERCENT, "1": Scale("1")})
+#: Units of time by their spellings.
 TIME_UNITS = _spelled(
     {
         "s sec seconds": SECOND,

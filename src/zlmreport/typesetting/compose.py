@@ -39,6 +39,7 @@ from zlmreport.typesetting.templates import render
 
 #: Where a renderer finds a drawing by its number from 0, and the logo.
 GRAPH_ADDRESS = "graph:{}"
+#: Where a page asks for the logo of the laboratory.
 LOGO_ADDRESS = "logo:"
 
 

@@ -23,6 +23,7 @@ class Face:
     weight: int
 
 
+#: The faces of the bundled typeface.
 FACES = (
     Face("IBMPlexSans-Regular", "normal", 400),
     Face("IBMPlexSans-Italic", "italic", 400),

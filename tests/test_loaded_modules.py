@@ -1,0 +1,50 @@
+"""How much a command loads: modules are counted, for times drift."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+from environments import ROOT
+
+_COUNT = """\
+import sys
+from zlmreport.cli import main
+code = main(sys.argv[1:])
+own = [name for name in sys.modules if name.partition(".")[0] in {"zlmreport", "zlmreport_plugins"}]
+print(len(own), *sorted({name.partition(".")[0] for name in sys.modules}), file=sys.stderr)
+print(*own, file=sys.stderr)
+sys.exit(code)
+"""
+
+
+def _loaded(folder: Path, *arguments: str) -> tuple[set[str], set[str]]:
+    """Return the packages and the own modules that a command loads."""
+    done = subprocess.run(
+        [sys.executable, "-c", _COUNT, *arguments],
+        cwd=folder,
+        env={**os.environ, "XDG_CACHE_HOME": str(folder)},
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    packages, own = done.stderr.splitlines()[-2:]
+    return set(packages.split()[1:]), set(own.split())
+
+
+def test_help_loads_the_command_line_alone(tmp_path: Path) -> None:
+    packages, own = _loaded(tmp_path, "--help")
+    assert len(own) <= 20
+    assert not packages & {"numpy", "pydantic", "yaml", "pluggy", "matplotlib", "weasyprint", "sqlalchemy"}
+
+
+def test_results_load_neither_what_draws_nor_what_the_job_does_not_name(tmp_path: Path) -> None:
+    job = ROOT / "configs" / "linear-axis" / "certificate.yaml"
+    packages, own = _loaded(tmp_path, str(job), "--format", "json", "--output", str(tmp_path), "--quiet")
+    assert len(own) <= 190
+    assert not packages & {"matplotlib", "weasyprint", "jinja2", "fontTools", "sqlalchemy", "starlette", "pypdf"}
+    rooms = {".".join(name.split(".")[:2]) for name in own}
+    assert not rooms & {"zlmreport.capture", "zlmreport.fleet", "zlmreport.signing", "zlmreport.typesetting"}
+    assert not rooms & {"zlmreport_plugins.effects", "zlmreport_plugins.instruments"}
