@@ -44,7 +44,15 @@ def test_results_load_neither_what_draws_nor_what_the_job_does_not_name(tmp_path
     job = ROOT / "configs" / "linear-axis" / "certificate.yaml"
     packages, own = _loaded(tmp_path, str(job), "--format", "json", "--output", str(tmp_path), "--quiet")
     assert len(own) <= 190
-    assert not packages & {"matplotlib", "weasyprint", "jinja2", "fontTools", "sqlalchemy", "starlette", "pypdf"}
+    assert not packages & {
+        "matplotlib",
+        "weasyprint",
+        "jinja2",
+        "fontTools",
+        "sqlalchemy",
+        "starlette",
+        "pypdf",
+    }
     rooms = {".".join(name.split(".")[:2]) for name in own}
     assert not rooms & {"zlmreport.capture", "zlmreport.fleet", "zlmreport.signing", "zlmreport.typesetting"}
     assert not rooms & {"zlmreport_plugins.effects", "zlmreport_plugins.instruments"}
