@@ -21,6 +21,7 @@ _GREEN = (0.0, 0.45, 0.335)
 _VIOLET = (0.45, 0.22, 0.62)
 _GREY = (0.4, 0.4, 0.4)
 
+#: Colour of axes and letters.
 INK: Colour = (0.1, 0.1, 0.1)
 WHITE: Colour = (1.0, 1.0, 1.0)
 
@@ -58,6 +59,7 @@ def _style(
     return RoleStyle(Stroke(colour, width, dashes), mark, Fill(colour, tint))
 
 
+#: How a curve of each role is drawn.
 ROLES = {
     Role.MEAN_POSITIVE: _style(_BLUE, 1.1, (), Mark.UP, 0.11),
     Role.MEAN_NEGATIVE: _style(_VERMILION, 1.1, (5.0, 1.6), Mark.DOWN, 0.11),
@@ -96,6 +98,7 @@ ZERO = Stroke((0.45, 0.45, 0.45), 0.6)
 EXTENSION = Stroke((0.35, 0.35, 0.35), 0.35)
 DIMENSION = Stroke(INK, 0.55)
 
+#: Size of the letters of a graph, points.
 TEXT_SIZE = 8.0
 TICK_TEXT_SIZE = 7.5
 READING_SIZE = 3.0

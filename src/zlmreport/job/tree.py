@@ -9,6 +9,7 @@ from typing import TypeAlias
 
 from zlmreport.errors import Place
 
+#: A key, or a place in a list, on the way to a value.
 Step: TypeAlias = str | int
 
 

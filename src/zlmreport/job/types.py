@@ -130,10 +130,13 @@ Lines = Annotated[
 InWords = Annotated[Text, AfterValidator(_in_words)]
 #: The uncertainty of an instrument that is no single number.
 InstrumentUncertainty = Annotated[InWords, AfterValidator(_instrument_uncertainty)]
+#: A number above 0.
 Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
+#: A number from 0.
 NotNegative = Annotated[float, Field(ge=0, allow_inf_nan=False)]
 #: A number that is neither infinite nor "not a number".
 Finite = Annotated[float, Field(allow_inf_nan=False)]
+#: A date as jobs write it: 2026-11-20.
 Date = Annotated[dt.date, BeforeValidator(_date)]
 
 
