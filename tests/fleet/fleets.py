@@ -81,12 +81,16 @@ class Witness:
 
     jobs: Sequence[Planned] = ()
     seen: list[Happened] = field(default_factory=list)
+    notices: list[str] = field(default_factory=list)
 
     def planned(self, jobs: Sequence[Planned]) -> None:
         self.jobs = jobs
 
     def happened(self, happened: Happened) -> None:
         self.seen.append(happened)
+
+    def noticed(self, text: str) -> None:
+        self.notices.append(text)
 
     @property
     def what(self) -> dict[str, What]:
@@ -139,7 +143,7 @@ class Fleet:
     def spend(self) -> Witness:
         """Spend a night."""
         witness = Witness()
-        night.spend(self.file, (), witness)
+        night.spend(self.file, night.Order(), witness)
         return witness
 
     def foretold(self) -> dict[str, Planned]:

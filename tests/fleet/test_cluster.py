@@ -64,7 +64,7 @@ def test_a_cluster_makes_the_certificates_and_loses_none_with_a_worker(
     fleet.write("fleet.yaml", f"{FLEET}executor: {{kind: dask, scheduler: '{scheduler}'}}\n")
     plugin = fleet.write("deadly.py", PLUGIN)
     witness = Witness()
-    night.spend(fleet.file, (plugin,), witness)
+    night.spend(fleet.file, night.Order((plugin,)), witness)
     assert {stem for stem, what in witness.what.items() if what is What.FAILED} == {"killed"}
     assert "no worker lived to make this certificate" in witness.of("killed").problems[0].message
     pids = {fleet.certificate(f"a{number}", ".pid").read_text() for number in range(1, 5)}
@@ -78,4 +78,4 @@ def test_a_scheduler_that_is_not_there_is_named_with_its_place(
     fleet = Fleet.of(tmp_path, "x")
     fleet.write("fleet.yaml", f"{FLEET}executor:\n  kind: dask\n  scheduler: tcp://127.0.0.1:1\n")
     with pytest.raises(AccessError, match=r"fleet.yaml:8:14: no scheduler with workers answers at tcp://127"):
-        night.spend(fleet.file, (), Witness())
+        night.spend(fleet.file, night.Order(), Witness())

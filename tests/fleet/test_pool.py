@@ -28,7 +28,7 @@ def spent(fleet: Fleet) -> Witness:
     witness = Witness()
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(pool, "LIFE", 3)
-        night.spend(fleet.file, (fleet.folder / "deadly.py",), witness, workers=2)
+        night.spend(fleet.file, night.Order((fleet.folder / "deadly.py",), workers=2), witness)
     return witness
 
 
@@ -51,7 +51,7 @@ def test_a_job_whose_worker_was_killed_is_tried_once_more(spent: Witness) -> Non
 
 @pytest.mark.usefixtures("spent")
 def test_the_ledger_names_the_failures(fleet: Fleet) -> None:
-    failed = {each.number for each in fleet.entries() if each.state is State.FAILED}
+    failed = {each.number for each in fleet.entries() if each.state is State.STOPPED}
     assert failed == {"CAL-KILLED"}
 
 

@@ -60,7 +60,7 @@ def test_jobs_are_counted_by_their_state() -> None:
         dict(labels)["state"]: count
         for labels, count in told(entries)["zlmreport_fleet_jobs"].samples.items()
     }
-    assert counts == {"made": 1, "unchanged": 1, "draft": 1, "failed": 2}
+    assert counts == {"made": 1, "unchanged": 1, "draft": 1, "failed": 2, "vanished": 0}
 
 
 def test_a_parameter_is_told_in_metres() -> None:

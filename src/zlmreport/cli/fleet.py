@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import contextlib
+import math
+import signal
 import sys
 import time
 from argparse import Namespace
@@ -16,7 +18,7 @@ from zlmreport.cli.fleet_log import JsonLog, Progress, TextLog, by_word, of_job
 from zlmreport.cli.terminal import print_json, visible
 from zlmreport.errors import AccessError, InputError, Place
 from zlmreport.fleet.issuing import Happened, What
-from zlmreport.fleet.night import foretell, spend
+from zlmreport.fleet.night import Order, foretell, spend
 from zlmreport.fleet.plan import Due, Planned
 from zlmreport.job.fleet import FleetFile, load_fleet
 from zlmreport.plugins import find_plugins
@@ -25,6 +27,12 @@ from zlmreport.version import __version__
 SCHEMA = "zlmreport/night/1"
 
 _FAILED = 4
+_MINUTE = 60
+INTERRUPTED = 128 + signal.SIGINT
+#: What the bar counts: jobs that were due.
+_COUNTED = frozenset(What) - {What.UNCHANGED, What.VANISHED, What.OVERDUE, What.LEFT}
+#: What there should be, and is not.
+_NOT_DONE = (What.FAILED, What.SET_ASIDE, What.VANISHED, What.LEFT)
 
 
 def run(options: Namespace) -> int:
@@ -37,12 +45,26 @@ def run(options: Namespace) -> int:
         return _foretell(fleet, plugins, options)
     with _logs(fleet, options) as logs:
         watcher = _Watcher(fleet, logs, options)
-        with watcher:
-            spend(fleet, plugins, watcher, options.workers)
-    code = _FAILED if watcher.counts[What.FAILED] else 0
+        seconds = math.inf if options.max_time is None else _MINUTE * options.max_time
+        with _told_to_end(), watcher:
+            spend(fleet, Order(plugins, options.workers, seconds), watcher)
     if options.json:
-        print_json(_summary(fleet, watcher, code))
-    return code
+        print_json(_summary(fleet, watcher, watcher.exit_code))
+    return watcher.exit_code
+
+
+@contextlib.contextmanager
+def _told_to_end() -> Iterator[None]:
+    """Let a signal to end be an interruption, so that the night still says what it came to."""
+
+    def interrupted(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    before = signal.signal(signal.SIGTERM, interrupted)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, before)
 
 
 class _Watcher:
@@ -55,7 +77,21 @@ class _Watcher:
         self._logs = logs
         self._options = options
         self._begun = time.monotonic()
+        self._notices: list[str] = []
         self._progress = Progress(sys.stderr, 0)
+
+    @property
+    def exit_code(self) -> int:
+        """What the shell is told."""
+        return _FAILED if self._notices or any(self.counts[what] for what in _NOT_DONE) else 0
+
+    def noticed(self, text: str) -> None:
+        self._notices.append(text)
+        self._progress.hide()
+        for log in self._logs:
+            log.noticed(text)
+        if self._options.quiet or self._options.json:
+            print(visible(f"{self._fleet.path}: {text}"), file=sys.stderr)
 
     def planned(self, jobs: Sequence[Planned]) -> None:
         due = sum(each.due is not Due.NOTHING for each in jobs)
@@ -76,7 +112,8 @@ class _Watcher:
         if self._options.quiet or self._options.json:
             for problem in happened.problems:
                 print(visible(str(problem)), file=sys.stderr)
-        self._progress.advance(failed=happened.what is What.FAILED)
+        if happened.what in _COUNTED:
+            self._progress.advance(failed=happened.what is What.FAILED)
 
     def __enter__(self) -> Self:
         return self
@@ -84,10 +121,13 @@ class _Watcher:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        """Take the bar away, and say what the night came to if it came to its end."""
+        """Take the bar away, and say what the night came to, even if it was told to end."""
         self._progress.hide()
-        for log in self._logs if error is None else ():
-            log.ended(self.counts, time.monotonic() - self._begun)
+        is_interrupted = isinstance(error, KeyboardInterrupt)
+        for log in self._logs if error is None or is_interrupted else ():
+            log.ended(self.counts, time.monotonic() - self._begun, is_interrupted=is_interrupted)
+        if is_interrupted and self._options.json:
+            print_json(_summary(self._fleet, self, INTERRUPTED))
 
 
 @contextlib.contextmanager
@@ -129,6 +169,7 @@ _FORETOLD = {
     Due.CERTIFICATE: "would be made",
     Due.COMPARISON: "would be made anew, and be a draft if it differs from what was issued",
     Due.REFUSAL: "would fail",
+    Due.SET_ASIDE: "is set aside, and would not be tried",
 }
 
 

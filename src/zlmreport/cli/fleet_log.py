@@ -38,9 +38,14 @@ class TextLog:
         for problem in happened.problems:
             self._line(f"{'':{_WORD}}   {problem}")
 
-    def ended(self, counts: Counter[What], seconds: float) -> None:
+    def noticed(self, text: str) -> None:
+        """Write what concerns the whole night."""
+        self._line(text)
+
+    def ended(self, counts: Counter[What], seconds: float, *, is_interrupted: bool = False) -> None:
         """Write what the night came to."""
-        self._line(f"done in {duration(seconds)}: {', '.join(counted(counts)) or 'no jobs'}")
+        done = "interrupted after" if is_interrupted else "done in"
+        self._line(f"{done} {duration(seconds)}: {', '.join(counted(counts)) or 'no jobs'}")
 
     def _line(self, text: str) -> None:
         moment = dt.datetime.now().astimezone().isoformat(sep=" ", timespec="seconds")
@@ -62,9 +67,14 @@ class JsonLog:
         if happened.what is not What.UNCHANGED:
             self._line({"event": happened.what.value, **of_job(happened)})
 
-    def ended(self, counts: Counter[What], seconds: float) -> None:
+    def noticed(self, text: str) -> None:
+        """Write what concerns the whole night."""
+        self._line({"event": "noticed", "message": text})
+
+    def ended(self, counts: Counter[What], seconds: float, *, is_interrupted: bool = False) -> None:
         """Write what the night came to."""
-        self._line({"event": "ended", "seconds": round(seconds, 1), "counts": by_word(counts)})
+        event = "interrupted" if is_interrupted else "ended"
+        self._line({"event": event, "seconds": round(seconds, 1), "counts": by_word(counts)})
 
     def _line(self, content: Mapping[str, Any]) -> None:
         moment = dt.datetime.now(dt.UTC).isoformat(timespec="milliseconds")

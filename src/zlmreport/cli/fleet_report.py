@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from argparse import Namespace
 from datetime import datetime
+from functools import partial
 from pathlib import Path
 
 from zlmreport.cli.terminal import shown_path
@@ -14,8 +15,8 @@ from zlmreport.fleet.ledger import Ledger
 from zlmreport.fleet.overview import overview
 from zlmreport.fleet.overview_cells import Names
 from zlmreport.fleet.prometheus import metrics
-from zlmreport.fleet.state import FleetState, Night, state_of
-from zlmreport.job.fleet import FleetFile, job_files, load_fleet
+from zlmreport.fleet.state import FleetState, Night, Rules, state_of
+from zlmreport.job.fleet import FleetFile, is_retired, job_files, load_fleet
 from zlmreport.language import Language
 from zlmreport.plugins import find_plugins
 
@@ -41,7 +42,9 @@ def _state(fleet: FleetFile) -> FleetState:
     jobs = [path_in(fleet.path.parent, path) for path in job_files(fleet)]
     with Ledger.open(fleet.ledger, fleet.name, create=False) as ledger:
         night = ledger.last_night()
-        return state_of(fleet.name, ledger.entries(), jobs, _night(*night) if night else None)
+        last = _night(*night) if night else None
+        rules = Rules(fleet.keys.interval, partial(is_retired, fleet=fleet))
+        return state_of(fleet.name, ledger.entries(), jobs, last, rules)
 
 
 def _night(began: str, ended: str | None) -> Night:

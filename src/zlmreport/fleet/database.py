@@ -34,6 +34,8 @@ from sqlalchemy import (
     insert,
     make_url,
     select,
+    text,
+    update,
 )
 from sqlalchemy.exc import ArgumentError, IntegrityError, NoSuchModuleError, SQLAlchemyError
 from sqlalchemy.pool import StaticPool
@@ -41,7 +43,7 @@ from sqlalchemy.pool import StaticPool
 from zlmreport.errors import AccessError, InputError, Place, ZlmreportError
 
 #: Of these tables; a program that knows another refuses the ledger.
-FORMAT = 1
+FORMAT = 2
 
 METADATA = MetaData()
 
@@ -57,6 +59,7 @@ NIGHTS = Table(
     Column("ended", String),
     Column("host", String, nullable=False),
     Column("process", Integer, nullable=False),
+    Column("beat", String),
 )
 
 #: What became of a job in a night in which something became of it; rows are only ever added.
@@ -76,6 +79,8 @@ ENTRIES = Table(
     Column("message", Text, nullable=False),
     Column("files", JSON, nullable=False),
     Column("basis", JSON),
+    Column("seconds", Double),
+    Column("interval", Integer),
     Index("entries_of_jobs", "fleet", "job", "id"),
 )
 
@@ -229,10 +234,22 @@ def _made_durable(connection: Any, _record: Any) -> None:
         connection.execute(f"PRAGMA {pragma}")
 
 
+#: What makes tables of format 1 those of this format.
+_SINCE_1 = (
+    "ALTER TABLE nights ADD COLUMN beat VARCHAR",
+    "ALTER TABLE entries ADD COLUMN seconds DOUBLE PRECISION",
+    "ALTER TABLE entries ADD COLUMN interval INTEGER",
+)
+
+
 def _demand_format(connection: Connection, address: str) -> None:
-    """Refuse the tables of another version; new ones are stamped with this one's."""
+    """Bring older tables up to date, and refuse those of a newer version; new ones get this one's stamp."""
     found = connection.scalars(select(FORMATS.c.format)).all()
-    if not found:
+    if list(found) == [1]:
+        for addition in _SINCE_1:
+            connection.execute(text(addition))
+        connection.execute(update(FORMATS).values(format=FORMAT))
+    elif not found:
         connection.execute(insert(FORMATS).values(format=FORMAT))
     elif list(found) != [FORMAT]:
         raise InputError.at(
@@ -297,7 +314,11 @@ def _locked_database(database: Database) -> Iterator[None]:
         yield
 
 
-def _taken(address: str, holder: str) -> AccessError:
+class TakenError(AccessError):
+    """Another holds the lock of a ledger."""
+
+
+def _taken(address: str, holder: str) -> TakenError:
     by = f" ({holder})" if holder else ""
     message = f"another night is at work on this ledger{by}; this one does nothing"
-    return AccessError([*AccessError.at(Place(shown(address)), message).problems])
+    return TakenError([*AccessError.at(Place(shown(address)), message).problems])

@@ -17,9 +17,9 @@ from pathlib import Path
 from zlmreport.errors import Place, Problem, as_problems
 from zlmreport.files import beside, take_names
 from zlmreport.fleet.basis import KnownFile, Look, sha256_of
-from zlmreport.fleet.ledger import Night, NumberTakenError, Standing
+from zlmreport.fleet.ledger import Night, NumberTakenError
 from zlmreport.fleet.making import Failed, Finished, Made
-from zlmreport.fleet.plan import Planned
+from zlmreport.fleet.plan import Evening, Planned, inputs_digest
 from zlmreport.fleet.records import Entry, State, Subject
 from zlmreport.job.fleet import FleetFile
 
@@ -105,6 +105,8 @@ def _hidden(folder: Path) -> Iterator[Path]:
         yield from (Path(root, name) for name in sorted(files) if name.endswith(_SUFFIX))
 
 
+_ASIDE = "; it is set aside until the job, a file that it names, or a program changes"
+_GONE = "the job is gone; put it back, or name it under retired in the fleet file"
 _UNKNOWN = "a file of this number with another content is there, and the ledger does not know it"
 
 
@@ -119,6 +121,14 @@ class What(Enum):
     CONFIRMED = "confirmed"
     DRAFT = "draft"
     FAILED = "failed"
+    #: Stopped again in an earlier night, and nothing about it has changed.
+    SET_ASIDE = "set aside"
+    #: The ledger knows it, and its file is gone.
+    VANISHED = "vanished"
+    #: The night's time was over before it.
+    LEFT = "left"
+    #: Its axis should have been measured again; said once.
+    OVERDUE = "overdue"
 
 
 @dataclass(frozen=True, slots=True)
@@ -154,9 +164,13 @@ class Happened:
 class Desk:
     """Where results become files and entries."""
 
-    fleet: FleetFile
+    known: Evening
     night: Night
-    standings: Mapping[str, Standing]
+
+    @property
+    def fleet(self) -> FleetFile:
+        """The fleet file."""
+        return self.known.fleet
 
     def kept(self, planned: Planned, result: Made | Failed) -> Happened:
         """Keep what a job came to."""
@@ -175,8 +189,35 @@ class Desk:
         """Note that a job came to nothing."""
         subject = replace(result.subject, number=result.subject.number or planned.number)
         message = "\n".join(map(str, result.problems))
-        self.night.add(self._entry(planned, subject, State.FAILED, message))
-        return Happened(What.FAILED, planned.job, subject.number, planned.why, problems=result.problems)
+        if not result.is_stopped:
+            self.night.add(self._entry(planned, subject, State.FAILED, message))
+            return Happened(What.FAILED, planned.job, subject.number, planned.why, problems=result.problems)
+        before, digest = self.known.standings.get(planned.job), inputs_digest(planned.path, self.known)
+        is_again = before and before.state in {State.STOPPED, State.SET_ASIDE} and before.digest == digest
+        state, hint = (State.SET_ASIDE, _ASIDE) if is_again else (State.STOPPED, "")
+        self.night.add(replace(self._entry(planned, subject, state, message + hint), digest=digest))
+        problems = tuple(replace(each, message=each.message + hint) for each in result.problems)
+        return Happened(What.FAILED, planned.job, subject.number, planned.why, problems=problems)
+
+    def vanished(self, job: str) -> Happened:
+        """Note that the file of a job is gone."""
+        standing = self.known.standings[job]
+        if standing.state is not State.VANISHED:
+            subject = standing.subject
+            entry = Entry(
+                job=job,
+                number=standing.number,
+                machine=subject.machine,
+                axis=subject.axis,
+                measured=subject.measured,
+                night=self.night.began,
+                digest="",
+                state=State.VANISHED,
+                message=_GONE,
+            )
+            self.night.add(entry)
+        problem = Problem(Place(str(self.fleet.path)), f"{job}: {_GONE}")
+        return Happened(What.VANISHED, job, standing.number, "", problems=(problem,))
 
     def _draft(self, planned: Planned, made: Made) -> Happened:
         message = planned.why if planned.issued else _UNKNOWN
@@ -205,7 +246,7 @@ class Desk:
 
     def _forget_draft(self, planned: Planned) -> None:
         """Remove a draft that says nothing else any more than the certificate."""
-        standing = self.standings.get(planned.job)
+        standing = self.known.standings.get(planned.job)
         if standing and standing.state is State.DRAFT and standing.number == planned.number:
             for file in standing.files:
                 with contextlib.suppress(OSError):
@@ -226,6 +267,8 @@ class Desk:
             message=message,
             files=tuple(file.path for file in made.files) if made else (),
             parameters=made.parameters if made else (),
+            seconds=made.seconds if made else None,
+            interval=subject.interval,
         )
 
 

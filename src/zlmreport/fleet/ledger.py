@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import contextlib
+import datetime as dt
 import itertools
 import os
+import signal
 import socket
+import time
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field, replace
 from types import TracebackType
 from typing import Any, Self
 
@@ -21,10 +24,16 @@ from zlmreport.fleet.database import (
     NIGHTS,
     PARAMETERS,
     Database,
+    TakenError,
     locked,
     open_database,
 )
-from zlmreport.fleet.records import Entry, RecordedParameter, State
+from zlmreport.fleet.records import Entry, RecordedParameter, State, Subject
+
+#: A night that has given no sign of life for so long does nothing any more.
+STUCK = dt.timedelta(minutes=15)
+#: How often, and how many seconds apart, the lock of a night that was killed is tried.
+_ATTEMPTS, _PAUSE = 50, 0.1
 
 
 class NumberTakenError(Exception):
@@ -47,6 +56,8 @@ class Night:
         Date and time, ISO 8601 in UTC.
     was_interrupted
         Whether the night before never came to its end.
+    took_over
+        When the night began that was stuck, and was killed for this one; empty for none.
     """
 
     database: Database
@@ -54,6 +65,7 @@ class Night:
     identity: int
     began: str
     was_interrupted: bool
+    took_over: str = ""
 
     def add(self, entry: Entry, files: Sequence[KnownFile] = (), basis: Basis | None = None) -> None:
         """Add an entry that issues nothing: a draft or a failure."""
@@ -86,6 +98,11 @@ class Night:
         except IntegrityError as error:
             raise NumberTakenError(entry.number) from error
 
+    def beat(self, now: str) -> None:
+        """Give a sign of life."""
+        with self.database.transaction() as connection:
+            connection.execute(update(NIGHTS).where(NIGHTS.c.id == self.identity).values(beat=now))
+
     def end(self, ended: str) -> None:
         """Note that the night has come to its end."""
         with self.database.transaction() as connection:
@@ -109,6 +126,8 @@ class Night:
                 message=entry.message,
                 files=[file.as_json() for file in files],
                 basis=basis.as_json() if basis else None,
+                seconds=entry.seconds,
+                interval=entry.interval,
             ),
         )
         if entry.parameters:
@@ -133,7 +152,8 @@ def begin(database: Database, fleet: str, began: str) -> Night:
         Date and time, ISO 8601 in UTC.
     """
     last = select(NIGHTS.c.ended).where(NIGHTS.c.fleet == fleet).order_by(NIGHTS.c.id.desc()).limit(1)
-    own = insert(NIGHTS).values(fleet=fleet, began=began, host=socket.gethostname(), process=os.getpid())
+    host = socket.gethostname()
+    own = insert(NIGHTS).values(fleet=fleet, began=began, host=host, process=os.getpid(), beat=began)
     with database.transaction() as connection:
         before = connection.execute(last).first()
         identity = _added(connection, own)
@@ -162,6 +182,10 @@ class Standing:
         Its certificate's, or its draft's.
     basis
         What they were made from; None of a job that failed.
+    digest
+        Of its inputs, where it was stopped.
+    subject
+        Machine, axis, and date of the measurement.
     """
 
     number: str
@@ -170,6 +194,8 @@ class Standing:
     message: str
     files: tuple[KnownFile, ...]
     basis: Basis | None
+    digest: str = ""
+    subject: Subject = field(default_factory=Subject)
 
 
 @dataclass(frozen=True, slots=True)
@@ -270,9 +296,21 @@ class Ledger:
                     row.message,
                     _files(row.files),
                     Basis.from_json(row.basis) if row.basis else None,
+                    row.digest,
+                    Subject(row.number, row.machine, row.axis, row.measured, row.interval),
                 )
                 for row in connection.execute(query)
             }
+
+    def longest(self) -> Mapping[str, float]:
+        """Return the longest time that each job ever took, s."""
+        query = (
+            select(ENTRIES.c.job, func.max(ENTRIES.c.seconds))
+            .where(ENTRIES.c.fleet == self._fleet, ENTRIES.c.seconds.is_not(None))
+            .group_by(ENTRIES.c.job)
+        )
+        with self._database.transaction() as connection:
+            return {row[0]: row[1] for row in connection.execute(query)}
 
     def certificates(self) -> Mapping[str, Issued]:
         """Return every certificate that was issued by its number, those of other fleets too."""
@@ -298,14 +336,35 @@ class Ledger:
         fleet_file
             For the message to whoever comes second.
 
+        One of this host that has given no sign of life for `STUCK` is killed, and this one takes its place.
+
         Raises
         ------
         AccessError
             If another is at work on it.
         """
         holder = f"{fleet_file} on {socket.gethostname()}, since {began}"
-        with locked(self._database, holder):
-            yield begin(self._database, self._fleet, began)
+        with contextlib.ExitStack() as stack:
+            try:
+                stack.enter_context(locked(self._database, holder))
+                stuck = None
+            except TakenError:
+                stuck = self._stuck(began)
+                if stuck is None:
+                    raise
+                _kill(stuck.process)
+                stack.enter_context(_locked_soon(self._database, holder))
+            yield replace(begin(self._database, self._fleet, began), took_over=stuck.began if stuck else "")
+
+    def _stuck(self, now: str) -> Row[Any] | None:
+        """Return the night at work if it is of this host, and has been silent for too long."""
+        query = select(NIGHTS).order_by(NIGHTS.c.id.desc()).limit(1)
+        with self._database.transaction() as connection:
+            night = connection.execute(query).one_or_none()
+        if night is None or night.ended or night.host != socket.gethostname() or not night.beat:
+            return None
+        silent = dt.datetime.fromisoformat(now) - dt.datetime.fromisoformat(night.beat)
+        return night if silent >= STUCK and night.process != os.getpid() else None
 
     def _read(self, chosen: Select[Any]) -> Iterator[Entry]:
         """Yield some entries with their parameters, oldest first."""
@@ -332,6 +391,28 @@ class Ledger:
             yield _entry(row, stated.get(row.id, ()))
 
 
+def _kill(process: int) -> None:
+    """Kill a night; its workers end when they find nobody at the other end of their lines."""
+    with contextlib.suppress(ProcessLookupError):
+        os.kill(process, signal.SIGKILL)
+
+
+@contextlib.contextmanager
+def _locked_soon(database: Database, holder: str) -> Iterator[None]:
+    """Hold the lock that one who was killed gives up as the system clears it away."""
+    for _ in range(_ATTEMPTS):
+        with contextlib.suppress(TakenError), contextlib.ExitStack() as stack:
+            stack.enter_context(locked(database, holder))
+            held = stack.pop_all()
+            break
+        time.sleep(_PAUSE)
+    else:
+        held = contextlib.ExitStack()
+        held.enter_context(locked(database, holder))
+    with held:
+        yield
+
+
 def _entry(row: Row[Any], parameters: tuple[RecordedParameter, ...]) -> Entry:
     return Entry(
         job=row.job,
@@ -345,6 +426,8 @@ def _entry(row: Row[Any], parameters: tuple[RecordedParameter, ...]) -> Entry:
         message=row.message,
         files=tuple(file.path for file in _files(row.files)),
         parameters=parameters,
+        seconds=row.seconds,
+        interval=row.interval,
     )
 
 

@@ -45,6 +45,14 @@ def drafted(certificate: Certificate) -> Certificate:
 
 
 @dataclass(frozen=True, slots=True)
+class Limits:
+    """What a job may take: time, s, and memory for its data, MB."""
+
+    seconds: float = 600.0
+    megabytes: int = 2000
+
+
+@dataclass(frozen=True, slots=True)
 class Task:
     """A certificate that is to be made.
 
@@ -63,6 +71,8 @@ class Task:
         Plugins in files of their own.
     programs
         Versions of the program and of all plugins, as the night began with them.
+    limits
+        What it may take.
     """
 
     fleet: Path
@@ -72,6 +82,7 @@ class Task:
     folder: str
     plugins: tuple[Path, ...]
     programs: Mapping[str, str]
+    limits: Limits = Limits()
 
 
 @dataclass(frozen=True, slots=True)
@@ -114,6 +125,8 @@ class Made:
         What it states.
     is_draft
         Whether its number was issued with another content.
+    seconds
+        How long it took.
     """
 
     subject: Subject
@@ -121,14 +134,16 @@ class Made:
     files: tuple[Finished, ...]
     parameters: tuple[RecordedParameter, ...]
     is_draft: bool
+    seconds: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)
 class Failed:
-    """A job that came to nothing, and why."""
+    """A job that came to nothing, and why; one that is stopped exceeded a limit, or ended its worker."""
 
     problems: tuple[Problem, ...]
     subject: Subject = field(default_factory=Subject)
+    is_stopped: bool = False
 
 
 #: A worker of Dask may have several threads, and no library that lays out pages has been asked about that.
@@ -140,12 +155,15 @@ def work(task: Task) -> Made | Failed:
     with _ONE_AT_A_TIME:
         subject = Subject()
         try:
-            begun = time.time()
+            begun, start = time.time(), time.monotonic()
             registry = _registry(task.plugins)
             fleet = _fleet(task.fleet, task.content, task.plugins)
             job = load(task.job, registry, chosen_formats(fleet.formats, registry), defaults=fleet.defaults)
             subject = Subject.of(job)
-            return _made(task, job, fleet, begun)
+            return replace(_made(task, job, fleet, begun), seconds=time.monotonic() - start)
+        except MemoryError:
+            message = f"was stopped: it needs more than {task.limits.megabytes} MB, the limit of a job"
+            return Failed((Problem(Place(str(task.job)), message),), subject, is_stopped=True)
         except Exception as error:  # noqa: BLE001 - one job's trouble must not take the others along
             return Failed(as_problems(task.job, error).problems, subject)
 

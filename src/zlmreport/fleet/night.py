@@ -4,20 +4,29 @@ from __future__ import annotations
 
 import contextlib
 import datetime as dt
+import math
 import os
-from collections.abc import Iterator, Sequence
+import time
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol
 
+from zlmreport.errors import AccessError, Place, ZlmreportError
 from zlmreport.fleet.basis import Basis, KnownFile, program_versions
 from zlmreport.fleet.cluster import Cluster
 from zlmreport.fleet.issuing import Desk, Happened, What, tidy
-from zlmreport.fleet.ledger import Ledger
-from zlmreport.fleet.making import Failed, Task, defaults_digest
+from zlmreport.fleet.ledger import Ledger, Night, Standing
+from zlmreport.fleet.making import Failed, Limits, Task, defaults_digest
 from zlmreport.fleet.plan import Due, Evening, Planned, plan, reasons
 from zlmreport.fleet.pool import Pool
-from zlmreport.job.fleet import FleetFile, job_files
+from zlmreport.fleet.records import State, due_date
+from zlmreport.job.fleet import FleetFile, is_retired, job_files, number_of
 
+#: A job may take so many times as long as it ever took.
+_TIMES_LONGEST = 10
+#: So few may be gone without a word on mounts.
+_FEW = 3
 _MADE = frozenset({Due.CERTIFICATE, Due.COMPARISON})
 
 
@@ -29,6 +38,9 @@ class Watch(Protocol):
 
     def happened(self, happened: Happened) -> None:
         """Take note of what happened to a job."""
+
+    def noticed(self, text: str) -> None:
+        """Take note of something that concerns the whole night, and is not as it should be."""
 
 
 def evening(fleet: FleetFile, jobs: tuple[Path, ...], ledger: Ledger, plugins: tuple[Path, ...]) -> Evening:
@@ -50,19 +62,42 @@ def foretell(fleet: FleetFile, plugins: tuple[Path, ...]) -> tuple[Planned, ...]
     return plan(known, reasons(known))
 
 
-def spend(fleet: FleetFile, plugins: tuple[Path, ...], watch: Watch, workers: int | None = None) -> None:
+class MissingError(AccessError):
+    """Something is not there that was there in an earlier night, and nothing is done before it is."""
+
+    exit_code = 4
+
+
+@dataclass(frozen=True, slots=True)
+class Order:
+    """How a night is spent, beside what the fleet file says.
+
+    Attributes
+    ----------
+    plugins
+        In files of their own.
+    workers
+        Number of processes, instead of the fleet file's.
+    seconds
+        After which no job is begun any more.
+    """
+
+    plugins: tuple[Path, ...] = ()
+    workers: int | None = None
+    seconds: float = math.inf
+
+
+def spend(fleet: FleetFile, order: Order, watch: Watch) -> None:
     """Make all that is due.
 
     Parameters
     ----------
     fleet
         The fleet file.
-    plugins
-        Plugins in files of their own.
+    order
+        How it is spent.
     watch
         Is told what is due, and what happens.
-    workers
-        Number of processes, instead of the fleet file's.
 
     Raises
     ------
@@ -70,36 +105,156 @@ def spend(fleet: FleetFile, plugins: tuple[Path, ...], watch: Watch, workers: in
         If a pattern of jobs matches nothing.
     AccessError
         If the ledger or the scheduler cannot be used, or another night is at work.
+    MissingError
+        If the folder of certificates is gone, or most of the jobs.
     """
+    plugins, ends = order.plugins, time.monotonic() + order.seconds
     jobs = job_files(fleet)
-    with Ledger.open(fleet.ledger, fleet.name) as ledger, ledger.night(_now(), str(fleet.path)) as night:
+    with Ledger.open(fleet.ledger, fleet.name) as ledger:
+        last = ledger.last_night()
         known = evening(fleet, jobs, ledger, plugins)
-        if night.was_interrupted:
-            tidy(fleet.output, _files_in(known))
-        why = reasons(known)
-        with contextlib.ExitStack() as stack:
-            due = sum(map(bool, why.values()))
-            executor = _executor(fleet, plugins, workers, due) if due else None
-            if executor:
-                stack.enter_context(executor)
-            planned = plan(known, why)
-            watch.planned(planned)
-            desk = Desk(fleet, night, known.standings)
-            for each in planned:
-                if each.due is Due.NOTHING:
-                    watch.happened(Happened(What.UNCHANGED, each.job, each.number))
-                elif each.due is Due.REFUSAL:
-                    watch.happened(desk.failed(each, Failed(each.problems)))
-            if executor:
-                tasks = {each.path.absolute(): each for each in planned if each.due in _MADE}
-                waiting = (_task(each, known, plugins) for each in tasks.values())
-                for task, result in executor.results(waiting):
-                    watch.happened(desk.kept(tasks[task.job.absolute()], result))
-        night.end(_now())
+        gone = vanished(known)
+        _demand_what_was_there(known, gone)
+        with ledger.night(_now(), str(fleet.path)) as night:
+            if night.took_over:
+                watch.noticed(f"the night of {night.took_over} gave no sign of life; it was killed")
+            if last and night.began < last[0]:
+                watch.noticed(f"the clock stands at {night.began}, before the last night: {last[0]}")
+            _spend(known, order, watch, _Work(night, gone, last[0] if last else "", ends, ledger.longest()))
+            night.end(_now())
 
 
-def _task(planned: Planned, known: Evening, plugins: tuple[Path, ...]) -> Task:
-    issued = planned.issued
+@dataclass(frozen=True, slots=True)
+class _Work:
+    """A night at work.
+
+    Attributes
+    ----------
+    night
+        In the ledger.
+    gone
+        Jobs whose files are gone.
+    last
+        When the night before began; empty for none.
+    ends
+        When no job is begun any more, by `time.monotonic`.
+    longest
+        The longest time that each job ever took, s.
+    """
+
+    night: Night
+    gone: Sequence[str]
+    last: str
+    ends: float
+    longest: Mapping[str, float]
+
+
+def _spend(known: Evening, order: Order, watch: Watch, work: _Work) -> None:
+    night = work.night
+    if night.was_interrupted:
+        tidy(known.fleet.output, _files_in(known))
+    why = reasons(known)
+    with contextlib.ExitStack() as stack:
+        due = sum(map(bool, why.values()))
+        executor = _executor(known.fleet, order, due, lambda: night.beat(_now())) if due else None
+        stack.enter_context(executor or contextlib.nullcontext())
+        planned = plan(known, why)
+        watch.planned(planned)
+        desk = Desk(known, night)
+        for happened in (*map(desk.vanished, work.gone), *overdue(known, work.last, night.began)):
+            watch.happened(happened)
+        for each in planned:
+            if each.due not in _MADE:
+                watch.happened(_not_made(each, desk))
+        tasks = {each.path.absolute(): each for each in planned if each.due in _MADE}
+        left = [(each, _task(each, known, order.plugins, work)) for each in reversed(tasks.values())]
+
+        def waiting() -> Iterator[Task]:
+            while left and time.monotonic() < work.ends:
+                yield left.pop()[1]
+
+        if executor:
+            for task, result in executor.results(waiting()):
+                watch.happened(desk.kept(tasks[task.job.absolute()], result))
+        for each, _ in reversed(left):
+            watch.happened(Happened(What.LEFT, each.job, each.number, each.why))
+
+
+def _not_made(planned: Planned, desk: Desk) -> Happened:
+    if planned.due is Due.NOTHING:
+        return Happened(What.UNCHANGED, planned.job, planned.number)
+    if planned.due is Due.SET_ASIDE:
+        return Happened(What.SET_ASIDE, planned.job, planned.number, planned.why)
+    return desk.failed(planned, Failed(planned.problems))
+
+
+def vanished(known: Evening) -> tuple[str, ...]:
+    """Return the jobs that the ledger knows, whose files are gone, and not on purpose."""
+    there = set(map(known.job_of, known.jobs))
+    return tuple(
+        job for job in sorted(known.standings) if job not in there and not is_retired(job, known.fleet)
+    )
+
+
+def overdue(known: Evening, last: str, now: str) -> Iterator[Happened]:
+    """Yield the axes that should have been measured again since the last night."""
+    latest: dict[tuple[str, str], tuple[str, Standing]] = {}
+    for job, standing in sorted(known.standings.items()):
+        subject = standing.subject
+        if subject.measured and standing.state is State.MADE and not is_retired(job, known.fleet):
+            axis = subject.machine, subject.axis
+            if axis not in latest or latest[axis][1].subject.measured <= subject.measured:
+                latest[axis] = job, standing
+    for job, standing in latest.values():
+        subject = standing.subject
+        due = due_date(subject.measured, subject.interval or known.fleet.keys.interval)
+        if due and last[:10] < due <= now[:10]:
+            named = ", ".join(part for part in (subject.machine, subject.axis) if part)
+            why = f"{named} was measured on {subject.measured}, and was to be measured again by {due}"
+            yield Happened(What.OVERDUE, job, standing.number, why)
+
+
+def _demand_what_was_there(known: Evening, gone: Sequence[str]) -> None:
+    """Refuse to work where a folder seems not to be mounted, or the ledger not to be this fleet's."""
+    fleet = known.fleet
+    new = [job for job in gone if known.standings[job].state is not State.VANISHED]
+    if len(new) > _FEW and len(new) > len(known.jobs):
+        message = (
+            f"{len(new)} jobs are gone since the last night, and {len(known.jobs)} are there; look whether "
+            "their folder is mounted, or name those under retired that are gone on purpose"
+        )
+        raise MissingError.at(Place(str(fleet.path)), message)
+    own = [each for each in known.certificates.values() if each.fleet == fleet.name and each.files]
+    is_empty = not fleet.output.is_dir() or not any(fleet.output.iterdir())
+    if own and is_empty:
+        message = (
+            f"the folder is empty, and {len(own)} certificates were issued into it; look whether it is "
+            "mounted. A file in it, whatever it is, lets the night make them again"
+        )
+        raise MissingError.at(Place(str(fleet.output)), message)
+    if known.standings or is_empty:
+        return
+    stems = {path.name.partition(".")[0] for path in fleet.output.rglob("*") if path.is_file()}
+    found = sum(_number(path, fleet) in stems for path in known.jobs)
+    if found > _FEW and 2 * found > len(known.jobs):
+        message = (
+            f"the ledger knows none of the certificates in {fleet.output}, where {found} of "
+            f"{len(known.jobs)} jobs have theirs; put its backup back, or make it again: "
+            f"zlmreport fleet rebuild {fleet.path}"
+        )
+        raise MissingError.at(Place(str(fleet.ledger)), message)
+
+
+def _number(path: Path, fleet: FleetFile) -> str:
+    try:
+        return number_of(path, fleet.defaults)[0]
+    except ZlmreportError:
+        return ""
+
+
+def _task(planned: Planned, known: Evening, plugins: tuple[Path, ...], work: _Work) -> Task:
+    issued, limits = planned.issued, known.fleet.keys.limits
+    patience = max(Limits().seconds, _TIMES_LONGEST * work.longest.get(planned.job, 0.0))
     is_elsewhere = known.fleet.keys.executor.kind == "dask"  # other machines work in other folders
     return Task(
         fleet=known.fleet.path.absolute() if is_elsewhere else known.fleet.path,
@@ -109,15 +264,16 @@ def _task(planned: Planned, known: Evening, plugins: tuple[Path, ...]) -> Task:
         folder=str(Path(issued.files[0].path).parent) if issued and issued.files else "",
         plugins=plugins,
         programs=known.now.programs,
+        limits=Limits(limits.seconds or patience, limits.megabytes),
     )
 
 
-def _executor(fleet: FleetFile, plugins: tuple[Path, ...], workers: int | None, due: int) -> Pool | Cluster:
+def _executor(fleet: FleetFile, order: Order, due: int, beat: Callable[[], None]) -> Pool | Cluster:
     keys = fleet.keys.executor
     if keys.kind == "dask":
         return Cluster(keys.scheduler or "", fleet.place_of("executor", "scheduler"))
-    wanted = workers or keys.workers or len(os.sched_getaffinity(0))
-    return Pool(min(wanted, due), plugins)
+    wanted = order.workers or keys.workers or len(os.sched_getaffinity(0))
+    return Pool(min(wanted, due), order.plugins, beat)
 
 
 def _files_in(known: Evening) -> Iterator[KnownFile]:

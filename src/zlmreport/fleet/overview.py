@@ -15,7 +15,7 @@ from zlmreport.fleet import overview_words as words
 from zlmreport.fleet.drifts import FALSE_SHARE, LEAST_DATES, Trend
 from zlmreport.fleet.overview_cells import Cells, Names, Period, small_graph
 from zlmreport.fleet.records import Entry, RecordedParameter, State
-from zlmreport.fleet.state import Failure, FleetState, Night
+from zlmreport.fleet.state import Failure, FleetState, Night, Term
 from zlmreport.fleet.trend import Calibration, Series, line_through
 from zlmreport.language import Language, Words
 from zlmreport.typesetting.overview import (
@@ -95,6 +95,7 @@ def _tiles(state: FleetState, cells: Cells) -> Iterator[TileContext]:
         (len(state.not_met), words.NOT_MET, "not-met"),
         (len(state.undecided), words.UNDECIDED, "undecided"),
         (len(drifting), words.DRIFTING, "drifting"),
+        (len(state.overdue), words.OVERDUE, "overdue"),
         (len(state.drafts), words.DRAFTS, "drafts"),
     )
     for number, label, key in counted:
@@ -139,6 +140,9 @@ _DRIFTING = _Kind(
         *(words.COURSE, words.DRIFT, words.REACHED),
     ),
 )
+_OVERDUE = _Kind(
+    "overdue", words.OVERDUE, words.OVERDUE_CAPTION, (words.CERTIFICATE, words.MEASURED_ON, words.DUE)
+)
 _DRAFTS = _Kind(
     "drafts",
     words.DRAFTS,
@@ -157,6 +161,8 @@ def needs(state: FleetState, cells: Cells) -> Iterator[OverviewTableContext]:
         yield _limits(_UNDECIDED, state.undecided, cells)
     if state.drifting:
         yield _drifts(state.drifting, cells)
+    if state.overdue:
+        yield _overdue(state.overdue, cells)
     if state.drafts:
         yield _drafts(state.drafts, cells)
 
@@ -222,6 +228,22 @@ def _drifts(trends: Sequence[Trend], cells: Cells) -> OverviewTableContext:
         )
         groups.append(OverviewGroupContext(head, rows))
     return _table(_DRIFTING, groups, cells)
+
+
+def _overdue(terms: Sequence[Term], cells: Cells) -> OverviewTableContext:
+    groups = [
+        OverviewGroupContext(
+            OverviewCellContext(term.entry.number, note=_subject(term.entry), links=cells.links(term.entry)),
+            (
+                (
+                    OverviewCellContext(term.entry.measured, style="date"),
+                    OverviewCellContext(term.due.isoformat(), style="date"),
+                ),
+            ),
+        )
+        for term in terms
+    ]
+    return _table(_OVERDUE, groups, cells)
 
 
 def _drafts(drafts: Sequence[Entry], cells: Cells) -> OverviewTableContext:

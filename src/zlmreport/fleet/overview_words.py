@@ -27,8 +27,10 @@ AXES = Words(en="Axes", de="Achsen")
 
 NEEDS = Words(en="What needs you", de="Was auf Sie wartet")
 NOTHING = Words(
-    en="Nothing: every job was made, every limit that is stated is met, and no parameter drifts.",
-    de="Nichts: Alle Aufträge sind erstellt, alle Grenzwerte eingehalten, und keine Kenngröße driftet.",
+    en="Nothing: every job was made, every limit that is stated is met, no parameter drifts, and no test "
+    "is overdue.",
+    de="Nichts: Alle Aufträge sind erstellt, alle Grenzwerte eingehalten, keine Kenngröße driftet, und keine "
+    "Messung ist überfällig.",
 )
 NO_NIGHT = Words(
     en="The ledger is empty: the fleet has not run yet.",
@@ -36,9 +38,17 @@ NO_NIGHT = Words(
 )
 FAILED = Words(en="Failed", de="Fehlgeschlagen")
 FAILED_CAPTION = Words(
-    en="Jobs of which no certificate could be made; the next run tries again",
-    de="Aufträge, aus denen kein Kalibrierschein entstehen konnte; der nächste Lauf versucht es erneut",
+    en="Jobs of which no certificate could be made, or whose file is gone; the next run tries again",
+    de="Aufträge, aus denen kein Kalibrierschein entstehen konnte oder deren Datei fehlt; der nächste Lauf "
+    "versucht es erneut",
 )
+OVERDUE = Words(en="Overdue", de="Überfällig")
+OVERDUE_CAPTION = Words(
+    en="Axes that should have been measured again by now",
+    de="Achsen, die inzwischen erneut gemessen sein sollten",
+)
+MEASURED_ON = Words(en="Measured", de="Gemessen")
+DUE = Words(en="Due", de="Fällig")
 NOT_MET = Words(en="Limit not met", de="Grenzwert nicht eingehalten")
 NOT_MET_CAPTION = Words(
     en="Parameters whose latest certificate states that the limit is not met",

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import contextlib
+import hashlib
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -9,10 +11,12 @@ from enum import Enum
 from pathlib import Path
 
 from zlmreport.errors import Place, Problem, ZlmreportError
-from zlmreport.fleet.basis import Basis, Disk, KnownFile, changes, is_intact, path_in
+from zlmreport.fleet.basis import Basis, Disk, KnownFile, changes, is_intact, path_in, sha256_of
 from zlmreport.fleet.ledger import Issued, Standing
 from zlmreport.fleet.records import State
+from zlmreport.job.extends import compose
 from zlmreport.job.fleet import FleetFile, number_of
+from zlmreport.job.tree import Items, Node, Scalar
 
 
 class Due(Enum):
@@ -23,6 +27,8 @@ class Due(Enum):
     #: Made, and then compared with what its number was issued with.
     COMPARISON = "comparison"
     REFUSAL = "refused"
+    #: Stopped twice with the same inputs: not tried until they change.
+    SET_ASIDE = "set aside"
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,12 +106,21 @@ def plan(evening: Evening, why: Mapping[Path, str]) -> tuple[Planned, ...]:
     return tuple(_without_shared_numbers(planned, evening))
 
 
+#: What became of a job, before the day.
+_ENDED = {
+    State.FAILED: "failed on",
+    State.STOPPED: "was stopped on",
+    State.SET_ASIDE: "was set aside on",
+    State.VANISHED: "is there again; was gone on",
+}
+
+
 def _why(standing: Standing | None, evening: Evening, sources: Disk, shelf: Disk) -> str:
     """Say why a job is due; nothing if it is not."""
     if standing is None:
         return "new"
     if standing.basis is None:
-        return f"failed on {_day(standing.night)}"
+        return f"{_ENDED[standing.state]} {_day(standing.night)}"
     found = list(changes(standing.basis, sources, evening.now))
     if found:
         return f"{'; '.join(found)} since {_day(standing.night)}"
@@ -126,8 +141,11 @@ def _damage(folder: Path, files: Sequence[KnownFile], shelf: Disk) -> Iterator[s
 def _planned(path: Path, why: str, evening: Evening) -> Planned:
     """Return what is due about a job, with what its number means."""
     job = evening.job_of(path)
-    if not why:
-        return Planned(path, job, Due.NOTHING, number=evening.standings[job].number)
+    standing = evening.standings.get(job)
+    if not why and standing:
+        return Planned(path, job, Due.NOTHING, number=standing.number)
+    if standing and standing.state is State.SET_ASIDE and standing.digest == inputs_digest(path, evening):
+        return Planned(path, job, Due.SET_ASIDE, why, standing.number)
     try:
         number, place = number_of(path, evening.fleet.defaults)
     except ZlmreportError as error:
@@ -136,6 +154,38 @@ def _planned(path: Path, why: str, evening: Evening) -> Planned:
     planned = Planned(path, job, Due.COMPARISON if issued else Due.CERTIFICATE, why, number, issued)
     refusal = _refusal(issued, evening) if issued else ""
     return _refused(planned, Problem(place, refusal)) if refusal else planned
+
+
+def inputs_digest(path: Path, evening: Evening) -> str:
+    """Return the digest of all that a job states and of every file that it names, with tonight's programs.
+
+    It is formed without reading the job's data as data: what stopped a worker must not stop the night.
+    """
+    digest = hashlib.sha256(repr((sorted(evening.now.programs.items()), evening.now.defaults)).encode())
+    try:
+        composed = compose(path, defaults=evening.fleet.defaults)
+    except ZlmreportError as error:
+        digest.update(str(error).encode())
+        return digest.hexdigest()
+    for file in composed.files:
+        digest.update(file.sha256.encode())
+    for scalar in _scalars(composed.keys):
+        named = Path(scalar.place.file).parent / scalar.text
+        with contextlib.suppress(OSError, ValueError):
+            if named.is_file():
+                digest.update(sha256_of(named).encode())
+    return digest.hexdigest()
+
+
+def _scalars(node: Node) -> Iterator[Scalar]:
+    if isinstance(node, Scalar):
+        yield node
+    elif isinstance(node, Items):
+        for item in node.items:
+            yield from _scalars(item)
+    else:
+        for entry in node.entries.values():
+            yield from _scalars(entry.value)
 
 
 def _refusal(issued: Issued, evening: Evening) -> str:

@@ -1,11 +1,13 @@
-"""Processes of this machine that make certificates: kept warm, renewed now and then, missed when killed."""
+"""Processes that make certificates: kept warm, renewed, missed when killed, stopped when late."""
 
 from __future__ import annotations
 
 import contextlib
+import resource
 import signal
+import time
 from collections import deque
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
 from multiprocessing import get_context
 from multiprocessing.connection import Connection, wait
@@ -18,15 +20,18 @@ from zlmreport.fleet.making import Failed, Made, Task, warm, work
 
 #: Certificates after which a worker makes room for a new one: no library is trusted to leak nothing.
 LIFE = 500
+#: The longest time between two signs of life of the night, s.
+_BEAT = 5.0
 
 
 @dataclass(slots=True)
 class _Worker:
-    """A process, this end of the line to it, and the task that it has."""
+    """A process, this end of the line to it, its task, and when that must be done."""
 
     process: BaseProcess
     line: Connection
     task: Task | None = None
+    deadline: float = 0.0
     done: int = 0
 
 
@@ -35,7 +40,8 @@ class Pool:
     """Workers on this machine; it is left as a context manager, which ends them.
 
     A worker has one task at a time, so that it is known which one ended it. Such a task is tried once more,
-    alone, when all others are done: then nobody else can have taken its memory.
+    alone, when all others are done: then nobody else can have taken its memory. One that exceeds its time is
+    killed with its worker, and not tried again.
 
     Attributes
     ----------
@@ -43,10 +49,13 @@ class Pool:
         How many.
     plugins
         Plugins in files of their own.
+    beat
+        Is called every few seconds, whatever the workers do.
     """
 
     workers: int
     plugins: tuple[Path, ...] = ()
+    beat: Callable[[], None] = lambda: None
     _staff: list[_Worker] = field(default_factory=list)
 
     def __enter__(self) -> Self:
@@ -70,7 +79,7 @@ class Pool:
                 killers.append(task)
         for task in killers:
             for _, again in self._worked(iter([task]), 1):
-                yield task, Failed((_killed(task, again),)) if isinstance(again, int) else again
+                yield task, _killed(task, again) if isinstance(again, int) else again
 
     def _worked(self, tasks: Iterator[Task], most: int) -> Iterator[tuple[Task, Made | Failed | int]]:
         """Yield each task with its result, or with how the worker that had it ended."""
@@ -83,11 +92,10 @@ class Pool:
                 busy[worker.line] = worker
             if not busy:
                 return
-            ready = wait(list(busy))
-            for worker in [worker for line, worker in busy.items() if line in ready]:
+            for worker in self._finished(busy):
                 del busy[worker.line]
                 task, result = self._received(worker)
-                is_spent = isinstance(result, int) or worker.done >= LIFE
+                is_spent = not worker.process.is_alive() or worker.done >= LIFE
                 follower = self._replaced(worker) if is_spent else worker
                 # The next task first, so that the worker need not wait for what is done with the result.
                 if not free and len(busy) < most and (following := next(tasks, None)) is not None:
@@ -97,8 +105,23 @@ class Pool:
                     free.append(follower)
                 yield task, result
 
+    def _finished(self, busy: dict[Connection, _Worker]) -> list[_Worker]:
+        """Wait for workers that answer or have ended; those whose time is over are killed, and count."""
+        while True:
+            first = min(worker.deadline for worker in busy.values())
+            ready = wait(list(busy), timeout=max(0.0, min(first - time.monotonic(), _BEAT)))
+            self.beat()
+            now = time.monotonic()
+            found = [worker for line, worker in busy.items() if line in ready or worker.deadline <= now]
+            for worker in found:
+                if worker.line not in ready:
+                    worker.process.kill()
+            if found:
+                return found
+
     def _give(self, worker: _Worker, task: Task) -> None:
         worker.task = task
+        worker.deadline = time.monotonic() + task.limits.seconds
         with contextlib.suppress(OSError):  # one that is gone is noticed where its answer is awaited
             worker.line.send(task)
 
@@ -111,6 +134,8 @@ class Pool:
             result: Made | Failed = worker.line.recv()
         except (EOFError, OSError):
             worker.process.join()
+            if worker.deadline <= time.monotonic():
+                return task, _late(task)
             return task, worker.process.exitcode or 0
         worker.done += 1
         return task, result
@@ -145,13 +170,24 @@ def _serve(line: Connection, plugins: tuple[Path, ...]) -> None:
         warm(plugins)
     with contextlib.suppress(EOFError, OSError):
         while True:
-            line.send(work(line.recv()))
+            task: Task = line.recv()
+            _, hard = resource.getrlimit(resource.RLIMIT_DATA)
+            resource.setrlimit(resource.RLIMIT_DATA, (_within(task.limits.megabytes * 10**6, hard), hard))
+            line.send(work(task))
 
 
-def _killed(task: Task, code: int) -> Problem:
-    """Return the problem of a task that ended two workers, the second while nothing else was done."""
+def _within(soft: int, hard: int) -> int:
+    return soft if hard == resource.RLIM_INFINITY else min(soft, hard)
+
+
+def _late(task: Task) -> Failed:
+    message = f"was stopped: it was not made within {task.limits.seconds:g} s, the limit of a job"
+    return Failed((Problem(Place(str(task.job)), message),), is_stopped=True)
+
+
+def _killed(task: Task, code: int) -> Failed:
+    """Return the answer of a task that ended two workers, the second while nothing else was done."""
     how = f"was killed by {signal.Signals(-code).name}" if code < 0 else f"ended with exit code {code}"
     hint = "; the system may have run out of memory" if code == -signal.SIGKILL else ""
-    return Problem(
-        Place(str(task.job)), f"the worker process {how} while it made this certificate, twice{hint}"
-    )
+    message = f"the worker process {how} while it made this certificate, twice{hint}"
+    return Failed((Problem(Place(str(task.job)), message),), is_stopped=True)

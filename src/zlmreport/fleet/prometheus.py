@@ -73,6 +73,15 @@ def _of_axes(state: FleetState) -> Iterator[_Family]:
         for (machine, axis), day in latest.items()
     ]
     yield measured
+    due = _Family("zlmreport_axis_due_timestamp_seconds", "When the axis is to be measured again.")
+    due.samples = [
+        (
+            {"fleet": state.name, "machine": term.entry.machine, "axis": term.entry.axis},
+            _timestamp(term.due),
+        )
+        for term in state.terms
+    ]
+    yield due
 
 
 def _of_parameters(state: FleetState) -> Iterator[_Family]:

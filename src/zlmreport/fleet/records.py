@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
+from datetime import date, timedelta
 from enum import StrEnum
 from pathlib import PurePosixPath
 from typing import Self
@@ -25,6 +26,20 @@ class State(StrEnum):
     DRAFT = "draft"
     #: Not made; the message says why. The next night tries again.
     FAILED = "failed"
+    #: Exceeded a limit, or ended its worker.
+    STOPPED = "stopped"
+    #: Stopped again, though nothing about it had changed; not tried until something does.
+    SET_ASIDE = "set aside"
+    #: Its file is gone, and the fleet file does not say that this is meant.
+    VANISHED = "vanished"
+
+    @property
+    def is_failure(self) -> bool:
+        """Whether there is no certificate that should be there."""
+        return self in _FAILURES
+
+
+_FAILURES = frozenset({State.FAILED, State.STOPPED, State.SET_ASIDE, State.VANISHED})
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,6 +97,10 @@ class Entry:
         Paths of its files, relative to the fleet's output folder.
     parameters
         What it states.
+    seconds
+        How long it took; None where nothing was made.
+    interval
+        Days after which the job itself says that the axis is to be measured again.
     """
 
     job: str
@@ -95,6 +114,15 @@ class Entry:
     message: str = ""
     files: tuple[str, ...] = ()
     parameters: tuple[RecordedParameter, ...] = ()
+    seconds: float | None = None
+    interval: int | None = None
+
+
+def due_date(measured: str, interval: int | None) -> str:
+    """Return the day by which an axis is to be measured again, ISO 8601; nothing without an interval."""
+    if not interval:
+        return ""
+    return (date.fromisoformat(measured) + timedelta(days=interval)).isoformat()
 
 
 #: What is not in a folder's name, so that it reads alike on every system and in every shell.
@@ -143,14 +171,16 @@ class Subject:
     machine: str = ""
     axis: str = ""
     measured: str = ""
+    interval: int | None = None
 
     @classmethod
     def of(cls, job: Job) -> Self:
         """Return what a job is about."""
         keys = job.keys
-        date = keys.measurement.date
-        measured = date.isoformat() if date else ""
-        return cls(keys.certificate.number, designation(keys.machine), keys.axis.name, measured)
+        day = keys.measurement.date
+        measured = day.isoformat() if day else ""
+        machine = designation(keys.machine)
+        return cls(keys.certificate.number, machine, keys.axis.name, measured, keys.fleet.interval)
 
 
 def parameters_of(certificate: Certificate) -> Iterator[RecordedParameter]:

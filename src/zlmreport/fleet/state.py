@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import date, datetime
 
 from zlmreport.fleet.drifts import Trend, trends
-from zlmreport.fleet.records import Entry, State
+from zlmreport.fleet.records import Entry, State, due_date
 from zlmreport.fleet.trend import series_of, standing
 
 
@@ -41,6 +41,25 @@ class Failure:
 
 
 @dataclass(frozen=True, slots=True)
+class Term:
+    """By when an axis is to be measured again.
+
+    Attributes
+    ----------
+    entry
+        Its latest certificate.
+    due
+        The day.
+    is_over
+        Whether it was over when the last run began.
+    """
+
+    entry: Entry
+    due: date
+    is_over: bool
+
+
+@dataclass(frozen=True, slots=True)
 class FleetState:
     """What an overview tells.
 
@@ -60,6 +79,8 @@ class FleetState:
         That stand, in the order of measurement.
     trends
         Every parameter of every axis, machine by machine.
+    terms
+        Of every axis that has one, the earliest first.
     """
 
     name: str
@@ -70,13 +91,26 @@ class FleetState:
     drafts: tuple[Entry, ...]
     certificates: tuple[Entry, ...]
     trends: tuple[Trend, ...]
+    terms: tuple[Term, ...] = ()
+
+    @property
+    def overdue(self) -> tuple[Term, ...]:
+        """Those that are over."""
+        return tuple(term for term in self.terms if term.is_over)
 
     @property
     def counts(self) -> Mapping[str, int]:
         """How many jobs the last run made, had no reason to make, left as drafts, and could not make."""
-        drafts, failed = len(self.drafts), len(self.failures)
+        vanished = sum(each.entry.state is State.VANISHED for each in self.failures)
+        drafts, failed = len(self.drafts), len(self.failures) - vanished
         unchanged = self.jobs - self.made - drafts - failed
-        return {"made": self.made, "unchanged": unchanged, "draft": drafts, "failed": failed}
+        return {
+            "made": self.made,
+            "unchanged": unchanged,
+            "draft": drafts,
+            "failed": failed,
+            "vanished": vanished,
+        }
 
     @property
     def not_met(self) -> tuple[Trend, ...]:
@@ -101,7 +135,29 @@ class FleetState:
         return tuple(dict.fromkeys((each.series.machine, each.series.axis) for each in self.trends))
 
 
-def state_of(name: str, entries: Iterable[Entry], jobs: Sequence[str], night: Night | None) -> FleetState:
+@dataclass(frozen=True, slots=True)
+class Rules:
+    """What a fleet file says of its jobs.
+
+    Attributes
+    ----------
+    interval
+        Days after which an axis is to be measured again, if its job does not say.
+    is_retired
+        Whether a job is gone on purpose.
+    """
+
+    interval: int | None = None
+    is_retired: Callable[[str], bool] = lambda _: False
+
+
+def state_of(
+    name: str,
+    entries: Iterable[Entry],
+    jobs: Sequence[str],
+    night: Night | None,
+    rules: Rules = Rules(),
+) -> FleetState:
     """Return the state of a fleet.
 
     Parameters
@@ -114,10 +170,17 @@ def state_of(name: str, entries: Iterable[Entry], jobs: Sequence[str], night: Ni
         That the fleet has now: of one that it no longer has, only the certificates count.
     night
         The last run.
+    rules
+        Of the fleet file.
     """
     history = tuple(entries)
     latest = {entry.job: entry for entry in history}
     current = [latest[job] for job in sorted(jobs) if job in latest]
+    missing = [
+        entry
+        for job, entry in sorted(latest.items())
+        if entry.state is State.VANISHED and job not in jobs and not rules.is_retired(job)
+    ]
     certificates = standing(history)
     began = night.began if night else None
     return FleetState(
@@ -128,19 +191,33 @@ def state_of(name: str, entries: Iterable[Entry], jobs: Sequence[str], night: Ni
             entry.state is State.MADE and datetime.fromisoformat(entry.night) == began for entry in current
         ),
         failures=tuple(
-            Failure(entry, _failing_since(entry, history)) for entry in current if entry.state is State.FAILED
+            Failure(entry, _failing_since(entry, history))
+            for entry in (*current, *missing)
+            if entry.state.is_failure
         ),
         drafts=tuple(entry for entry in current if entry.state is State.DRAFT),
         certificates=certificates,
         trends=trends(series_of(certificates)),
+        terms=_terms(certificates, rules, began),
     )
+
+
+def _terms(certificates: Sequence[Entry], rules: Rules, now: datetime | None) -> tuple[Term, ...]:
+    standing = [entry for entry in certificates if not rules.is_retired(entry.job)]
+    latest = {(entry.machine, entry.axis): entry for entry in standing}
+    stated = (
+        (entry, due_date(entry.measured, entry.interval or rules.interval)) for entry in latest.values()
+    )
+    days = [(entry, date.fromisoformat(day)) for entry, day in stated if day]
+    terms = [Term(entry, day, is_over=now is not None and day <= now.date()) for entry, day in days]
+    return tuple(sorted(terms, key=lambda term: (term.due, term.entry.machine, term.entry.axis)))
 
 
 def _failing_since(failed: Entry, history: Sequence[Entry]) -> str:
     """Return the night from which on a job has not been made."""
     since = failed.night
     for entry in reversed([each for each in history if each.job == failed.job]):
-        if entry.state is not State.FAILED:
+        if not entry.state.is_failure:
             break
         since = entry.night
     return since

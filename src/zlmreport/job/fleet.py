@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import fnmatch
 import glob
 import re
 from collections.abc import Callable, Iterator, Sequence
@@ -105,6 +106,18 @@ class ExecutorKeys(JobPart):
         return self
 
 
+class LimitKeys(JobPart):
+    """What a single job may take, so that one that hangs or grows leaves the others alone."""
+
+    seconds: float | None = Field(
+        None,
+        gt=0,
+        description="Time for a job; 600 without it, or ten times the longest that this job ever took.",
+        examples=[600],
+    )
+    megabytes: int = Field(2000, ge=100, description="Memory for a job's own data.", examples=[2000])
+
+
 class LogKeys(JobPart):
     """What is kept of each night for people."""
 
@@ -138,6 +151,20 @@ class FleetKeys(JobPart):
     )
     output: FleetOutput = Field(default_factory=FleetOutput, description="The files of the fleet.")
     executor: ExecutorKeys = Field(default_factory=ExecutorKeys, description="What makes the certificates.")
+    limits: LimitKeys = Field(default_factory=LimitKeys, description="What a single job may take.")
+    interval: int | None = Field(
+        None,
+        ge=1,
+        description="Days after which an axis is to be measured again; overdue ones are reported. A job may "
+        "state its own as `fleet: {interval: …}`.",
+        examples=[365],
+    )
+    retired: list[Text] = Field(
+        default_factory=list,
+        description="Jobs that are gone on purpose, as the ledger names them, with wildcards; any other that "
+        "is gone is reported.",
+        examples=[["machines/old-mill/*.yaml"]],
+    )
     ledger: Annotated[str, BeforeValidator(_address)] | None = Field(
         None,
         description="The ledger: an SQLite file, or the URL of a PostgreSQL database; the file's stem with "
@@ -259,6 +286,11 @@ def job_files(fleet: FleetFile) -> tuple[Path, ...]:
     if problems:
         raise InputError(problems)
     return tuple(sorted(found))
+
+
+def is_retired(job: str, fleet: FleetFile) -> bool:
+    """Whether a job, as the ledger names it, is gone on purpose."""
+    return any(fnmatch.fnmatchcase(job, pattern) for pattern in fleet.keys.retired)
 
 
 def number_of(job: Path, defaults: Defaults | None) -> tuple[str, Place]:

@@ -36,6 +36,14 @@ from zlmreport.job.plan_keys import PlanKeys
 from zlmreport.job.types import JobPart, Lines, Text
 
 
+class OfFleet(JobPart):
+    """What a fleet is told of this job alone."""
+
+    interval: int | None = Field(
+        None, ge=1, description="Days after which the axis is to be measured again.", examples=[180]
+    )
+
+
 class JobKeys(JobPart):
     """A job file: from the measurements of one axis to a certificate."""
 
@@ -86,6 +94,11 @@ class JobKeys(JobPart):
         None,
         description="What the readings are corrected for; without it they are taken as they are.",
         examples=[{"air": {"assumed": "standard air"}, "material": {"expansion_coefficient": 11.5}}],
+    )
+    fleet: OfFleet = Field(
+        default_factory=OfFleet,
+        description="What a fleet is told of this job alone; no certificate depends on it.",
+        examples=[{"interval": 180}],
     )
     evaluate: list[StandardKeys] = Field(
         min_length=1,

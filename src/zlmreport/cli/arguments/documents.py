@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
+import math
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -213,12 +215,13 @@ def fleet(command: str) -> CommandParser:
         f"zlmreport {command}",
         "Make the certificates of a fleet that are due: new ones, and those whose job, readings, shared\n"
         "files, plugins or program changed. What was issued under a number is never replaced: another\n"
-        "content becomes a draft. A job that fails does so alone, and is tried again the next night.",
+        "content becomes a draft. A job that fails does so alone, and is tried again the next night; one\n"
+        "that exceeds its limits twice is set aside until something about it changes.",
         "examples:\n"
         "  zlmreport fleet fleet.yaml --dry-run\n"
         "  zlmreport fleet fleet.yaml --quiet --log-json\n\n"
         "exit codes: 0 done; 2 the fleet file is wrong; 3 the ledger cannot be used, or another night is at\n"
-        "work on it; 4 done, but jobs failed",
+        "work on it; 4 done, but jobs failed, or something is missing that should be there",
     )
     _add_fleet(parser)
     parser.add_argument(
@@ -226,6 +229,12 @@ def fleet(command: str) -> CommandParser:
     )
     parser.add_argument(
         "--workers", metavar="N", type=_workers, help="number of processes, instead of the fleet file's"
+    )
+    parser.add_argument(
+        "--max-time",
+        metavar="MINUTES",
+        type=_minutes,
+        help="begin no job after that; the rest is the next night's",
     )
     parser.add_argument("--quiet", action="store_true", help="print nothing but failures")
     parser.add_argument("--json", action="store_true", help="print what became of every job as JSON")
@@ -244,6 +253,28 @@ def fleet_report(command: str) -> CommandParser:
     _add_fleet(parser)
     parser.add_argument("-o", "--output", metavar="DIR", type=Path, help="folder of the overview")
     return parser
+
+
+def fleet_backup(command: str) -> CommandParser:
+    """Return the parser of ``zlmreport fleet backup``."""
+    parser = CommandParser(
+        f"zlmreport {command}",
+        "Copy the ledger of a fleet into one file, whatever database it is in, even while a night works.\n"
+        "The file is a ledger itself: name it in the fleet file to work with it.",
+        "example:\n  zlmreport fleet backup fleet.yaml -o backup/fleet.ledger.db",
+    )
+    _add_fleet(parser)
+    parser.add_argument("-o", "--output", metavar="FILE", type=Path, required=True, help="file of the copy")
+    return parser
+
+
+def _minutes(text: str) -> float:
+    """Read a duration."""
+    with contextlib.suppress(ValueError):
+        minutes = float(text)
+        if 0 < minutes < math.inf:
+            return minutes
+    raise argparse.ArgumentTypeError(f"{text!r} is no number of minutes; write 90")
 
 
 def _workers(text: str) -> int:

@@ -1,0 +1,121 @@
+"""A job that hangs or grows is stopped alone, and set aside when it does so again."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+
+import pytest
+
+from fleet.fleets import FLEET, Fleet, Here, Witness, without_processes
+from zlmreport.errors import Place, Problem
+from zlmreport.fleet import night
+from zlmreport.fleet.issuing import What
+from zlmreport.fleet.making import Failed, Made, Task
+from zlmreport.fleet.records import State
+from zlmreport.fleet.state import state_of
+
+HANGING = """\
+import time
+
+from offers import offering
+from testing.exemplary import ExemplaryRenderer, ExemplarySource, ExemplaryStandard
+
+
+class Hanging(ExemplaryRenderer):
+    suffix = ".txt"
+
+    def render(self, certificate):
+        if certificate.number == "CAL-HANGS":
+            time.sleep(1e6)
+        if certificate.number == "CAL-GROWS":
+            bytearray(10**10)
+        return certificate.number.encode()
+
+
+offer = offering([ExemplaryStandard()], [ExemplarySource()], [Hanging()])
+zlmreport_standards = offer.zlmreport_standards
+zlmreport_sources = offer.zlmreport_sources
+zlmreport_renderers = offer.zlmreport_renderers
+"""
+
+
+def test_jobs_that_hang_or_grow_are_stopped_and_the_others_are_made(
+    tmp_path_factory: pytest.TempPathFactory,
+) -> None:
+    fleet = Fleet.of(tmp_path_factory.mktemp("fleet"), "a", "hangs", "grows", "z")
+    fleet.write("fleet.yaml", f"{FLEET}limits: {{seconds: 5, megabytes: 2000}}\n")
+    plugin = fleet.write("hanging.py", HANGING)
+    witness = Witness()
+    night.spend(fleet.file, night.Order((plugin,), workers=2), witness)
+    stopped = {stem for stem, what in witness.what.items() if what is What.FAILED}
+    assert {"hangs", "grows"} <= stopped
+    assert witness.of("hangs").problems[0].message == (
+        "was stopped: it was not made within 5 s, the limit of a job"
+    )
+    assert "it needs more than 2000 MB, the limit of a job" in witness.of("grows").problems[0].message
+
+
+class Stopping(Here):
+    """Stops every job."""
+
+    def results(self, tasks: Iterable[Task]) -> Iterator[tuple[Task, Made | Failed]]:
+        for task in tasks:
+            yield task, Failed((Problem(Place(str(task.job)), "was stopped"),), is_stopped=True)
+
+
+@pytest.fixture
+def stopping(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Fleet:
+    without_processes(monkeypatch)
+    monkeypatch.setattr(night, "_executor", lambda *_: Stopping())
+    return Fleet.of(tmp_path, "x")
+
+
+def test_what_is_stopped_twice_is_set_aside_until_its_inputs_change(stopping: Fleet) -> None:
+    assert stopping.spend().what == {"x": What.FAILED}
+    assert "set aside until" in stopping.spend().of("x").problems[0].message
+    assert stopping.spend().what == {"x": What.SET_ASIDE}
+    assert [each.state for each in stopping.entries()] == [State.STOPPED, State.SET_ASIDE]
+    stopping.readings("x", "2 2 3 -1 -2 -3")
+    assert stopping.spend().what == {"x": What.FAILED}
+    assert stopping.entries()[-1].state is State.STOPPED
+
+
+def test_what_is_set_aside_still_needs_somebody(stopping: Fleet) -> None:
+    stopping.spend()
+    stopping.spend()
+    state = state_of("Hall North", stopping.entries(), ["jobs/x.yaml"], None)
+    assert [each.entry.number for each in state.failures] == ["CAL-X"]
+    assert state.counts["failed"] == 1
+
+
+def test_a_job_may_take_ten_times_as_long_as_it_ever_took(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    without_processes(monkeypatch)
+    fleet = Fleet.of(tmp_path, "x")
+    limits = []
+
+    class Slow(Here):
+        def results(self, tasks: Iterable[Task]) -> Iterator[tuple[Task, Made | Failed]]:
+            for task, made in super().results(tasks):
+                limits.append(task.limits.seconds)
+                object.__setattr__(made, "seconds", 300.0)
+                yield task, made
+
+    monkeypatch.setattr(night, "_executor", lambda *_: Slow())
+    fleet.spend()
+    fleet.readings("x", "2 2 3 -1 -2 -3")
+    fleet.spend()
+    assert limits == [600.0, 3000.0]
+
+
+def test_after_its_time_a_night_begins_no_job_and_says_what_is_left(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    without_processes(monkeypatch)
+    fleet = Fleet.of(tmp_path, "x", "y")
+    witness = Witness()
+    night.spend(fleet.file, night.Order(seconds=0.0), witness)
+    assert witness.what == {"x": What.LEFT, "y": What.LEFT}
+    assert fleet.spend().what == {"x": What.ISSUED, "y": What.ISSUED}

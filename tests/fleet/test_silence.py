@@ -1,0 +1,143 @@
+"""What should be there and is not has a word of its own, and is no silence."""
+
+from __future__ import annotations
+
+import datetime as dt
+import shutil
+from pathlib import Path
+
+import pytest
+
+from fleet.fleets import FLEET, Fleet, without_processes
+from zlmreport.fleet import ledger, night
+from zlmreport.fleet.issuing import What
+from zlmreport.fleet.ledger import Ledger
+from zlmreport.fleet.night import MissingError
+from zlmreport.fleet.records import State
+from zlmreport.fleet.state import Night, Rules, state_of
+
+
+@pytest.fixture
+def fleet(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Fleet:
+    """Return a fleet of five certificates, made in November 2026."""
+    without_processes(monkeypatch)
+    fleet = Fleet.of(tmp_path, "v", "w", "x", "y", "z")
+    on_a_day("2026-11-20", monkeypatch)
+    fleet.spend()
+    return fleet
+
+
+def on_a_day(day: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(night, "_now", lambda: f"{day}T02:00:00+00:00")
+
+
+def test_a_job_that_is_gone_is_told_every_night_until_it_is_retired(fleet: Fleet) -> None:
+    (fleet.folder / "jobs/x.yaml").unlink()
+    for _ in range(2):
+        assert fleet.spend().what["x"] is What.VANISHED
+    assert [each.state for each in fleet.entries()].count(State.VANISHED) == 1
+    fleet.write("fleet.yaml", f"{FLEET}retired: [jobs/x.yaml]\n")
+    assert "x" not in fleet.spend().what
+
+
+def test_a_job_that_is_there_again_is_made(fleet: Fleet) -> None:
+    text = (fleet.folder / "jobs/x.yaml").read_text(encoding="utf-8")
+    (fleet.folder / "jobs/x.yaml").unlink()
+    fleet.spend()
+    fleet.write("jobs/x.yaml", text)
+    assert fleet.spend().what["x"] is What.CONFIRMED
+
+
+def test_the_overview_counts_what_is_gone(fleet: Fleet) -> None:
+    (fleet.folder / "jobs/x.yaml").unlink()
+    fleet.spend()
+    jobs = [f"jobs/{stem}.yaml" for stem in "vwyz"]
+    state = state_of("Hall North", fleet.entries(), jobs, None)
+    assert state.counts == {"made": 0, "unchanged": 4, "draft": 0, "failed": 0, "vanished": 1}
+    retired = state_of("Hall North", fleet.entries(), jobs, None, Rules(None, lambda job: "x" in job))
+    assert retired.counts["vanished"] == 0
+
+
+def test_when_most_jobs_are_gone_nothing_is_done(fleet: Fleet) -> None:
+    for stem in "wxyz":
+        (fleet.folder / f"jobs/{stem}.yaml").unlink()
+    with pytest.raises(MissingError, match="4 jobs are gone since the last night, and 1 are there"):
+        fleet.spend()
+    assert len(fleet.entries()) == 5
+
+
+def test_an_empty_folder_of_certificates_is_not_filled_again(fleet: Fleet) -> None:
+    shutil.rmtree(fleet.folder / "certificates")
+    (fleet.folder / "certificates").mkdir()
+    with pytest.raises(MissingError, match="the folder is empty, and 5 certificates were issued into it"):
+        fleet.spend()
+    assert MissingError.exit_code == 4
+
+
+def test_a_ledger_that_knows_nothing_of_the_certificates_is_refused(fleet: Fleet) -> None:
+    (fleet.folder / "ledger.db").unlink()
+    with pytest.raises(MissingError, match="the ledger knows none of the certificates"):
+        fleet.spend()
+
+
+def test_a_clock_that_was_set_back_is_noticed(fleet: Fleet, monkeypatch: pytest.MonkeyPatch) -> None:
+    on_a_day("2026-10-01", monkeypatch)
+    assert fleet.spend().notices == [
+        "the clock stands at 2026-10-01T02:00:00+00:00, before the last night: 2026-11-20T02:00:00+00:00"
+    ]
+
+
+def test_an_axis_that_was_not_measured_again_is_told_once(
+    fleet: Fleet, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    fleet.write("fleet.yaml", f"{FLEET}interval: 365\n")
+    fleet.job("u", ("name: X", "name: U"), ("certificate:\n", "fleet: {interval: 30}\ncertificate:\n"))
+    told = []
+    for day in ("2026-11-21", "2026-12-17", "2026-12-20", "2027-11-17", "2027-11-19", "2027-11-20"):
+        on_a_day(day, monkeypatch)
+        told.append([each.number for each in fleet.spend().seen if each.what is What.OVERDUE])
+    assert told == [[], [], ["CAL-U"], [], ["CAL-Z"], []]
+
+
+def test_the_overview_lists_by_when_axes_are_to_be_measured(fleet: Fleet) -> None:
+    now = night_of("2027-12-01")
+    state = state_of("Hall North", fleet.entries(), ["jobs/x.yaml"], now, Rules(365))
+    assert [(term.due.isoformat(), term.is_over) for term in state.terms] == [("2027-11-18", True)]
+
+
+def night_of(day: str) -> Night:
+    return Night(dt.datetime.fromisoformat(f"{day}T02:00:00+00:00"), None)
+
+
+def test_a_night_that_gives_no_sign_of_life_is_killed_and_its_place_taken(
+    fleet: Fleet, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    killed = []
+    address = str(fleet.folder / "ledger.db")
+    with Ledger.open(address, "Hall North") as stuck, stuck.night("2026-11-21T02:00:00+00:00", "fleet.yaml"):
+        monkeypatch.setattr(ledger.os, "getpid", lambda: -1)
+        monkeypatch.setattr(ledger, "_kill", killed.append)
+        monkeypatch.setattr(ledger, "_ATTEMPTS", 1)
+        with (
+            Ledger.open(address, "Hall North") as second,
+            pytest.raises(ledger.TakenError),
+            second.night("2026-11-21T02:30:00+00:00", "fleet.yaml"),
+        ):
+            pass
+    assert len(killed) == 1
+
+
+def test_a_night_that_lives_is_left_alone(fleet: Fleet, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(ledger, "_kill", lambda _: pytest.fail("it lives"))
+    address = str(fleet.folder / "ledger.db")
+    with (
+        Ledger.open(address, "Hall North") as first,
+        first.night("2026-11-21T02:00:00+00:00", "x") as at_work,
+    ):
+        at_work.beat("2026-11-21T02:29:00+00:00")
+        with (
+            Ledger.open(address, "Hall North") as second,
+            pytest.raises(ledger.TakenError),
+            second.night("2026-11-21T02:30:00+00:00", "fleet.yaml"),
+        ):
+            pass
