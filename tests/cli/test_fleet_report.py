@@ -51,3 +51,10 @@ def test_a_language_that_there_is_not_is_refused_with_its_place(
     fleet.write_text(FLEET.replace("language: de", "language: fr"), encoding="utf-8")
     assert main(["fleet", "report", str(fleet)]) == 2
     assert f"{fleet}:3:11: " in capsys.readouterr().err
+
+
+def test_a_backup_is_a_ledger_of_its_own(fleet: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    copy = fleet.parent / "safe" / "copy.db"
+    assert main(["fleet", "backup", str(fleet), "-o", str(copy)]) == 0
+    assert "copy.db" in capsys.readouterr().out
+    assert copy.read_bytes().startswith(b"SQLite format 3")

@@ -166,7 +166,7 @@ def test_a_ledger_of_another_format_is_refused(address: str) -> None:
     with engine.begin() as connection:
         connection.execute(text("UPDATE ledger_format SET format = 7"))
     engine.dispose()
-    with pytest.raises(InputError, match="is a ledger of format 7, and this program writes format 1"):
+    with pytest.raises(InputError, match="is a ledger of format 7, and this program writes format 2"):
         Ledger.open(address, "north")
 
 
@@ -187,3 +187,31 @@ def test_a_server_that_is_not_there_is_named_without_the_password() -> None:
         Ledger.open("postgresql+psycopg://user:secret@localhost:1/fleet", "north")
     assert "the ledger cannot be used" in str(raised.value)
     assert "secret" not in str(raised.value)
+
+
+def test_a_ledger_of_the_first_format_is_brought_up_to_date(address: str) -> None:
+    with night(address) as (_, at_work):
+        at_work.issue(ENTRY, FILES, BASIS)
+    engine = create_engine(address if "://" in address else f"sqlite:///{address}")
+    with engine.begin() as connection:
+        for column in (
+            "nights DROP COLUMN beat",
+            "entries DROP COLUMN seconds",
+            "entries DROP COLUMN interval",
+        ):
+            connection.execute(text(f"ALTER TABLE {column}"))
+        connection.execute(text("UPDATE ledger_format SET format = 1"))
+    engine.dispose()
+    with night(address, NIGHTS[1]) as (ledger, at_work):
+        assert list(ledger.entries()) == [ENTRY]
+        at_work.beat(NIGHTS[1])
+
+
+def test_a_copy_of_a_ledger_says_the_same(address: str, tmp_path: Path) -> None:
+    copy = tmp_path / "copy.db"
+    with night(address) as (ledger, at_work):
+        at_work.issue(ENTRY, FILES, BASIS)
+        ledger.backup(copy)
+    with Ledger.open(str(copy), "north") as copied:
+        assert list(copied.entries()) == [ENTRY]
+        assert copied.certificates()["CAL-1"].files == FILES

@@ -13,7 +13,7 @@ from fleet.exposition import Family, parse
 from fleet.histories import entry, history, parameter, quarters
 from zlmreport.fleet.prometheus import metrics
 from zlmreport.fleet.records import Entry, State
-from zlmreport.fleet.state import Night, state_of
+from zlmreport.fleet.state import Night, Rules, state_of
 
 NIGHT = Night(
     datetime(2026, 11, 21, 2, tzinfo=UTC), datetime(2026, 11, 21, 2, tzinfo=UTC) + timedelta(seconds=94.5)
@@ -25,7 +25,8 @@ DRIFT = history([8.0, 9.12, 10.18, 11.31, 12.4, 13.49])
 def told(
     entries: Sequence[Entry], name: str = "Hall North", night: Night | None = NIGHT
 ) -> dict[str, Family]:
-    return parse(metrics(state_of(name, entries, [each.job for each in entries], night)))
+    rules = Rules(interval=365)
+    return parse(metrics(state_of(name, entries, [each.job for each in entries], night, rules)))
 
 
 def only(families: dict[str, Family], name: str) -> float:

@@ -11,6 +11,7 @@ import hashlib
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 from sqlalchemy import (
@@ -110,6 +111,8 @@ CERTIFICATES = Table(
 )
 
 
+#: That are copied at a time.
+_ROWS = 1000
 _DATABASES = ("sqlite", "postgresql")
 #: For which a program that also reads or writes the ledger may keep it, s.
 _PATIENCE = 30
@@ -180,6 +183,20 @@ def open_database(address: str, *, create: bool) -> Database:
         database.engine.dispose()
         raise
     return database
+
+
+def copy(database: Database, to: Path) -> None:
+    """Copy a ledger into an SQLite file that appears whole or not at all."""
+    with TemporaryDirectory(dir=to.parent, prefix=f".{to.name}.") as folder:
+        file = Path(folder) / to.name
+        made = create_engine(URL.create("sqlite", database=str(file)))
+        with database.transaction() as source, made.begin() as target:
+            METADATA.create_all(target)
+            for table in METADATA.sorted_tables:
+                for rows in source.execute(select(table)).mappings().partitions(_ROWS):
+                    target.execute(insert(table), [dict(row) for row in rows])
+        made.dispose()
+        file.replace(to)
 
 
 def url_of(address: str) -> URL:

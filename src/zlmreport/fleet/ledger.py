@@ -11,6 +11,7 @@ import socket
 import time
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
+from pathlib import Path
 from types import TracebackType
 from typing import Any, Self
 
@@ -25,6 +26,7 @@ from zlmreport.fleet.database import (
     PARAMETERS,
     Database,
     TakenError,
+    copy,
     locked,
     open_database,
 )
@@ -255,6 +257,10 @@ class Ledger:
     ) -> None:
         """Close the database."""
         self._database.engine.dispose()
+
+    def backup(self, to: Path) -> None:
+        """Copy the whole ledger into an SQLite file; raise `OSError` if that cannot be written."""
+        copy(self._database, to)
 
     def entries(self) -> Iterator[Entry]:
         """Yield the whole history of the fleet with parameters, oldest first; drafts and failures too."""

@@ -33,6 +33,7 @@ _COMMANDS: Mapping[str, tuple[str, Callable[[str], CommandParser]]] = MappingPro
             "fit a job's error model, find what it lacks, add it, watch the error fall",
             documents.model,
         ),
+        "fleet backup": ("copy the ledger of a fleet into one file", documents.fleet_backup),
         "plan": (
             "choose targets and their sequence, and say what such a test will not see",
             measuring.plan,
