@@ -27,13 +27,13 @@ _COMMANDS: Mapping[str, tuple[str, Callable[[str], CommandParser]]] = MappingPro
             measuring.emulate,
         ),
         "fleet": ("make the certificates of many machines that are due, every night", documents.fleet),
+        "fleet backup": ("copy the ledger of a fleet into one file", documents.fleet_backup),
         "fleet report": ("write the overview of a fleet: who fails, who drifts", documents.fleet_report),
         "init": ("write a commented job with sample data that runs as it is", documents.init),
         "model": (
             "fit a job's error model, find what it lacks, add it, watch the error fall",
             documents.model,
         ),
-        "fleet backup": ("copy the ledger of a fleet into one file", documents.fleet_backup),
         "plan": (
             "choose targets and their sequence, and say what such a test will not see",
             measuring.plan,
