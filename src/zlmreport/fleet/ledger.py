@@ -74,7 +74,7 @@ class Night:
         with self.database.transaction() as connection:
             self._insert(connection, entry, files, basis)
 
-    def issue(self, entry: Entry, files: Sequence[KnownFile], basis: Basis) -> None:
+    def issue(self, entry: Entry, files: Sequence[KnownFile], basis: Basis | None) -> None:
         """Add the entry of a certificate, and in the same transaction its number and its files.
 
         A number that this fleet gave before keeps its first entry, and its files are those of now.

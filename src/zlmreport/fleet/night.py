@@ -239,7 +239,8 @@ def _demand_what_was_there(known: Evening, gone: Sequence[str]) -> None:
     if found > _FEW and 2 * found > len(known.jobs):
         message = (
             f"the ledger knows none of the certificates in {fleet.output}, where {found} of "
-            f"{len(known.jobs)} jobs have theirs; put its backup back, or move the folder away"
+            f"{len(known.jobs)} jobs have theirs; put its backup back, or make it again: "
+            f"zlmreport fleet rebuild {fleet.path}"
         )
         raise MissingError.at(Place(str(fleet.ledger)), message)
 

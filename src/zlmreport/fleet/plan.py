@@ -108,6 +108,8 @@ def plan(evening: Evening, why: Mapping[Path, str]) -> tuple[Planned, ...]:
 
 #: What became of a job, before the day.
 _ENDED = {
+    State.MADE: "the ledger was made again on",
+    State.DRAFT: "was a draft on",
     State.FAILED: "failed on",
     State.STOPPED: "was stopped on",
     State.SET_ASIDE: "was set aside on",

@@ -28,6 +28,7 @@ _COMMANDS: Mapping[str, tuple[str, Callable[[str], CommandParser]]] = MappingPro
         ),
         "fleet": ("make the certificates of many machines that are due, every night", documents.fleet),
         "fleet backup": ("copy the ledger of a fleet into one file", documents.fleet_backup),
+        "fleet rebuild": ("make the ledger of a fleet again from its certificates", documents.fleet_rebuild),
         "fleet report": ("write the overview of a fleet: who fails, who drifts", documents.fleet_report),
         "init": ("write a commented job with sample data that runs as it is", documents.init),
         "model": (

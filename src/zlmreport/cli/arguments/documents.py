@@ -268,6 +268,19 @@ def fleet_backup(command: str) -> CommandParser:
     return parser
 
 
+def fleet_rebuild(command: str) -> CommandParser:
+    """Return the parser of ``zlmreport fleet rebuild``."""
+    parser = CommandParser(
+        f"zlmreport {command}",
+        "Make the ledger of a fleet again, where it is lost, from the certificates in its folder: their\n"
+        "results files, or those that their PDFs carry. The next night makes each anew, and compares.",
+        "example:\n  zlmreport fleet rebuild fleet.yaml\n\n"
+        "exit codes: 0 done; 2 the ledger is there already; 4 done, but files could not be taken",
+    )
+    _add_fleet(parser)
+    return parser
+
+
 def _minutes(text: str) -> float:
     """Read a duration."""
     with contextlib.suppress(ValueError):

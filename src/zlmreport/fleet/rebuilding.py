@@ -1,0 +1,149 @@
+"""A ledger made again from the certificates themselves: what they state, and how their files are."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import math
+from collections import defaultdict
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from zlmreport.errors import InputError, Place, Problem, ZlmreportError
+from zlmreport.fleet.basis import KnownFile, Look, path_in, sha256_of
+from zlmreport.fleet.ledger import Ledger, Night, NumberTakenError
+from zlmreport.fleet.making import MARK
+from zlmreport.fleet.records import Entry, RecordedParameter, State, Subject
+from zlmreport.job.fleet import FleetFile, job_files, number_of
+from zlmreport.job.loading import load
+from zlmreport.plugins import Registry
+from zlmreport.verification.carrier import opened, read_file
+from zlmreport.verification.stated import SCHEMA, stated_by
+
+
+@dataclass(frozen=True, slots=True)
+class Rebuilt:
+    """What a ledger was made of.
+
+    Attributes
+    ----------
+    numbers
+        Of the certificates that it knows now.
+    problems
+        Of files that are named like a certificate of the fleet and could not be taken.
+    """
+
+    numbers: tuple[str, ...]
+    problems: tuple[Problem, ...]
+
+
+def rebuild(fleet: FleetFile, registry: Registry, now: str) -> Rebuilt:
+    """Make the ledger of a fleet again; the next night makes each certificate anew, and compares.
+
+    Parameters
+    ----------
+    fleet
+        The fleet file.
+    registry
+        Of plugins.
+    now
+        Date and time, ISO 8601 in UTC.
+
+    Raises
+    ------
+    InputError
+        If the ledger knows certificates of the fleet already.
+    AccessError
+        If it cannot be used, or a night is at work on it.
+    """
+    files = _by_number(fleet.output)
+    numbers, problems = [], []
+    with Ledger.open(fleet.ledger, fleet.name) as ledger:
+        known = [each for each in ledger.certificates().values() if each.fleet == fleet.name]
+        if known:
+            message = f"the ledger knows {len(known)} certificates of this fleet; move it away first"
+            raise InputError.at(Place(str(fleet.ledger)), message)
+        with ledger.night(now, str(fleet.path)) as night:
+            for job, number in _jobs(fleet):
+                if number not in files:
+                    continue
+                try:
+                    _take(job, files[number], fleet, registry, night)
+                    numbers.append(number)
+                except ZlmreportError as error:
+                    problems.extend(error.problems)
+                except (OSError, ValueError, NumberTakenError) as error:
+                    problems.append(Problem(Place(str(files[number][0])), f"cannot be taken: {error}"))
+            night.end(now)
+    return Rebuilt(tuple(numbers), tuple(problems))
+
+
+def _by_number(folder: Path) -> Mapping[str, list[Path]]:
+    """Return the files of certificates by the number that they are named after; drafts are none."""
+    found: defaultdict[str, list[Path]] = defaultdict(list)
+    for path in sorted(folder.rglob("*")):
+        if path.is_file() and not path.name.startswith(".") and not path.stem.endswith(MARK):
+            found[path.stem].append(path)
+    return found
+
+
+def _jobs(fleet: FleetFile) -> Iterator[tuple[Path, str]]:
+    for path in job_files(fleet):
+        with contextlib.suppress(ZlmreportError):  # the next night says what is wrong with it
+            yield path, number_of(path, fleet.defaults)[0]
+
+
+def _take(job: Path, files: list[Path], fleet: FleetFile, registry: Registry, night: Night) -> None:
+    subject = Subject()
+    with contextlib.suppress(ZlmreportError):
+        subject = Subject.of(load(job, registry, defaults=fleet.defaults))
+    known = tuple(
+        KnownFile(path.suffix, path.relative_to(fleet.output).as_posix(), sha256_of(path), Look.at(path))
+        for path in files
+    )
+    entry = Entry(
+        job=path_in(fleet.path.parent, job),
+        number=files[0].stem,
+        machine=subject.machine,
+        axis=subject.axis,
+        measured=subject.measured,
+        night=night.began,
+        digest="",
+        state=State.MADE,
+        files=tuple(file.path for file in known),
+        parameters=tuple(_parameters(_results(files))),
+        interval=subject.interval,
+    )
+    night.issue(entry, known, None)
+
+
+def _results(files: list[Path]) -> Mapping[str, Any]:
+    """Return what a certificate states: its results file, or the one that its PDF carries."""
+    by_suffix = {path.suffix: path for path in files}
+    if ".json" in by_suffix:
+        results: Mapping[str, Any] = json.loads(by_suffix[".json"].read_bytes())
+        if results.get("schema") == SCHEMA:
+            return results
+    if ".pdf" in by_suffix:
+        path = by_suffix[".pdf"]
+        stated = stated_by(opened(read_file(path), Place(str(path))))
+        if stated:
+            return stated.tree
+    raise ValueError("neither a results file nor a PDF that carries one says what it states")
+
+
+def _parameters(results: Mapping[str, Any]) -> Iterator[RecordedParameter]:
+    for evaluation in results["evaluations"]:
+        for each in evaluation["parameters"]:
+            if isinstance(each["value"], int | float) and math.isfinite(each["value"]):
+                yield RecordedParameter(
+                    standard=evaluation["standard"],
+                    symbol=each["symbol"],
+                    value=float(each["value"]),
+                    unit=each["unit"],
+                    expanded_uncertainty=each.get("expanded_uncertainty"),
+                    limit=each.get("limit"),
+                    conforms=each.get("conforms"),
+                )
