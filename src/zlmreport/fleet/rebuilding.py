@@ -59,7 +59,8 @@ def rebuild(fleet: FleetFile, registry: Registry, now: str) -> Rebuilt:
         If it cannot be used, or a night is at work on it.
     """
     files = _by_number(fleet.output)
-    numbers, problems = [], []
+    numbers: list[str] = []
+    problems: list[Problem] = []
     with Ledger.open(fleet.ledger, fleet.name) as ledger:
         known = [each for each in ledger.certificates().values() if each.fleet == fleet.name]
         if known:
