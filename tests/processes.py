@@ -7,11 +7,14 @@ import select
 import signal
 import subprocess
 import sys
-from collections.abc import Iterator
+import time
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from subprocess import CompletedProcess
-from typing import Any
+from typing import Any, TypeVar
+
+Found = TypeVar("Found")
 
 #: The longest that is waited for a program, s: far longer than any takes on a busy machine.
 PATIENCE = 200.0
@@ -90,3 +93,12 @@ def started(*command: Any, **settings: Any) -> Iterator[Program]:
     """Start a program whose output is read as it comes."""
     with group(*command, stdout=subprocess.PIPE, **settings) as process:
         yield Program(process)
+
+
+def awaited(found: Callable[[], Found | None]) -> Found:
+    """Return what is found in the end, as soon as it is; fail if that takes too long."""
+    until = time.monotonic() + PATIENCE
+    while not (result := found()):
+        assert time.monotonic() < until, "it does not come"
+        time.sleep(0.02)
+    return result

@@ -11,7 +11,7 @@ import pytest
 pytest.importorskip("playwright", reason="playwright is not installed")
 pytest.importorskip("starlette", reason="the workbench's extra is not installed")
 
-from playwright.sync_api import Browser, BrowserContext, Page, sync_playwright
+from playwright.sync_api import Browser, BrowserContext, Page, expect, sync_playwright
 
 from processes import ZLMREPORT, started
 
@@ -19,7 +19,12 @@ ROOT = Path(__file__).parents[2]
 EXAMPLE = ROOT / "configs" / "hidden-effect"
 _NAMES = ("chromium", "chromium-browser", "google-chrome-stable", "google-chrome")
 _ARGUMENTS = ["--no-sandbox", "--disable-gpu", "--disable-background-networking"]
+#: The longest that is waited for what a page shows, ms: a busy machine takes its time.
+_PATIENCE = 60_000
 _ADDRESS = re.compile(r"http://127\.0\.0\.1:\d+/\?token=\S+")
+
+
+expect.set_options(timeout=_PATIENCE)
 
 
 @pytest.fixture(scope="module")
@@ -67,6 +72,7 @@ def window(chromium: Browser) -> Iterator[Callable[..., Page]]:
     def opened(address: str, **settings: Any) -> Page:
         usual = {"viewport": {"width": 1280, "height": 900}, "locale": "en-GB", "reduced_motion": "reduce"}
         context = chromium.new_context(**{**usual, **settings})
+        context.set_default_timeout(_PATIENCE)
         contexts.append(context)
         page = context.new_page()
         page.on("pageerror", lambda error: complaints.append(str(error)))

@@ -16,7 +16,7 @@ Window = Callable[..., Page]
 
 def diagnosed(page: Page, verdict: str) -> None:
     """Wait until the diagnosis of the job as it is has come."""
-    expect(page.locator("body")).to_have_attribute("data-state", verdict, timeout=30_000)
+    expect(page.locator("body")).to_have_attribute("data-state", verdict)
 
 
 def plots(page: Page) -> list[int]:
@@ -61,8 +61,8 @@ def test_the_hidden_effect_is_found_by_clicks_alone(address: str, job: Path, win
     assert "    - screw-pitch\n" in job.read_text(encoding="utf-8")
 
     page.get_by_role("button", name="Make the certificate").click()
-    with page.expect_download(timeout=60_000) as download:
-        page.get_by_role("link", name="EXAMPLE-2026-0007.pdf").click(timeout=60_000)
+    with page.expect_download() as download:
+        page.get_by_role("link", name="EXAMPLE-2026-0007.pdf").click()
     assert Path(download.value.path()).read_bytes().startswith(b"%PDF")
 
     page.reload()
@@ -117,17 +117,17 @@ def test_a_window_sees_what_an_editor_and_another_window_did(address: str, job: 
     first.evaluate("() => { globalThis.setInterval = () => 0 }")
     first.get_by_role("button", name="Remove backlash from the model").click()
     expect(first.get_by_role("button", name="Remove backlash from the model")).to_be_hidden()
-    expect(second.get_by_role("alert")).to_contain_text("changed outside of this page", timeout=15_000)
+    expect(second.get_by_role("alert")).to_contain_text("changed outside of this page")
     expect(second.get_by_role("button", name="Remove backlash from the model")).to_be_hidden()
 
     job.write_text(
         job.read_text(encoding="utf-8").replace("    - offset\n", "    - ofset\n"), encoding="utf-8"
     )
-    expect(second.get_by_role("alert")).to_contain_text("did you mean 'offset'?", timeout=15_000)
+    expect(second.get_by_role("alert")).to_contain_text("did you mean 'offset'?")
     job.write_text(
         job.read_text(encoding="utf-8").replace("    - ofset\n", "    - offset\n"), encoding="utf-8"
     )
-    expect(second.get_by_role("alert")).to_contain_text("changed outside of this page", timeout=15_000)
+    expect(second.get_by_role("alert")).to_contain_text("changed outside of this page")
 
 
 def test_the_page_can_be_used_by_everybody(address: str, window: Window) -> None:
@@ -161,4 +161,4 @@ def test_a_tablet_in_the_dark_shows_it_all_in_german(address: str, window: Windo
     assert min(heights) >= 40
     picture(page, "tablet")
     page.get_by_role("link", name="English").click()
-    expect(page.get_by_role("heading", name="Where the model fails")).to_be_visible(timeout=30_000)
+    expect(page.get_by_role("heading", name="Where the model fails")).to_be_visible()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import cycle
 from pathlib import Path
 
 import pytest
@@ -15,8 +16,11 @@ from zlmreport.planning.methods import Method
 MOST = 2 * (1 + 2 * (5 / 4) ** 0.5)
 
 
-@pytest.mark.parametrize("method", Method)
-@pytest.mark.parametrize("bench", BENCHES.values(), ids=BENCHES.keys())
+#: Every instrument and every method, not each with each.
+PAIRS = [*zip(BENCHES.values(), cycle(Method))]
+
+
+@pytest.mark.parametrize(("bench", "method"), PAIRS, ids=lambda part: getattr(part, "instrument", part))
 def test_the_numbers_are_those_of_the_axis(bench: Bench, method: Method, tmp_path: Path) -> None:
     done = calibration(tmp_path, bench, method)
     planned = 105 if method is Method.UNIDIRECTIONAL else 210

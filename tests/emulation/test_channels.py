@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from processes import PATIENCE
 from zlmreport.emulation.channels import LocalSocket, PseudoTerminal, serve
 from zlmreport.emulation.emulator import Planned, Trouble, Troubles
 from zlmreport.errors import AccessError
@@ -41,7 +42,7 @@ def test_a_terminal_notices_that_it_is_read() -> None:
         with Port(terminal.address, Framing(), 1.0) as port:
             for _ in range(5):
                 terminal.send(b"line")
-                assert port.read(5.0)
+                assert port.read(PATIENCE)
         assert terminal.is_read
 
 
@@ -66,7 +67,7 @@ def test_a_terminal_that_nobody_reads_knows_it() -> None:
 def test_a_terminal_notices_that_it_is_asked() -> None:
     with PseudoTerminal() as terminal, Port(terminal.address, Framing(), 1.0) as port:
         port.write(b"question")
-        terminal.wait(5.0)
+        terminal.wait(PATIENCE)
         assert terminal.receive() == b"question"
         assert terminal.is_read
 
@@ -74,8 +75,10 @@ def test_a_terminal_notices_that_it_is_asked() -> None:
 def test_a_socket_notices_that_it_is_called() -> None:
     with LocalSocket() as channel:
         assert not channel.is_read
-        with socket.create_connection(("127.0.0.1", int(channel.address.rpartition(":")[2])), timeout=5):
-            channel.wait(5.0)
+        with socket.create_connection(
+            ("127.0.0.1", int(channel.address.rpartition(":")[2])), timeout=PATIENCE
+        ):
+            channel.wait(PATIENCE)
             assert channel.is_read
 
 
@@ -83,14 +86,14 @@ def test_a_socket_serves_one_host_after_the_other() -> None:
     with LocalSocket() as channel:
         address = ("127.0.0.1", int(channel.address.rpartition(":")[2]))
         for _ in range(2):
-            with socket.create_connection(address, timeout=5) as host:
-                channel.wait(5.0)
+            with socket.create_connection(address, timeout=PATIENCE) as host:
+                channel.wait(PATIENCE)
                 host.sendall(b"question")
-                channel.wait(5.0)
+                channel.wait(PATIENCE)
                 assert channel.receive() == b"question"
                 channel.send(b"answer")
                 assert host.recv(100) == b"answer"
-            channel.wait(5.0)
+            channel.wait(PATIENCE)
             assert channel.receive() == b""
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import os
 import sys
-import time
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -13,7 +12,7 @@ import pytest
 
 from fleet.deadly import PLUGIN
 from fleet.fleets import FLEET, Fleet, Witness
-from processes import PYTHON, group
+from processes import PYTHON, awaited, group
 from zlmreport.errors import AccessError
 from zlmreport.fleet import cluster, night
 from zlmreport.fleet.issuing import What
@@ -43,8 +42,7 @@ def scheduler(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
     port = "tcp://127.0.0.1:0"
     flags = ("--scheduler-file", str(file), "--no-dashboard")
     with started("distributed.cli.dask_scheduler", "--host", port, *flags, folder=folder):
-        while not (file.is_file() and file.stat().st_size):
-            time.sleep(0.05)
+        awaited(lambda: file.is_file() and file.stat().st_size)
         workers = ("--nworkers", "2", "--nthreads", "1", "--local-directory", str(folder))
         with started("distributed.cli.dask_worker", *workers, *flags, folder=folder):
             yield _address(file)

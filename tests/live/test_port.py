@@ -10,6 +10,7 @@ from typing import Any, Literal
 
 import pytest
 
+from processes import PATIENCE
 from zlmreport.emulation.channels import PseudoTerminal
 from zlmreport.errors import AccessError, InputError
 from zlmreport.live.dialogue import Patience
@@ -69,17 +70,17 @@ def test_without_pyserial_the_extra_is_named(monkeypatch: pytest.MonkeyPatch) ->
 def test_bytes_go_there_and_back_with_any_framing(framing: Framing) -> None:
     with PseudoTerminal() as terminal, Port(terminal.address, framing, 1.0) as port:
         port.write(b"there")
-        terminal.wait(1.0)
+        terminal.wait(PATIENCE)
         assert terminal.receive() == b"there"
         terminal.send(b"back")
-        assert port.read(1.0) == b"back"
+        assert port.read(PATIENCE) == b"back"
 
 
 def test_a_terminal_that_is_unplugged_is_told() -> None:
     with PseudoTerminal() as terminal, Port(terminal.address, Framing(), 1.0) as port:
         terminal.close()
         with pytest.raises(AccessError, match=r"is gone .*; look at its cable and its power"):
-            port.read(1.0)
+            port.read(PATIENCE)
 
 
 def test_what_was_there_before_is_dropped() -> None:
@@ -87,7 +88,7 @@ def test_what_was_there_before_is_dropped() -> None:
         port.write(b"old")
         port.drop_input()
         port.write(b"new")
-        assert port.read(1.0) == b"new"
+        assert port.read(PATIENCE) == b"new"
 
 
 def test_a_read_ends_when_its_time_is_over() -> None:

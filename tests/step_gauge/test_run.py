@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import csv
-import time
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -11,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from processes import awaited
 from step_gauge.emulated import RADIUS, Notes, on_a_port, server, small_path
 from step_gauge.paths import planned
 from zlmreport.errors import AccessError, InputError
@@ -146,8 +146,7 @@ def test_an_interrupt_stops_the_machine_and_keeps_what_was_probed(run: Run, tmp_
         keys = MachineKeys(host="127.0.0.1", port=port, timeout=10)
         with pytest.raises(KeyboardInterrupt):
             run_probing(LiveProbing(path, keys, tmp_path / "raw.csv"), Impatient())
-        while b"AbortE" not in b"".join(heard):
-            time.sleep(0.01)
+        awaited(lambda: b"AbortE" in b"".join(heard))
     assert b"".join(heard).endswith(b"E0001 AbortE()\r\n")
     assert len(rows(tmp_path / "raw.csv.part")) == 1
     assert [face for face, _, _ in run(server(path)).points] == [3, 4, 2]

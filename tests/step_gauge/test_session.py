@@ -9,6 +9,7 @@ from contextlib import contextmanager
 
 import pytest
 
+from processes import PATIENCE
 from zlmreport.errors import AccessError
 from zlmreport_step_gauge.machines.session import Connection, Session
 
@@ -32,11 +33,11 @@ def answering(*answers: str) -> Iterator[tuple[Session, list[str], list[str]]]:
                     lines.flush()
                 lines.read()
 
-        thread = threading.Thread(target=serve)
+        thread = threading.Thread(target=serve, daemon=True)
         thread.start()
         with Connection("127.0.0.1", listening.getsockname()[1]) as connection:
             yield Session(connection, 0.2, told.append), heard, told
-        thread.join()
+        thread.join(PATIENCE)
 
 
 def test_commands_have_rising_tags_and_end_with_cr_lf() -> None:

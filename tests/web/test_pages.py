@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import time
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -12,6 +11,7 @@ import numpy as np
 import pytest
 from starlette.testclient import TestClient
 
+from processes import awaited
 from web.jobs import EXAMPLE, registry
 from zlmreport import pipeline
 from zlmreport.job.loading import load
@@ -113,10 +113,7 @@ def test_an_effect_has_its_page(browser: TestClient) -> None:
 def test_a_diagnosis_is_made_beside_and_says_how_long_it_has_been_under_way(browser: TestClient) -> None:
     found = browser.get("/api/diagnosis").json()
     assert found.keys() == {"seconds"}
-    while "diagnosis" not in found:
-        time.sleep(0.1)
-        found = browser.get("/api/diagnosis").json()
-    diagnosis = found["diagnosis"]
+    diagnosis = awaited(lambda: browser.get("/api/diagnosis").json().get("diagnosis"))
     assert diagnosis["verdict"] == "missing"
     assert diagnosis["candidates"][0]["argument"] == "screw-pitch"
     first, second, _ = diagnosis["failures"]

@@ -19,12 +19,11 @@ from zlmreport.language import Language
 from zlmreport_plugins.renderers.pdf import press
 
 
-@pytest.mark.parametrize("paper", ["A4", "Letter"])
 @pytest.mark.parametrize("language", Language)
-def test_every_number_of_every_table_is_printed(language: Language, paper: str) -> None:
-    expected = numbers_of(samples.certificate(language, paper))
+def test_every_number_of_every_table_is_printed(language: Language) -> None:
+    expected = numbers_of(samples.certificate(language))
     assert expected.total() > 700
-    missing = expected - printed_numbers("\n".join(texts(sample(language, paper))))
+    missing = expected - printed_numbers("\n".join(texts(sample(language))))
     assert not missing
 
 
@@ -38,21 +37,20 @@ def test_decimals_are_written_as_the_language_writes_them() -> None:
     assert printed_numbers("\n".join(texts(sample(Language.ENGLISH))))["13.8"] == 2
 
 
-@pytest.mark.parametrize(
-    "customer",
-    [
-        "<b>Müller & Söhne</b> <script>alert(1)</script>",
-        '<img src="file:///etc/passwd">',
-        "{{ 7 * 7 }} {% raw %}",
-        "&lt; &amp; &#65;",
-        "x̄ é ñ",
-        "Ελληνικά Русский Türkçe",
-        "-->]]></style>",
-    ],
-)
-def test_a_customers_name_is_printed_as_it_is_typed(customer: str) -> None:
-    text = "".join(texts(read(samples.certificate(standards=0, customer=customer))))
-    assert _unspaced(customer) in _unspaced(text)
+NAMES = [
+    "<b>Müller & Söhne</b> <script>alert(1)</script>",
+    '<img src="file:///etc/passwd">',
+    "{{ 7 * 7 }} {% raw %}",
+    "&lt; &amp; &#65;",
+    "x̄ é ñ",
+    "Ελληνικά Русский Türkçe",
+    "-->]]></style>",
+]
+
+
+def test_a_customers_name_is_printed_as_it_is_typed() -> None:
+    text = _unspaced("".join(texts(read(samples.certificate(standards=0, customer=" / ".join(NAMES))))))
+    assert [name for name in NAMES if _unspaced(name) not in text] == []
 
 
 def test_a_name_of_500_characters_is_printed_whole() -> None:
