@@ -51,6 +51,7 @@ def test_help_fits_a_terminal(shop: Shop, monkeypatch: pytest.MonkeyPatch) -> No
         (["job.yaml", "--formt", "pdf"], "zlmreport: unknown option '--formt'; did you mean '--format'?"),
         (["job.yaml", "--form=pdf"], "zlmreport: unknown option '--form'; did you mean '--format'?"),
         (["job.yaml", "--output"], "zlmreport: argument -o/--output: expected one argument"),
+        (["job.yaml", "-q"], "zlmreport: unknown option '-q'; did you mean '--quiet'?"),
         (["job.yaml", "-x"], "zlmreport: unknown option '-x'; known: --fail-on-nonconformity, --format"),
         (["check"], "zlmreport check: the following arguments are required: JOB.yaml"),
         (["check", "job.yaml", "--format=pdf"], "zlmreport check: unknown option '--format'; known: --help"),

@@ -95,6 +95,12 @@ WRONG_VALUES = {
     "infinite pitch": (7, "axis: {name: X, screw_pitch: .inf}", "7:30", "'.inf' is not a finite number"),
     "overflowing pitch": (7, "axis: {name: X, screw_pitch: 1e999}", "7:30", "'1e999' is not a finite number"),
     "no number as pitch": (7, "axis: {name: X, screw_pitch: .nan}", "7:30", "'.nan' is not a"),
+    "decimal comma that parts keys": (
+        7,
+        "axis: {name: X, screw_pitch: 12,5}",
+        "7:33",
+        "axis: a comma parts keys, and 5 is none; write a decimal point",
+    ),
     "decimal comma": (7, "axis: {name: X, screw_pitch: '0,5'}", "7:30", "write a decimal point: 0.5"),
     "number with unit": (
         7,

@@ -280,3 +280,8 @@ def test_a_certificate_is_verified(tmp_path: Path) -> None:
     assert found.holds
     assert found.number == "EXAMPLE-2026-0001"
     assert found.differences == ()
+
+
+def test_a_tolerance_of_a_printed_symbol_is_answered_with_its_spelling() -> None:
+    with pytest.raises(z.InputError, match="'A↑' is written A_fwd in a job"):
+        z.evaluate(data(), "iso230-2:2014", tolerances={"A↑": 5})

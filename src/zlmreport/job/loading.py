@@ -171,6 +171,13 @@ def _unknown_tolerances(keys: Keys, standard: InstalledStandard) -> Iterator[Pro
     limitable = [quantity.symbol for quantity in standard.quantities if quantity.can_be_limited]
     symbols = {quantity.symbol for quantity in standard.quantities}
     for symbol, entry in tolerances.entries.items() if isinstance(tolerances, Keys) else ():
+        spelt = symbol.replace("↑", "_fwd").replace("↓", "_bwd")
+        if symbol.isdecimal():
+            yield Problem(entry.place, f"a comma parts keys: write {symbol} behind a decimal point")
+            continue
+        if spelt != symbol and spelt in limitable:
+            yield Problem(entry.place, f"{quoted(symbol)} is written {spelt} in a job")
+            continue
         if symbol not in symbols:
             message = f"{quoted(symbol)} is no parameter of {standard.identifier}; "
         elif symbol not in limitable:

@@ -199,6 +199,8 @@ def _unknown(mistake: Mistake, model: type[BaseModel], within: str, also_known: 
     if not group:
         known.extend(also_known)
     where = _dotted(within, tuple(group))
+    if key.isdecimal():
+        return f"{where or 'here'}: a comma parts keys, and {key} is none; write a decimal point"
     return f"unknown key {quoted(key)}{f' in {where}' if where else ''}; {did_you_mean(key, known)}"
 
 

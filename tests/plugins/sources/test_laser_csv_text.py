@@ -253,3 +253,36 @@ def test_rows_whose_times_contradict_their_order_are_refused(file: File) -> None
         "x.csv:3:9: the time is before that of the reading in line 2; "
         "readings stand in the order in which they were taken"
     )
+
+
+CURES = {
+    "text above the header": (
+        "Machine: X\n\ntarget,direction,deviation\n0,+,1\n",
+        "1:1: 'Machine: X' is no header, and line 3 names columns: say 'lines: [3, 4]' in the job",
+    ),
+    "cells above the header": (
+        "Machine;BZ\ntarget;direction;deviation\n0;+;1\n",
+        "1:1: 'Machine;BZ' is no header, and line 2 names columns",
+    ),
+    "a row of units": (
+        "target,direction,deviation\nmm,,µm\n0,+,1\n",
+        "2:1: this row holds units; write them in the header, as in 'target (mm), deviation (µm)'",
+    ),
+    "targets along the header": ("target,0,5,10\nup 1,1,2,3\n", "1:1: this table lies on its side"),
+    "names down the side": (
+        "target,0,5\ndirection,+,+\nrun,1,1\ndeviation,1,2\n",
+        "1:1: this table lies on its side",
+    ),
+}
+
+
+@pytest.mark.parametrize(("content", "cure"), CURES.values(), ids=CURES)
+def test_a_table_of_another_shape_is_refused_with_the_cure(file: File, content: str, cure: str) -> None:
+    with pytest.raises(InputError) as caught:
+        file.read(content)
+    assert cure in str(caught.value)
+
+
+def test_directions_may_be_written_in_german(file: File) -> None:
+    found = file.read("target,direction,deviation\n0,hin,1\n0,rück,2\n5,vor,1\n5,zurück,2\n")
+    assert found.approach.tolist() == [1, -1, 1, -1]

@@ -34,8 +34,8 @@ _WORDS = {
     **dict.fromkeys(("up", "forward", "forwards", "fwd", "positive", "pos"), Approach.POSITIVE),
     **dict.fromkeys(("down", "reverse", "rev", "backward", "backwards", "bwd"), Approach.NEGATIVE),
     **dict.fromkeys(("negative", "neg"), Approach.NEGATIVE),
-    **dict.fromkeys(("auf", "vor", "vorwärts", "positiv"), Approach.POSITIVE),
-    **dict.fromkeys(("ab", "zurück", "rückwärts", "negativ"), Approach.NEGATIVE),
+    **dict.fromkeys(("auf", "hin", "vor", "vorwärts", "positiv"), Approach.POSITIVE),
+    **dict.fromkeys(("ab", "rück", "rueck", "zurück", "rückwärts", "negativ"), Approach.NEGATIVE),
 }
 _NUMBERS = {
     "1": Approach.POSITIVE,

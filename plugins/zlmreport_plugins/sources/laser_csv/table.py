@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
-from zlmreport.plugin import InputError, Place, Problem, TextFile, quoted
+from zlmreport.plugin import POSITION_UNITS, TIME_UNITS, InputError, Place, Problem, TextFile, quoted
 
 #: In order of precedence: a comma may stand in a name or a number of a table that semicolons part.
 _DELIMITERS = {"\t": "tab", ";": "semicolon", ",": "comma"}
@@ -14,6 +14,15 @@ _BLANKS = " \u00a0\t"
 _QUOTE = '"'
 #: Characters of a name in a header.
 _LONGEST_NAME = 200
+#: Lines above a header that are looked through for it.
+_LONGEST_PREAMBLE = 100
+_NUMBER = re.compile(r"[0-9]+([.,][0-9]+)?")
+#: What may be the number of a run, where it stands in a header.
+_RUNS = frozenset(map(str, range(1, 51)))
+#: Units that stand in a row of their own, in lower case.
+_UNITS = frozenset({each.casefold() for units in (POSITION_UNITS, TIME_UNITS) for each in units}) | {
+    *("°c", "c", "k", "°f", "hpa", "pa", "kpa", "mbar", "%", "% rh")
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -105,6 +114,7 @@ def read_table(
     if not content:
         raise InputError.at(text.place(), "holds no table: every line is blank or a comment")
     number, line = content[0]
+    _refuse_preamble(content, delimiter, names_column, text)
     delimiter = delimiter or _delimiter(line, names_column)
     if delimiter is None:
         raise InputError.at(
@@ -129,11 +139,64 @@ def read_table(
             problems.append(Problem(text.place(number, error.column), str(error)))
             continue
         if any(row.cells):
+            _refuse_units(row, header, text, is_first=not rows)
             wrong = _ragged(row, header, delimiter, text)
             problems.extend(wrong)
             if not wrong:
                 rows.append(row)
-    return Table(text.name, header, tuple(rows), tuple(problems))
+    table = Table(text.name, header, tuple(rows), tuple(problems))
+    _refuse_transposed(table, names_column)
+    return table
+
+
+def _refuse_preamble(
+    content: Sequence[tuple[int, str]],
+    delimiter: str | None,
+    names_column: Callable[[str], bool],
+    text: TextFile,
+) -> None:
+    """Refuse a table whose header stands below other text, with the lines of the table."""
+    first, line = content[0]
+    for row, (number, below) in enumerate(content[:_LONGEST_PREAMBLE]):
+        parted_by = delimiter or _delimiter(below, names_column)
+        known = sum(map(names_column, _header_cells(below, parted_by))) if parted_by else 0
+        if row == 0 and known:
+            return
+        if known > 1:
+            raise InputError.at(
+                text.place(first, 1),
+                f"{quoted(line.strip())} is no header, and line {number} names columns: say "
+                f"'lines: [{number}, {content[-1][0]}]' in the job, or begin the lines above it with #",
+            )
+
+
+def _refuse_units(row: Row, header: Row, text: TextFile, *, is_first: bool) -> None:
+    """Refuse a row of units below the header: a table has them in its header, or the job states them."""
+    filled = [cell.strip("()[]") for cell in row.cells if cell]
+    if not is_first or not filled or not all(cell.casefold() in _UNITS for cell in filled):
+        return
+    named = [
+        f"{name} ({cell.strip('()[]')})" for name, cell in zip(header.cells, row.cells, strict=False) if cell
+    ]
+    raise InputError.at(
+        text.place(row.line, 1),
+        f"this row holds units; write them in the header, as in '{', '.join(named)}', or under 'units' in "
+        "the job, and begin this line with #",
+    )
+
+
+def _refuse_transposed(table: Table, names_column: Callable[[str], bool]) -> None:
+    """Refuse a table that lies on its side: names down its first column, or targets along its header."""
+    first = [row.cells[0] for row in table.rows]
+    down = [cell for cell in first if names_column(cell) and not _NUMBER.fullmatch(cell.lstrip("+-−"))]
+    along = [name for name in table.header.cells[1:] if _NUMBER.fullmatch(name)]
+    are_all = len(along) > 1 and len(along) == len(table.header.cells) - 1
+    if len(down) > 1 or (are_all and not set(along) <= _RUNS):
+        raise InputError.at(
+            Place(table.file, table.header.line, 1),
+            "this table lies on its side: a row is one reading or one target position, and a column is what "
+            "its header names; exchange rows and columns (in a spreadsheet: paste special, transpose)",
+        )
 
 
 def _delimiter(header: str, names_column: Callable[[str], bool]) -> str | None:

@@ -48,6 +48,9 @@ class CommandParser(argparse.ArgumentParser):
         options, unknown = self.parse_known_args(arguments)
         if unknown:
             name = unknown[0].partition("=")[0]
+            meant = next((each for each in self._known if len(name) == 2 and each[1:3] == name), "")
+            if meant:
+                self.error(f"unknown option {name!r}; did you mean {meant!r}?")
             if name.startswith("-"):
                 self.error(f"unknown option {name!r}; {did_you_mean(name, self._known)}")
             self.error(f"{name!r} is one argument too many")
