@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from capture.calibration import BENCHES, Bench, calibration
-from zlmreport.capture.events import DatumTaken, Finished, Recorded
+from zlmreport.capture.events import Closed, DatumTaken, Finished, Recorded
 from zlmreport.planning.methods import Method
 
 #: By how much a parameter changes at most if each deviation changes by 1: a standard deviation of n = 5 by
@@ -24,7 +24,7 @@ PAIRS = [*zip(BENCHES.values(), cycle(Method))]
 def test_the_numbers_are_those_of_the_axis(bench: Bench, method: Method, tmp_path: Path) -> None:
     done = calibration(tmp_path, bench, method)
     planned = 105 if method is Method.UNIDIRECTIONAL else 210
-    assert [type(event) for event in done.events] == [DatumTaken, *[Recorded] * planned, Finished]
+    assert [type(event) for event in done.events] == [DatumTaken, *[Recorded] * planned, Closed, Finished]
     # half a step of the display at the target, and half a step at the datum
     assert max(map(abs, done.errors().values())) <= bench.resolution
     expected = done.true_parameters()

@@ -9,6 +9,7 @@ import pytest
 
 from capture.moves import MM, SETTINGS, UM, Axis, following, happened, kinds, listed, planned
 from zlmreport.capture.events import (
+    Closed,
     DatumMoved,
     DatumTaken,
     Elsewhere,
@@ -60,7 +61,7 @@ def test_every_method_is_taken_whole(method: Method) -> None:
         for stop in stops
     )
     visits = listed(method, runs=2)
-    events = happened(chain(axis.stand(), *moves), following(visits))
+    events = happened(chain(axis.stand(), *moves, axis.stand(2)), following(visits))
     assert kinds(events) == [*(f"visit {visit.number}" for visit in visits), "Finished"]
 
 
@@ -169,6 +170,21 @@ def test_a_doubted_reading_is_filed_or_dropped_as_the_operator_says(answer, expe
     (event,) = happened(chain(axis.stand(), axis.go(0)), follower)
     assert isinstance(event, Unclear)
     assert kinds(follower.told(listed()[answer - 1] if answer else None)) == expected
+
+
+@pytest.mark.parametrize(("slip", "holds"), [(0.004, True), (0.011, False)])
+def test_the_capture_closes_on_the_datum_and_states_by_how_much_it_slipped(slip, holds) -> None:
+    axis = Axis(error={-5: slip})
+    follower = following(listed(Method.UNIDIRECTIONAL), datum=-5 * MM)
+    events = happened(chain(axis.stand(), axis.go(0, 100, 200, -5)), follower)
+    assert kinds(events)[-3:] == ["visit 3", "Closed", "Finished"]
+    assert events[-2] == Closed(pytest.approx(slip * MM), holds)
+
+
+def test_a_program_that_ends_where_it_stands_is_not_waited_for() -> None:
+    axis, follower = Axis(), following(listed(Method.UNIDIRECTIONAL), datum=-5 * MM)
+    events = happened(chain(axis.stand(), axis.go(0, 100, 200), axis.stand(2)), follower)
+    assert kinds(events)[-2:] == ["visit 3", "Finished"]
 
 
 @pytest.mark.parametrize("factor", [-1.0, 25.4, 1000.0, 0.5])

@@ -22,7 +22,7 @@ from zlmreport.capture.history import read_history
 from zlmreport.cli import main
 
 PLUGIN = Path(__file__).with_name("scripted.py")
-WHOLE = "0 20 t25 20 0"
+WHOLE = "0 20 t25 20 0 -5"
 JOB = """\
 schema: zlmreport/job/1
 certificate: {number: CAP-1, kind: report}
@@ -85,6 +85,7 @@ def test_a_test_is_captured_and_evaluated(bench: Bench) -> None:
         "2/4      run 1 ↑    20.000 mm      +3.00 µm  range 0.00 µm\n"
         "3/4      run 1 ↓    20.000 mm      +3.00 µm  range 0.00 µm\n"
         "4/4      run 1 ↓     0.000 mm      +0.00 µm  range 0.00 µm\n"
+        "closure  +0.00 µm at the datum\n"
         "next: zlmreport job.yaml\n"
     )
     assert bench.run("job.yaml").code == 0
@@ -153,7 +154,7 @@ def test_an_instrument_that_goes_leaves_what_was_taken_and_says_how_to_go_on(ben
 def test_the_capture_goes_on_after_the_datum_was_checked(bench: Bench) -> None:
     bench.job("0 20")
     bench.run("capture", "job.yaml")
-    bench.job("t15 20 t25 20 0")
+    bench.job("t15 20 t25 20 0 -5")
     done = bench.run("capture", "job.yaml", "--resume")
     assert done.code == 0
     assert done.output.splitlines()[1:5] == [
@@ -220,7 +221,7 @@ def test_a_lost_place_is_asked_for_and_files_nothing_without_a_terminal(bench: B
 def test_the_answer_files_the_reading_that_was_asked_about(bench: Bench) -> None:
     bench.job("0 20 t-5 0", ("runs: 1", "runs: 2"))
     bench.run("capture", "job.yaml")
-    bench.job("t15 20 t25 20 0", ("runs: 1", "runs: 2"))
+    bench.job("t15 20 t25 20 0 -5", ("runs: 1", "runs: 2"))
     bench.run("capture", "job.yaml", "--resume", "--answer", "5")
     history = read_history(bench.journal)
     assert history is not None
@@ -288,7 +289,7 @@ def test_another_program_reads_what_happens_as_the_journal_has_it(bench: Bench) 
     bench.job(WHOLE)
     done = bench.run("capture", "job.yaml", "--json")
     lines = [json.loads(line) for line in done.output.splitlines()]
-    assert [line["record"] for line in lines] == ["datum", *["reading"] * 4, "finished"]
+    assert [line["record"] for line in lines] == ["datum", *["reading"] * 4, "closed", "finished"]
     assert lines[2]["deviation"] == pytest.approx(3e-6)
 
 

@@ -13,8 +13,10 @@ from zlmreport.plugin import (
     CaptureOptions,
     CaptureResumed,
     DataSource,
+    DatumClosed,
     DatumHolds,
     DatumMoved,
+    DatumTaken,
     InputError,
     JournalEntry,
     JournalHeader,
@@ -31,6 +33,17 @@ from zlmreport.plugin import (
     collect_readings,
     hookimpl,
     read_journal,
+)
+
+_HELD = Words(
+    en="At the end the axis came back to the datum; closure: {difference} {unit}.",
+    de="Am Ende kehrte die Achse zum Bezug zurück; Schlussabweichung: {difference} {unit}.",
+)
+_SLIPPED = Words(
+    en="The datum slipped: at the end the axis read {difference} {unit} there. This marks the readings of "
+    "the runs since it was taken: {runs}.",
+    de="Der Bezug hat sich verschoben: Am Ende zeigte die Achse dort {difference} {unit}. Das kennzeichnet "
+    "die Messwerte der Durchläufe seit seiner Aufnahme: {runs}.",
 )
 
 
@@ -76,9 +89,12 @@ def counted(history: JournalHistory) -> tuple[Mapping[int, Taken], tuple[Part, .
     readings: dict[int, Taken] = {}
     parts = []
     for number, attempts in sorted(by_part.items()):
-        attempt = max(attempts, key=lambda each: (len(attempts[each]), each))
-        readings |= {taken.event.visit.number: taken for taken in attempts[attempt]}
-        left_out = sum(len(others) for each, others in attempts.items() if each != attempt)
+        by_visit = {
+            each: {taken.event.visit.number: taken for taken in some} for each, some in attempts.items()
+        }
+        attempt = max(by_visit, key=lambda each: (len(by_visit[each]), each))
+        readings |= by_visit[attempt]  # of a visit that was read again, the last
+        left_out = sum(len(others) for each, others in by_visit.items() if each != attempt)
         parts.append(Part(number, attempt, len(attempts), left_out))
     return readings, tuple(parts)
 
@@ -108,6 +124,7 @@ def remarks(
     )
     yield _datum(header.datum, axis)
     yield from _interruptions(history, axis)
+    yield from _closure(history, axis)
     yield from _repetitions(parts)
     missing = len(header.visits) - len(taken)
     if missing:
@@ -133,6 +150,24 @@ def _datum(datum: float | None, axis: Axis) -> Words:
         de="Die Anzeige bei {position} {unit} wurde dieser Position gleichgesetzt: Abweichungen sind auf sie "
         "bezogen.",
     ).given(position=axis.position_unit.from_si(datum), unit=axis.position_unit.symbol)
+
+
+def _closure(history: JournalHistory, axis: Axis) -> Iterator[Words]:
+    """Yield by how much the datum was another one at the end, and which readings that marks."""
+    since: list[int] = []
+    for entry in history.entries:
+        event = entry.event
+        if isinstance(event, DatumTaken):
+            since = []
+        elif isinstance(event, ReadingRecorded):
+            since.append(event.visit.run)
+        elif isinstance(event, DatumClosed):
+            said = _HELD if event.holds else _SLIPPED
+            yield said.given(
+                difference=axis.deviation_unit.from_si(event.difference),
+                unit=axis.deviation_unit.symbol,
+                runs=", ".join(str(run) for run in sorted(set(since))),
+            )
 
 
 def _interruptions(history: JournalHistory, axis: Axis) -> Iterator[Words]:
@@ -236,7 +271,7 @@ def _readings(history: JournalHistory, taken: Mapping[int, Taken], place: Place)
                 visit.approach,
                 visit.run,
                 found.event.deviation,
-                found.entry.elapsed,
+                found.entry.elapsed - found.event.late,
                 found.event.mean.conditions,
             )
 

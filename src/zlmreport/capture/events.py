@@ -330,6 +330,22 @@ class TooSlow:
 
 
 @dataclass(frozen=True, slots=True)
+class Closed:
+    """The axis came back to the datum after its last visit.
+
+    Attributes
+    ----------
+    difference
+        Reading there − datum, m or rad: what instrument and axis slipped or drifted since it was taken.
+    holds
+        Whether that is less than what counts as motion.
+    """
+
+    difference: float
+    holds: bool
+
+
+@dataclass(frozen=True, slots=True)
 class Finished:
     """The last visit was taken, or missed for good."""
 
@@ -372,6 +388,7 @@ Event: TypeAlias = (
     | ZeroLost
     | TrackLost
     | TooSlow
+    | Closed
     | Finished
     | Interrupted
     | Resumed

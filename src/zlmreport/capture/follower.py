@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from zlmreport.capture.events import (
     HALTING,
+    Closed,
     DatumHolds,
     DatumMoved,
     DatumTaken,
@@ -189,10 +190,10 @@ class Follower:
         self._follow_route(before, reading, zero)
         yield from self._on_the_way(reading.time)
         yield from self._unchanged(before, reading)
+        yield from self._at_the_end(reading, zero)
         if self._window.is_still and self._stood_at is None:
             yield from self._at_a_standstill(zero)
         yield from self._when_doubted(reading, zero)
-        yield from self._at_the_end(reading, zero)
 
     def _follow_route(self, before: LiveReading | None, reading: LiveReading, zero: float) -> None:
         """Follow where the axis turns round: of readings that come seldom each counts that can be true."""
@@ -485,15 +486,26 @@ class Follower:
         yield Recorded(visit, progress.attempts.get(visit.part, 1), stop.position, stop.mean, late)
 
     def _at_the_end(self, reading: LiveReading, zero: float) -> Iterator[Event]:
-        """Finish when the axis leaves the last visit, or has stood there for long enough to stay."""
-        progress = self.progress
+        """Finish when the axis has left the last visit, and has come back to the datum if it goes there.
+
+        A program that ends where it stands, and an axis that goes elsewhere, are not waited for.
+        """
+        progress, settings = self.progress, self._settings
         if progress.taken < len(progress.visits) or progress.question is not None or self._doubted:
             return
         visit = progress.visits[-1]
         last = progress.read.get((visit.target, visit.approach))
-        rest = (self._settings.stay - self._settings.dwell) / 2
-        has_left = abs(reading.value + zero - visit.position) > self._settings.tolerance
-        if last is None or has_left or reading.time - last.mean.time >= rest:
+        position = reading.value + zero
+        has_left = abs(position - visit.position) > settings.tolerance
+        if last is None or (has_left and progress.datum is None):
+            yield Finished()
+        elif not has_left or progress.datum is None:
+            if reading.time - last.mean.time >= settings.stay:
+                yield Finished()
+        elif self._window.is_still:
+            difference = self._window.mean().value + zero - progress.datum
+            if abs(difference) <= settings.tolerance:
+                yield Closed(difference, abs(difference) <= settings.motion)
             yield Finished()
 
     def _is_worse(self, index: int, stop: Stop) -> bool:

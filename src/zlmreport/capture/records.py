@@ -11,6 +11,7 @@ from types import MappingProxyType
 from typing import Any, TypeAlias
 
 from zlmreport.capture.events import (
+    Closed,
     DatumHolds,
     DatumMoved,
     DatumTaken,
@@ -67,6 +68,7 @@ _KINDS: Mapping[str, type] = MappingProxyType(
         "zero-lost": ZeroLost,
         "track-lost": TrackLost,
         "too-slow": TooSlow,
+        "closed": Closed,
         "finished": Finished,
         "interrupted": Interrupted,
         "resumed": Resumed,
@@ -168,6 +170,7 @@ _READERS: Mapping[str, _Reader] = MappingProxyType(
         "approach": lambda record, _visits: (
             None if record["approach"] is None else Approach(record["approach"])
         ),
+        "holds": lambda record, _visits: bool(record["holds"]),
         "target": lambda record, _visits: int(record["target"]),
         "attempt": lambda record, _visits: int(record["attempt"]),
         "message": lambda record, _visits: str(record["message"]),

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from math import isclose
 
 from zlmreport.capture.events import (
+    Closed,
     DatumHolds,
     DatumMoved,
     DatumTaken,
@@ -75,6 +76,9 @@ def line_on(event: Event, visits: int, writer: AxisWriter) -> str:
             return f"datum    the reading is taken for {writer.position(position)}"
         case DatumHolds(visit=visit, difference=difference):
             return f"datum    holds: {writer.deviation(difference)} against visit {visit.number}"
+        case Closed(difference=difference, holds=holds):
+            slipped = "" if holds else ": it slipped, and what was read since it was taken is marked"
+            return f"closure  {writer.deviation(difference)} at the datum{slipped}"
         case NotChecked(target=target, approach=approach):
             return f"datum    target {target} {approach.arrow} was not read before: nothing is taken"
         case Recorded(visit=visit, mean=mean):

@@ -10,7 +10,8 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from zlmreport.capture.events import DatumHolds, DatumMoved, ZeroLost
+    from zlmreport.capture.events import Closed as DatumClosed
+    from zlmreport.capture.events import DatumHolds, DatumMoved, DatumTaken, ZeroLost
     from zlmreport.capture.events import Ended as CaptureEnded
     from zlmreport.capture.events import Recorded as ReadingRecorded
     from zlmreport.capture.events import Resumed as CaptureResumed
@@ -319,8 +320,10 @@ __all__ = [
     "Customer",
     "DataSource",
     "Date",
+    "DatumClosed",
     "DatumHolds",
     "DatumMoved",
+    "DatumTaken",
     "DecimalSign",
     "Decision",
     "Described",
@@ -556,7 +559,8 @@ _ROOMS = {
     "zlmreport.certificate.circumstances": "Fact",
     "zlmreport.certificate.conditions": "Described",
     "zlmreport.capture.events": (
-        "CaptureEnded=Ended CaptureResumed=Resumed DatumHolds DatumMoved ReadingRecorded=Recorded ZeroLost"
+        "CaptureEnded=Ended CaptureResumed=Resumed DatumClosed=Closed DatumHolds DatumMoved DatumTaken "
+        "ReadingRecorded=Recorded ZeroLost"
     ),
     "zlmreport.capture.history": "JournalEntry=Entry JournalHistory=History read_journal=read_history",
     "zlmreport.capture.options": "CaptureOptions",

@@ -100,9 +100,10 @@ def emulated_machine(description: Description, lead: float) -> EmulatedMachine:
     """Return a machine that carries out the plan of a description.
 
     At each target it errs by its effects and by its noise, drawn as for simulated readings, and rests there;
-    on the way to the next its error goes over from the one to the other. Where it rests before its program it
-    does not err: there the instrument gets its datum. What a description says of an instrument, its
-    resolution and its missing readings, is left to the instrument that watches.
+    on the way to the next its error goes over from the one to the other. Where it rests before its program,
+    and where it comes back to at the end, it does not err: there the instrument gets its datum. What a
+    description says of an instrument, its resolution and its missing readings, is left to the instrument that
+    watches.
 
     Parameters
     ----------
@@ -122,7 +123,7 @@ def emulated_machine(description: Description, lead: float) -> EmulatedMachine:
     moments, nominal, visited = _course(description.plan, lead)
     arrives, leaves = moments[visited], moments[visited + 1]
     at_rest = np.column_stack([arrives, leaves]).ravel()
-    errs = np.interp(moments, [lead, *at_rest], [0.0, *np.repeat(truth.deviation, 2)])
+    errs = np.interp(moments, [lead, *at_rest, moments[-1]], [0.0, *np.repeat(truth.deviation, 2), 0.0])
     course = nominal + errs
     return EmulatedMachine(
         tuple(moments.tolist()),
@@ -162,6 +163,8 @@ def _corners(plan: Plan, lead: float) -> Iterator[tuple[float, float, bool]]:
     """Yield each corner of the motion: when, where, and whether the axis arrives at a target there."""
     stops = path(plan.method, plan.targets.tolist(), plan.runs, plan.overrun)
     yield 0.0, stops[0].position, False
+    if stops[-1].position != stops[0].position:
+        stops = (*stops, stops[0])
     now = lead
     yield now, stops[0].position, False
     for before, stop in pairwise(stops):

@@ -19,6 +19,7 @@ from zlmreport.live.reading import Fault
 from zlmreport.measurement import axis as axes
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.measurement_set import MeasurementSet, MissingReading
+from zlmreport.planning.methods import Method
 from zlmreport.plugin.protocols import SourceContext
 from zlmreport_plugins.sources.serial_interferometer import SerialInterferometer
 
@@ -131,3 +132,20 @@ def test_a_journal_of_another_axis_is_refused() -> None:
 def test_the_sample_is_the_plan_that_it_says() -> None:
     assert planned(runs=2).targets.tolist() == read(LINEAR).target_positions.tolist()
     assert len(listed(runs=2)) == len(read(LINEAR).deviation)
+
+
+def test_of_a_visit_that_was_read_again_the_last_reading_counts(tmp_path: Path) -> None:
+    axis = Axis(error={-0.025: 0.0})
+    written(tmp_path / "x.journal", chain(axis.stand(), axis.go(-0.025, stay=1.5), axis.go(0, 100)))
+    with Journal.continued(tmp_path / "x.journal") as journal:
+        journal.append(Ended(), journal.elapsed)
+    assert read(tmp_path / "x.journal").deviation[0] == 0.0
+
+
+@pytest.mark.parametrize(
+    ("slip", "expected"), [(0.004, "closure: 4"), (0.011, "The datum slipped: at the end the axis read 11")]
+)
+def test_the_closing_look_at_the_datum_is_told(slip: float, expected: str, tmp_path: Path) -> None:
+    plan, axis = planned(Method.UNIDIRECTIONAL), Axis(error={-5: slip})
+    path = written(tmp_path / "x.journal", chain(axis.stand(), axis.go(0, 100, 200, -5)), plan, datum=-5 * MM)
+    assert any(expected in remark for remark in said(read(path)))
