@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+import contextlib
+import time
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from concurrent.futures import CancelledError
 from dataclasses import dataclass, field
 from typing import Any, Self
 
 from zlmreport.errors import AccessError, InputError, Place, Problem
-from zlmreport.fleet.making import Failed, Made, Task, work
+from zlmreport.fleet.making import BEAT, Failed, Made, Task, late, work
 
 #: For which a scheduler may be silent, and be without workers, s.
 _PATIENCE = 30
@@ -37,10 +40,13 @@ class Cluster:
         Its address: ``tcp://scheduler:8786``.
     named_at
         Where the fleet file names it.
+    beat
+        Is called every few seconds, whatever the workers do.
     """
 
     scheduler: str
     named_at: Place
+    beat: Callable[[], None] = lambda: None
     _client: Any = field(default=None)
 
     def __enter__(self) -> Self:
@@ -81,26 +87,43 @@ class Cluster:
                 yield task, result.failed(task) if isinstance(result, _Lost) else result
 
     def _done(self, tasks: Iterable[Task]) -> Iterator[tuple[Task, Made | Failed | _Lost]]:
-        from distributed import as_completed  # noqa: PLC0415 - as above
+        from distributed import wait  # noqa: PLC0415 - as above
 
         waiting = iter(tasks)
-        under_way: dict[str, Task] = {}
-        done = as_completed(loop=self._client.loop, raise_errors=False)
-        self._send(waiting, under_way, done)
-        for future in done:
-            task = under_way.pop(future.key)
-            result = self._result(future)
-            future.release()
-            self._send(waiting, under_way, done)
-            yield task, result
+        under_way: dict[Any, tuple[Task, float]] = {}
+        self._send(waiting, under_way)
+        while under_way:
+            done: set[Any] = set()
+            try:
+                with self._client.as_current():
+                    done = wait(list(under_way), timeout=BEAT, return_when="FIRST_COMPLETED").done
+            except TimeoutError:
+                pass
+            except CancelledError as error:
+                raise self._gone() from error
+            self.beat()
+            ended = [(future, self._result(future)) for future in done]
+            ended += [(future, self._stopped(future, task)) for future, task in _late(under_way, done)]
+            for future, result in ended:
+                task, _ = under_way.pop(future)
+                future.release()
+                self._send(waiting, under_way)
+                yield task, result
 
-    def _send(self, waiting: Iterator[Task], under_way: dict[str, Task], done: Any) -> None:
+    def _send(self, waiting: Iterator[Task], under_way: dict[Any, tuple[Task, float]]) -> None:
         """Let no worker wait, and none have more than it needs: results are as large as documents."""
         most = _AHEAD * max(1, sum(self._client.nthreads().values()))
         while len(under_way) < most and (task := next(waiting, None)) is not None:
             future = self._client.submit(work, task, pure=False)
-            under_way[future.key] = task
-            done.add(future)
+            under_way[future] = task, time.monotonic()
+
+    def _stopped(self, future: Any, task: Task) -> Failed:
+        """Take a task away from its worker by starting that anew; what waited there is made once more."""
+        workers = [address for address, keys in self._client.processing().items() if future.key in keys]
+        future.cancel(force=True)
+        with contextlib.suppress(Exception):  # one without a nanny cannot be started again
+            self._client.restart_workers(workers, timeout=_PATIENCE)
+        return late(task)
 
     def _result(self, future: Any) -> Made | Failed | _Lost:
         if future.status == "finished":
@@ -108,4 +131,19 @@ class Cluster:
             return result
         if future.status == "error":
             return _Lost(str(future.exception()))
-        raise AccessError.at(self.named_at, f"the scheduler {self.scheduler} is gone")
+        raise self._gone()
+
+    def _gone(self) -> AccessError:
+        return AccessError(
+            [*AccessError.at(self.named_at, f"the scheduler {self.scheduler} is gone").problems]
+        )
+
+
+def _late(under_way: Mapping[Any, tuple[Task, float]], done: Collection[Any]) -> list[tuple[Any, Task]]:
+    """Return what has been under way for too long; each may have waited for as many as are sent ahead."""
+    now = time.monotonic()
+    return [
+        (future, task)
+        for future, (task, begun) in under_way.items()
+        if future not in done and now - begun > _AHEAD * task.limits.seconds
+    ]

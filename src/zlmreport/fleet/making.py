@@ -24,6 +24,8 @@ from zlmreport.job.loading import chosen_formats, load
 from zlmreport.language import Words
 from zlmreport.plugins import Registry, find_plugins
 
+#: The longest time between two signs of life of a night, s.
+BEAT = 5.0
 #: Before the suffix of a draft's file.
 MARK = ".draft"
 
@@ -144,6 +146,12 @@ class Failed:
     problems: tuple[Problem, ...]
     subject: Subject = field(default_factory=Subject)
     is_stopped: bool = False
+
+
+def late(task: Task) -> Failed:
+    """Return the answer of a task that was stopped because its time was over."""
+    message = f"was stopped: it was not made within {task.limits.seconds:g} s, the limit of a job"
+    return Failed((Problem(Place(str(task.job)), message),), is_stopped=True)
 
 
 #: A worker of Dask may have several threads, and no library that lays out pages has been asked about that.

@@ -271,7 +271,7 @@ def _task(planned: Planned, known: Evening, plugins: tuple[Path, ...], work: _Wo
 def _executor(fleet: FleetFile, order: Order, due: int, beat: Callable[[], None]) -> Pool | Cluster:
     keys = fleet.keys.executor
     if keys.kind == "dask":
-        return Cluster(keys.scheduler or "", fleet.place_of("executor", "scheduler"))
+        return Cluster(keys.scheduler or "", fleet.place_of("executor", "scheduler"), beat)
     wanted = order.workers or keys.workers or len(os.sched_getaffinity(0))
     return Pool(min(wanted, due), order.plugins, beat)
 

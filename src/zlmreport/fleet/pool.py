@@ -16,12 +16,10 @@ from pathlib import Path
 from typing import Self
 
 from zlmreport.errors import Place, Problem
-from zlmreport.fleet.making import Failed, Made, Task, warm, work
+from zlmreport.fleet.making import BEAT, Failed, Made, Task, late, warm, work
 
 #: Certificates after which a worker makes room for a new one: no library is trusted to leak nothing.
 LIFE = 500
-#: The longest time between two signs of life of the night, s.
-_BEAT = 5.0
 
 
 @dataclass(slots=True)
@@ -109,7 +107,7 @@ class Pool:
         """Wait for workers that answer or have ended; those whose time is over are killed, and count."""
         while True:
             first = min(worker.deadline for worker in busy.values())
-            ready = wait(list(busy), timeout=max(0.0, min(first - time.monotonic(), _BEAT)))
+            ready = wait(list(busy), timeout=max(0.0, min(first - time.monotonic(), BEAT)))
             self.beat()
             now = time.monotonic()
             found = [worker for line, worker in busy.items() if line in ready or worker.deadline <= now]
@@ -135,7 +133,7 @@ class Pool:
         except (EOFError, OSError):
             worker.process.join()
             if worker.deadline <= time.monotonic():
-                return task, _late(task)
+                return task, late(task)
             return task, worker.process.exitcode or 0
         worker.done += 1
         return task, result
@@ -178,11 +176,6 @@ def _serve(line: Connection, plugins: tuple[Path, ...]) -> None:
 
 def _within(soft: int, hard: int) -> int:
     return soft if hard == resource.RLIM_INFINITY else min(soft, hard)
-
-
-def _late(task: Task) -> Failed:
-    message = f"was stopped: it was not made within {task.limits.seconds:g} s, the limit of a job"
-    return Failed((Problem(Place(str(task.job)), message),), is_stopped=True)
 
 
 def _killed(task: Task, code: int) -> Failed:
