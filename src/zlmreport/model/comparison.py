@@ -21,6 +21,9 @@ from zlmreport.model.nameless import SIZES, NamelessShape, ShapeModes, modes, na
 from zlmreport.model.noise import NoisePart, NoiseSource, noise_parts, ratio_grid
 from zlmreport.quantities.arrays import FloatArray, IntArray
 
+#: Variances of an effect before any reading, in units of what one reading is worth, and their weights.
+_WORTHS = ((1.0, 0.9), (1e2, 0.05), (1e4, 0.03), (1e6, 0.02))
+
 
 @dataclass(frozen=True, slots=True)
 class Scores:
@@ -146,13 +149,21 @@ class Comparison:
             {index: modes(metrics[index], nameless_shared, gram, places) for index in _coarse(grid, parts)},
         )
 
-    def scores(self, deviations: FloatArray) -> Scores:
-        """Return the likelihood ratios on sets of deviations, shape (N, B)."""
+    def scores(self, deviations: FloatArray, known: float = 0.0) -> Scores:
+        """Return the likelihood ratios on sets of deviations.
+
+        Parameters
+        ----------
+        deviations : (N, B) array
+            m or rad.
+        known
+            Standard deviation of a noise of known size that stands beside σ, m or rad.
+        """
         sets = deviations.shape[1]
         null = np.full(sets, np.inf)
         families = np.full((len(self.bases.families), sets), np.inf)
         nameless = np.full((len(self.nameless), sets), np.inf)
-        for trial in self._trials(deviations):
+        for trial in self._trials(deviations, known):
             np.minimum(null, self._criterion(trial, trial.squares), out=null)
             for group, explained in self._explained(trial):
                 most = np.maximum.reduceat(explained, group.starts, axis=0)
@@ -163,22 +174,19 @@ class Comparison:
         best = [families[list(forms)].min(axis=0) for forms in self.bases.by_effect]
         return Scores(null - np.array(best).reshape(-1, sets), null - nameless)
 
-    def criteria(self, deviation: FloatArray) -> Criteria:
-        """Return the criteria of one set of deviations, shape (N,)."""
+    def criteria(self, deviation: FloatArray, known: float = 0.0) -> Criteria:
+        """Return the criteria of one set of deviations, shape (N,); `known` as in `scores`."""
         null: list[float] = []
         fits: list[FloatArray] = []
         averages: list[FloatArray] = []
         nameless: list[FloatArray] = []
-        # Variance of an effect before any reading, over that which all leave: one reading's worth.
-        prior = float(self.space.degrees)
-        for trial in self._trials(deviation[:, np.newaxis]):
+        for trial in self._trials(deviation[:, np.newaxis], known):
             null.append(self._criterion(trial, trial.squares)[0])
             explained = [each[:, 0] for _, each in self._explained(trial)]
             ranks = [group.ranks for group in self.bases.groups]
             together, rank = np.concatenate([*explained, []]), np.concatenate([*ranks, []])
             fits.append(self._criterion(trial, trial.squares - together))
-            shrunk = together * prior / (1.0 + prior)
-            averages.append(self._criterion(trial, trial.squares - shrunk) + rank * np.log1p(prior))
+            averages.append(self._averaged(trial, together, rank))
             nameless.extend(averaged[:, 0] for averaged in self._nameless_criteria(trial))
         return Criteria(
             np.array(null),
@@ -194,9 +202,9 @@ class Comparison:
         roots = tuple(bases.roots(metric, shared) for metric in self._metrics)
         return replace(self, bases=bases, nameless=(), _shared=shared, _roots=roots)
 
-    def _trials(self, deviations: FloatArray) -> Iterator[_Trial]:
+    def _trials(self, deviations: FloatArray, known: float) -> Iterator[_Trial]:
         contrasts = self.space.of(deviations)
-        squares = np.sum(contrasts**2, axis=0)
+        squares = np.sum(contrasts**2, axis=0) + self.space.degrees * known**2
         by_factor = self.space.factors.T @ contrasts
         by_column = self.bases.columns.T @ contrasts
         by_nameless = self._nameless_columns.T @ contrasts
@@ -216,6 +224,21 @@ class Comparison:
     def _criterion(self, trial: _Trial, squares: FloatArray) -> FloatArray:
         """Return −2 ln(likelihood) of residual squares, σ profiled out."""
         return self.space.criterion(self._metrics[trial.index], squares)
+
+    def _averaged(self, trial: _Trial, explained: FloatArray, rank: FloatArray) -> FloatArray:
+        """Return the criterion of every block, its coefficients averaged over, shape (blocks,).
+
+        Before any reading, the variance of an effect is one reading's worth, or rarely more: with that alone
+        no evidence could grow beyond the number of readings, however small the scatter.
+        """
+        found = []
+        for factor, weight in _WORTHS:
+            prior = factor * float(self.space.degrees)
+            left = trial.squares - explained * prior / (1.0 + prior)
+            found.append(self._criterion(trial, left) + rank * np.log1p(prior) - 2.0 * np.log(weight))
+        least = np.min(found, axis=0)
+        likelihoods = np.exp(-0.5 * (np.array(found) - least)).sum(axis=0)
+        return np.asarray(least - 2.0 * np.log(likelihoods), dtype=np.float64)
 
     def _explained(self, trial: _Trial) -> Iterator[tuple[BlockGroup, FloatArray]]:
         """Yield for each group what its blocks explain of the squares, shape (blocks, B)."""

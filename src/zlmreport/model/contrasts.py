@@ -93,7 +93,7 @@ class Contrasts:
         logarithms = np.log(np.diagonal(factor))
         return Metric(active, np.linalg.inv(factor) * roots, 2.0 * float(logarithms.sum()))
 
-    def restricted(self, contrast: FloatArray, ratios: FloatArray) -> tuple[float, float]:
+    def restricted(self, contrast: FloatArray, ratios: FloatArray, known: float = 0.0) -> tuple[float, float]:
         """Return −2 ln(restricted likelihood) and the residual sum of squares, σ profiled out.
 
         Parameters
@@ -102,6 +102,8 @@ class Contrasts:
             Of the deviations.
         ratios : (parts,) array
             φ.
+        known
+            Residual sum of squares of a noise of known size that stands beside σ.
         """
         total = float(contrast @ contrast)
         active, roots, gram = self._active(ratios)
@@ -112,7 +114,7 @@ class Contrasts:
         bordered[-1, :-1] = roots * (self.factors.T @ contrast)[active] / length
         bordered[-1, -1] += _ROUNDING
         pivots = np.diagonal(np.linalg.cholesky(bordered))
-        squares = total * float(pivots[-1]) ** 2
+        squares = total * float(pivots[-1]) ** 2 + known
         criterion = self.degrees * np.log(max(squares, _NOTHING)) + 2.0 * np.log(pivots[:-1]).sum()
         return float(criterion), squares
 
@@ -152,7 +154,7 @@ def contrasts_of(base: FloatArray, parts: Sequence[NoisePart], weights: FloatArr
 
 
 def restricted_estimate(
-    space: Contrasts, contrasts: FloatArray, grid: FloatArray, largest: FloatArray
+    space: Contrasts, contrasts: FloatArray, grid: FloatArray, largest: FloatArray, known: float = 0.0
 ) -> tuple[FloatArray, float]:
     """Return φ̂ and σ̂² by restricted maximum likelihood.
 
@@ -166,10 +168,12 @@ def restricted_estimate(
         Ratios that the search begins with.
     largest : (parts,) array
         Ratios that it does not exceed.
+    known
+        Residual sum of squares of a noise of known size that stands beside σ; σ̂² contains it.
     """
 
     def criterion(ratios: FloatArray) -> float:
-        return space.restricted(contrasts, ratios)[0]
+        return space.restricted(contrasts, ratios, known)[0]
 
     tried = [criterion(ratios) for ratios in grid]
     best, ratios = min(tried), grid[int(np.argmin(tried))].copy()
@@ -183,7 +187,7 @@ def restricted_estimate(
                 value = criterion(changed)
                 if value < best - _WORTHWHILE:
                     best, ratios, improved = value, changed, True
-    return ratios, space.restricted(contrasts, ratios)[1] / space.degrees
+    return ratios, space.restricted(contrasts, ratios, known)[1] / space.degrees
 
 
 @dataclass(frozen=True, slots=True)

@@ -94,7 +94,11 @@ class _Tried:
 
 
 def evidence_of(
-    comparison: Comparison, design: Design, deviation: FloatArray, least_visible: float
+    comparison: Comparison,
+    design: Design,
+    deviation: FloatArray,
+    least_visible: float,
+    known: float = 0.0,
 ) -> Evidence:
     """Return the evidence of one set of deviations.
 
@@ -108,8 +112,10 @@ def evidence_of(
         x, m or rad.
     least_visible
         Share of an effect's length below which the base model imitates it entirely.
+    known
+        Standard deviation of a noise of known size that stands beside σ, m or rad.
     """
-    criteria = comparison.criteria(deviation)
+    criteria = comparison.criteria(deviation, known)
     families = _tried(comparison, criteria)
     by_effect = comparison.bases.by_effect
     averages = [_of_forms([families[form] for form in forms]) for forms in by_effect]
@@ -117,7 +123,7 @@ def evidence_of(
     leaders = [forms for forms, average in zip(by_effect, averages, strict=True) if average < foremost]
     finer = [_finer(min((families[form] for form in forms), key=_least)) for forms in leaders]
     others = comparison.of_others(design, [each for each in finer if each is not None], least_visible)
-    between = {id(each.effect): each for each in _tried(others, others.criteria(deviation))}
+    between = {id(each.effect): each for each in _tried(others, others.criteria(deviation, known))}
     families = [_merged(each, between.get(id(each.effect))) for each in families]
     base = _average(criteria.null)
     best = [min((families[form] for form in forms), key=_least) for forms in by_effect]

@@ -19,6 +19,8 @@ from zlmreport.quantities.arrays import FloatArray, IntArray
 #: Equality is refuted at this level: weights that are not needed cost more than those that are missing.
 _LEVEL = 0.01
 _FEWEST_READINGS = 3
+#: Decimal exponent of the finest step that is looked for, µm or ″, and what is a multiple of one.
+_FINEST, _MULTIPLE = -7, 1e-3
 _TRIALS = 300
 _SEED = 20_261_118
 
@@ -76,6 +78,24 @@ def apart_in_time(design: Design) -> bool:
     order = np.lexsort((np.arange(len(cell)), cell))
     gaps = np.diff(order)[np.diff(cell[order]) == 0]
     return bool(gaps.size and np.median(gaps) > 0.5 * len(np.unique(cell)))
+
+
+def resolution(values: FloatArray) -> float:
+    """Return the step of which readings are multiples, in their unit; 0 where they are not of any.
+
+    >>> resolution(np.array([0.4, 1.2, -0.6])), resolution(np.array([5.0, 10.0, 20.0]))
+    (0.2, 5.0)
+    """
+    largest = float(np.abs(values).max(initial=0.0))
+    if largest == 0:
+        return 0.0
+    for exponent in range(int(np.floor(np.log10(largest))), _FINEST, -1):
+        for digit in (5, 2, 1):
+            step = float(f"{digit}e{exponent}")
+            multiples = values / step
+            if np.all(np.abs(multiples - np.rint(multiples)) < _MULTIPLE):
+                return step
+    return 0.0
 
 
 def noise_floor(design: Design, deviation: FloatArray) -> float | None:

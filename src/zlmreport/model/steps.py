@@ -16,6 +16,7 @@ from zlmreport.model.evidence import EXPLAINED, FURTHER, MENTION, NAMED, Ranked,
 from zlmreport.model.fit import Fit, fit
 from zlmreport.model.noise import Noise
 from zlmreport.model.null_distribution import LEVEL, NullDistribution, PValue, simulate_null
+from zlmreport.model.repeats import resolution
 from zlmreport.model.search import Thetas
 from zlmreport.quantities.arrays import FloatArray
 
@@ -26,6 +27,10 @@ _MOST_STEPS = 3
 _LEAST_VISIBLE, _LEAST_VISIBLE_LATER = 1e-6, 1e-3
 _AND = Words(en="{first}; {second}", de="{first}; {second}")
 _FROM = Words(en="{effect}: {measurement}", de="{effect}: {measurement}")
+
+
+#: Share of what is to be explained, and of what the model explains, that no equation of a machine describes.
+_INEXACT_MISFIT, _INEXACT_MODEL = 0.01, 0.002
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,22 +82,37 @@ class Step:
         return leading[0] if leading and leading[0].evidence > 0 else None
 
 
-def compared(fitted: Fit, effects: Iterable[Effect]) -> Step:
-    """Return a comparison of all effects beside a fitted model."""
+def compared(fitted: Fit, effects: Iterable[Effect], first: Fit | None = None) -> Step:
+    """Return a comparison of all effects beside a fitted model.
+
+    Parameters
+    ----------
+    fitted
+        The model.
+    effects
+        That may be missing.
+    first
+        The model with which a diagnosis began, where effects have been added on trial since.
+    """
     design, deviation = fitted.design, fitted.open_deviation
     entered = effects_to_try(fitted.model, design, effects)
-    known = all(len(theta) == 0 for theta in fitted.solution.thetas)
-    least_visible = _LEAST_VISIBLE if known else _LEAST_VISIBLE_LATER
+    is_linear = all(len(theta) == 0 for theta in fitted.solution.thetas)
+    least_visible = _LEAST_VISIBLE if is_linear else _LEAST_VISIBLE_LATER
     comparison = Comparison.of(
         design, fitted.base(), entered.forms, fitted.noise.weights, least_visible=least_visible
     )
     space = comparison.space
+    known = known_noise(fitted, first or fitted)
     ratios, variance = restricted_estimate(
-        space, space.of(deviation), comparison.grid, comparison.grid.max(axis=0, initial=0.0)
+        space,
+        space.of(deviation),
+        comparison.grid,
+        comparison.grid.max(axis=0, initial=0.0),
+        space.degrees * known**2,
     )
     by_source = {part.source: float(ratio) for part, ratio in zip(space.parts, ratios, strict=True)}
     null = simulate_null(comparison, design, ratios)
-    scores = comparison.scores(deviation[:, np.newaxis])
+    scores = comparison.scores(deviation[:, np.newaxis], known)
     return Step(
         fitted,
         comparison,
@@ -103,11 +123,25 @@ def compared(fitted: Fit, effects: Iterable[Effect]) -> Step:
             comparison,
             design,
             scores,
-            evidence_of(comparison, design, deviation, least_visible),
+            evidence_of(comparison, design, deviation, least_visible, known),
             null,
         ),
         null.p_value(scores),
     )
+
+
+def known_noise(fitted: Fit, first: Fit) -> float:
+    """Return the standard deviation of what repeats do not show and no effect is asked to explain, m or rad.
+
+    Repeats share the rounding of the instrument, and no equation of a machine is exact: the wave of a screw
+    is no pure sine. On a quiet machine both stand far above the scatter, and any irregular shape would
+    surpass the cause that explains all but a hundredth. They are doubled, as irregular shares of the noise
+    may have half the size of all of it (`noise`).
+    """
+    unit = first.design.axis.deviation_unit
+    rounding = unit.to_si(resolution(unit.from_si(first.deviation))) / 12**0.5
+    inexact = _INEXACT_MISFIT * float(np.std(first.residual)), _INEXACT_MODEL * float(np.std(fitted.fitted))
+    return 2.0 * float(np.hypot(rounding, np.hypot(*inexact)))
 
 
 def add(fitted: Fit, found: Ranked) -> Fit:
@@ -129,7 +163,7 @@ def steps(first: Fit, effects: Sequence[Effect]) -> tuple[Step, ...]:
         last = found[-1]
         if not last.something_is_missing or last.best is None:
             break
-        found.append(compared(add(last.fit, last.best), effects))
+        found.append(compared(add(last.fit, last.best), effects, first))
     return tuple(found)
 
 
