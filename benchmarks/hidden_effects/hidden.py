@@ -10,7 +10,7 @@ import numpy as np
 from hidden_effects.sizes import beyond
 from zlmreport.model.axis_model import Term
 from zlmreport.model.design import Design
-from zlmreport.model.effect import Dimension, Effect
+from zlmreport.model.effect import Dimension, Effect, Parameter
 from zlmreport.quantities.arrays import FloatArray
 
 #: A deviation of which a smaller share is left is imitated entirely.
@@ -34,6 +34,10 @@ def drawn_effect(
         Root mean square value of what the model cannot imitate, m or rad.
     random
         Where everything comes from. No parameter is drawn that can only be positive and is not.
+
+    Notes
+    -----
+    What would have to be physically impossible to be so large is not visible: no axis has it.
     """
     forms = [form for form in effect.forms() if form.untestable(design) is None]
     if not forms:
@@ -49,8 +53,15 @@ def drawn_effect(
     if scale is None:
         return None
     values = dict(zip((each.name for each in form.linear), (scale * gamma).tolist(), strict=True))
+    if not all(_is_possible(each, values[each.name]) for each in form.linear):
+        return None
     values |= dict(zip((each.name for each in form.searched), theta.tolist(), strict=True))
     return Term(form, values)
+
+
+def _is_possible(parameter: Parameter, value: float) -> bool:
+    low, high = parameter.smallest, parameter.largest
+    return (low is None or low <= value) and (high is None or value <= high)
 
 
 def scale_to(deviation: FloatArray, base: FloatArray, rms: float) -> float | None:

@@ -44,8 +44,8 @@ class CompensationSign(Effect):
                 en="2: wrong sign; 1: not active; −1: applied twice",
                 de="2: falsches Vorzeichen; 1: nicht aktiv; −1: doppelt angewandt",
             ),
-            -1.5,
-            2.5,
+            -3.0,
+            3.0,
         ),
     )
     shape = Shape.POSITION
@@ -93,8 +93,8 @@ class CompensationShift(Effect):
             "k",
             Dimension.RATIO,
             Words(en="1: exactly one row off", de="1: genau eine Zeile verschoben"),
-            0.5,
-            1.5,
+            -3.0,
+            3.0,
         ),
     )
     shape = Shape.POSITION

@@ -23,7 +23,7 @@ from zlmreport.plugin import (
 from zlmreport_plugins.effects import experiments
 
 _ORDERS_OF_A_CONTEST = (2, 3, 4, 5)
-_LARGEST = 50e-6
+_LARGEST = 500e-6
 
 
 class Offset(Effect):
@@ -75,8 +75,8 @@ class ScaleError(Effect):
             "b",
             Dimension.SLOPE,
             Words(en="error per position", de="Abweichung je Position"),
-            -50e-6,
-            50e-6,
+            -500e-6,
+            500e-6,
         ),
     )
     shape = Shape.POSITION
@@ -185,7 +185,7 @@ class CosineError(Effect):
                 de="relative Verkürzung durch die Schiefstellung",
             ),
             0.0,
-            50e-6,
+            500e-6,
         ),
     )
     shape = Shape.POSITION

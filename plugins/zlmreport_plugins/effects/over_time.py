@@ -20,7 +20,7 @@ from zlmreport.plugin import (
 )
 from zlmreport_plugins.effects import experiments
 
-_LARGEST = 10e-6
+_LARGEST = 50e-6
 #: Periods within the test: fewer are a drift, more are taken for noise.
 _PERIODS_WITHIN = np.linspace(1.3, 9.0, 32)
 _MOST_MOMENTS = 200
@@ -77,8 +77,8 @@ class DatumStep(Effect):
             "A",
             Dimension.DEVIATION,
             Words(en="height of the jump", de="Höhe des Sprungs"),
-            -100e-6,
-            100e-6,
+            -1e-3,
+            1e-3,
         ),
     )
     searched = (
@@ -136,8 +136,8 @@ class FirstRun(Effect):
             "A",
             Dimension.DEVIATION,
             Words(en="first run less the others", de="erster Durchlauf gegen die übrigen"),
-            -50e-6,
-            50e-6,
+            -500e-6,
+            500e-6,
         ),
     )
     shape = Shape.RUN

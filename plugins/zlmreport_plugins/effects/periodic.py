@@ -30,11 +30,11 @@ from zlmreport_plugins.effects import experiments
 #: In which a contest tries such an effect.
 COMBINATIONS = ((1,), (2,), (1, 2))
 _SCREW_PITCH = "axis.screw_pitch"
-_LARGEST_OF_PITCH = 8e-6
-_LARGEST_OF_DIRECTION = 3e-6
+_LARGEST_OF_PITCH = 50e-6
+_LARGEST_OF_DIRECTION = 20e-6
 _SIGNAL_PERIOD = "axis.signal_period"
-_LARGEST_OF_SIGNAL = 2e-6
-_LARGEST_OF_ANY = 20e-6
+_LARGEST_OF_SIGNAL = 10e-6
+_LARGEST_OF_ANY = 200e-6
 #: Fewer periods within the travel are a bow; more than half the number of targets cannot be told from fewer.
 _FEWEST_PERIODS = 1.3
 _STEPS_PER_PERIOD = 4

@@ -39,8 +39,8 @@ class Backlash(Effect):
             "B",
             Dimension.DEVIATION,
             Words(en="reversal value of the whole axis", de="Umkehrspanne der ganzen Achse"),
-            -100e-6,
-            100e-6,
+            -500e-6,
+            500e-6,
         ),
     )
     shape = Shape.DIRECTION
@@ -78,8 +78,8 @@ class BacklashGradient(Effect):
             "g",
             Dimension.SLOPE,
             Words(en="half the growth of the gap per position", de="halbe Zunahme des Abstands je Position"),
-            -50e-6,
-            50e-6,
+            -200e-6,
+            200e-6,
         ),
     )
     shape = Shape.DIRECTION
@@ -110,8 +110,8 @@ class BacklashBow(Effect):
             "k",
             Dimension.DEVIATION,
             Words(en="half the additional gap in the middle", de="halber zusätzlicher Abstand in der Mitte"),
-            -20e-6,
-            20e-6,
+            -100e-6,
+            100e-6,
         ),
     )
     shape = Shape.DIRECTION
@@ -146,8 +146,8 @@ class ReversalRelaxation(Effect):
             "A",
             Dimension.DEVIATION,
             Words(en="deviation at the reversal", de="Abweichung an der Umkehr"),
-            -20e-6,
-            20e-6,
+            -100e-6,
+            100e-6,
         ),
     )
     searched = (

@@ -23,7 +23,7 @@ from zlmreport.plugin import (
 )
 from zlmreport_plugins.effects import experiments
 
-_LARGEST = 200e-6
+_LARGEST = 2e-3
 _WAVES = 2
 _TURN = 2 * math.pi
 #: One and two waves a turn have names of their own; fewer waves in the travel are a bow.

@@ -34,8 +34,8 @@ class ScaleJoint(Effect):
             "A",
             Dimension.DEVIATION,
             Words(en="height of the step", de="Höhe des Sprungs"),
-            -20e-6,
-            20e-6,
+            -100e-6,
+            100e-6,
         ),
     )
     searched = (
@@ -83,8 +83,8 @@ class ScaleKink(Effect):
             "A",
             Dimension.SLOPE,
             Words(en="change of the slope", de="Änderung der Steigung"),
-            -100e-6,
-            100e-6,
+            -500e-6,
+            500e-6,
         ),
     )
     searched = (

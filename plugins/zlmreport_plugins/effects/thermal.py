@@ -165,8 +165,8 @@ class ThermalGrowth(Effect):
             "A",
             Dimension.SLOPE,
             Words(en="growth per position once warm", de="Längung je Position im warmen Zustand"),
-            -100e-6,
-            100e-6,
+            -500e-6,
+            500e-6,
         ),
     )
     searched = (
@@ -218,8 +218,8 @@ class ThermalDrift(Effect):
             "A",
             Dimension.DEVIATION,
             Words(en="drift once warm", de="Drift im warmen Zustand"),
-            -50e-6,
-            50e-6,
+            -500e-6,
+            500e-6,
         ),
     )
     searched = (
@@ -269,8 +269,8 @@ class DatumTemperature(Effect):
             "k",
             Dimension.DEVIATION_PER_KELVIN,
             Words(en="motion of the zero per kelvin", de="Bewegung des Nullpunkts je Kelvin"),
-            -20e-6,
-            20e-6,
+            -100e-6,
+            100e-6,
         ),
     )
     shape = Shape.TIME

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import sqrt
 
 import numpy as np
 
@@ -14,6 +13,7 @@ from zlmreport.language import Words
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.axis import Axis
 from zlmreport.model import wording
+from zlmreport.model.curve import curve_positions
 from zlmreport.model.design import Design, at_positions
 from zlmreport.model.diagnosis import ErrorNumbers
 from zlmreport.model.effect import Shape
@@ -165,10 +165,6 @@ class ModelDiagram:
         )
 
 
-#: Positions at which the estimate is drawn.
-_POSITIONS = 480
-_GOLDEN = (sqrt(5.0) - 1.0) / 2.0
-
 _TITLE = Words(
     en="Deviation estimated by the error model at any position of the travel, with its expanded uncertainty "
     "U (about 95 %)",
@@ -189,11 +185,11 @@ _LARGEST = Words(
 def estimate(diagram: ModelDiagram) -> Figure:
     """Return the estimate with its uncertainty for each direction of approach, the readings behind it."""
     axis, fit = diagram.axis, diagram.fit
-    positions = _scattered(*diagram.design.span)
-    x = read_only_floats(axis.position_unit.from_si(positions))
     curves, bands, sentences = [], [], []
     largest = 0.0
     for approach in diagram.approaches:
+        positions = curve_positions(fit, approach)
+        x = read_only_floats(axis.position_unit.from_si(positions))
         found = fit.predict(at_positions(diagram.design, positions, approach))
         value, half = found.deviation, found.expanded_uncertainty
         arrow = approach.arrow
@@ -222,14 +218,3 @@ def estimate(diagram: ModelDiagram) -> Figure:
             readings=diagram.readings(diagram.positions, fit.deviation),
         ),
     )
-
-
-def _scattered(first: float, last: float) -> FloatArray:
-    """Return positions over the travel, each somewhere in a step of its own.
-
-    So a period that is shorter than a step fills the breadth of its amplitude, and never passes for a longer
-    one.
-    """
-    steps = np.arange(_POSITIONS)
-    places = (steps + (steps * _GOLDEN) % 1.0) / _POSITIONS
-    return read_only_floats(np.concatenate([[first], first + places[1:] * (last - first), [last]]))

@@ -22,7 +22,7 @@ from zlmreport.model.repeats import noise_floor
 from zlmreport.model.residual_means import flagged
 from zlmreport.model.residual_tests import failures, residual_tests
 from zlmreport.model.residuals import Failure, residuals_of
-from zlmreport.model.steps import Step, add, discriminate_by, equals_of, named_effects, steps
+from zlmreport.model.steps import Step, add, discriminate_by, equals_of, is_impossible, named_effects, steps
 from zlmreport.model.visibility import Visibility, visibility
 from zlmreport.quantities.arrays import IntArray
 
@@ -40,6 +40,10 @@ _EXPLAINS = Words(
 _CONTRIBUTES = Words(
     en="contributes {share} % of what the noise leaves open; {left} remain",
     de="trägt {share} % zu dem bei, was das Rauschen offen lässt; es bleiben {left}",
+)
+_IMPOSSIBLE = Words(
+    en="{explains}, but only with a value that is physically impossible",
+    de="{explains}, aber nur mit einem physikalisch unmöglichen Wert",
 )
 _NO_FLOOR = Words(
     en="takes the error from {before} to {after}", de="senkt die Abweichung von {before} auf {after}"
@@ -109,6 +113,8 @@ class Candidate:
         Effects that the readings cannot tell from it.
     discriminate_by
         The measurement that would tell them; None where there is nothing to tell apart.
+    is_plausible
+        Whether its parameters can be what they would have to be.
     """
 
     effect: Effect
@@ -122,6 +128,7 @@ class Candidate:
     explains: Words
     equals: tuple[str, ...]
     discriminate_by: Words | None
+    is_plausible: bool = True
 
     @property
     def identifier(self) -> str:
@@ -167,7 +174,9 @@ class Diagnosis:
     failures
         Those that they did not pass, and flagged readings.
     candidates
-        Effects that may be missing, best first; none where the model is adequate.
+        Effects that may be missing, best first, what is impossible last; none where the model is adequate.
+    implausible
+        Where only impossible ones are left, these, and no candidates.
     further
         Effects that are missing beside the first candidate, in the order in which they are found after it.
     unnamed
@@ -191,6 +200,7 @@ class Diagnosis:
     tests: tuple[Failure, ...]
     failures: tuple[Failure, ...]
     candidates: tuple[Candidate, ...]
+    implausible: tuple[Candidate, ...]
     further: tuple[str, ...]
     unnamed: Unnamed | None
     not_testable: tuple[NotTestable, ...]
@@ -241,7 +251,8 @@ def diagnose(
     error = error_numbers(fitted)
     tests = residual_tests(residuals_of(fitted, first.noise))
     stand_off = flagged(observed.design, aside)
-    candidates = () if verdict is Verdict.ADEQUATE else _candidates(first, error)
+    shown = () if verdict is Verdict.ADEQUATE else _candidates(first, error)
+    candidates = shown if any(each.is_plausible for each in shown) else ()
     not_testable = effects_to_try(model, kept.design, effects).not_testable
     return Diagnosis(
         fit=fitted,
@@ -251,6 +262,7 @@ def diagnose(
         tests=tests,
         failures=failures(tests) + ((stand_off,) if stand_off else ()),
         candidates=candidates,
+        implausible=() if candidates else shown,
         further=names[1:],
         unnamed=_unnamed(found) if verdict is Verdict.UNEXPLAINED else None,
         not_testable=not_testable,
@@ -279,10 +291,15 @@ def error_numbers(fitted: Fit) -> ErrorNumbers:
 
 
 def _candidates(step: Step, before: ErrorNumbers) -> tuple[Candidate, ...]:
-    """Return the leaders and those next to them that are better than nothing, each added on trial."""
+    """Return the leaders and those next to them that are better than nothing, each added on trial.
+
+    What is physically impossible comes last.
+    """
     leaders = step.ranking.leaders
     shown = [each for each in step.ranking.effects if each.evidence > 0]
-    return tuple(_candidate(step, each, before) for each in shown[: max(_SHOWN, len(leaders))])
+    listed = (*shown[: max(_SHOWN, len(leaders))], *step.ranking.impossible[:_SHOWN])
+    found = [_candidate(step, each, before) for each in listed]
+    return tuple(sorted(found, key=lambda each: not each.is_plausible))
 
 
 def _candidate(step: Step, ranked: Ranked, before: ErrorNumbers) -> Candidate:
@@ -290,6 +307,8 @@ def _candidate(step: Step, ranked: Ranked, before: ErrorNumbers) -> Candidate:
     error = error_numbers(after)
     share = _share(step.fit, after, before.noise_rms)
     equals = equals_of(ranked, step.ranking)
+    is_plausible = not is_impossible(after, ranked.identifier)
+    explains = _explains(step.fit, after, share)
     return Candidate(
         effect=ranked.effect,
         p_value=ranked.p_value.value,
@@ -299,9 +318,10 @@ def _candidate(step: Step, ranked: Ranked, before: ErrorNumbers) -> Candidate:
         error=error,
         estimates=tuple(each for each in after.estimates if each.effect == ranked.identifier),
         share=share,
-        explains=_explains(step.fit, after, share),
+        explains=explains if is_plausible else _IMPOSSIBLE.given(explains=explains),
         equals=tuple(each.identifier for each in equals),
         discriminate_by=discriminate_by(ranked, equals),
+        is_plausible=is_plausible,
     )
 
 

@@ -246,11 +246,34 @@ class Ranking:
         The best shape without a name; None where there is none.
     shape_evidence
         Its evidence.
+    impossible
+        Effects that would lead, but with values outside their plausible range.
     """
 
     effects: tuple[Ranked, ...]
     shape: Words | None
     shape_evidence: float
+    impossible: tuple[Ranked, ...] = ()
+
+    def without(self, design: Design, rejected: Sequence[Ranked], impossible: Sequence[Ranked]) -> Ranking:
+        """Return the ranking of the others, as if those rejected had never been likely.
+
+        Parameters
+        ----------
+        design
+            The test.
+        rejected
+            Effects that are taken out.
+        impossible
+            Those among them whose estimates are physically impossible.
+        """
+        left = 1.0 - sum(each.probability for each in rejected)
+        kept = [
+            replace(each, probability=min(1.0, each.probability / left) if left > 0 else 0.0)
+            for each in self.effects
+            if each not in rejected
+        ]
+        return replace(self, effects=_in_order(kept, design), impossible=tuple(impossible))
 
     @property
     def leaders(self) -> tuple[Ranked, ...]:
@@ -290,13 +313,20 @@ def rank(
                 null.p_value_of_effect(index, ratio),
             )
         )
+    shape, of_shape = _best_shape(comparison, evidence)
+    return Ranking(_in_order(found, design), shape, of_shape)
+
+
+def _in_order(effects: Sequence[Ranked], design: Design) -> tuple[Ranked, ...]:
+    """Return the plainest of those that explain the readings best, then the others, best first."""
     # Of effects with the same columns the more general one leads: one whose sign is free.
-    found.sort(key=lambda each: (-round(each.evidence / _ALIKE), _is_one_sided(each.effect), each.identifier))
+    found = sorted(
+        effects,
+        key=lambda each: (-round(each.evidence / _ALIKE), _is_one_sided(each.effect), each.identifier),
+    )
     foremost = [each for each in found if each.evidence > found[0].evidence - MENTION]
     plainest = min(foremost, key=lambda each: _assumptions(each.effect, design), default=None)
-    found.sort(key=lambda each: each is not plainest)
-    shape, of_shape = _best_shape(comparison, evidence)
-    return Ranking(tuple(found), shape, of_shape)
+    return tuple(sorted(found, key=lambda each: each is not plainest))
 
 
 def _assumptions(effect: Effect, design: Design) -> int:

@@ -138,11 +138,14 @@ class Fit:
         """Return what the model can imitate near its estimate: its columns and tangents, shape (N, p)."""
         return _jacobian(self.model, self.design, self.solution, self.places)
 
+    def value_at(self, design: Design) -> FloatArray:
+        """Return the deviation that the model gives for other readings, m or rad, shape (M,)."""
+        return _value(self.model, design, self.solution)
+
     def predict(self, design: Design) -> Prediction:
         """Return the deviation that the model gives for other readings; valid on the measured span only."""
         standard, degrees = self.uncertainties.of(_jacobian(self.model, design, self.solution, self.places))
-        value = _value(self.model, design, self.solution)
-        return Prediction(value, standard, coverage_factors(degrees))
+        return Prediction(self.value_at(design), standard, coverage_factors(degrees))
 
 
 def fit(

@@ -9,7 +9,7 @@ from zlmreport.language import Language, Words
 from zlmreport.measurement.axis import Axis
 from zlmreport.model import wording
 from zlmreport.model.design import Design
-from zlmreport.model.diagnosis import Candidate, Diagnosis, ErrorNumbers, Verdict
+from zlmreport.model.diagnosis import EXPLAINS, Candidate, Diagnosis, ErrorNumbers, Verdict
 from zlmreport.model.effect import unit_of
 from zlmreport.model.estimate import Estimate
 from zlmreport.model.fit import Fit
@@ -28,6 +28,16 @@ _ADEQUATE = Words(
 _MISSING = Words(
     en="The model lacks something: {effects} explains the rest.",
     de="Dem Modell fehlt etwas: {effects} erklärt den Rest.",
+)
+_MISSING_IN_PART = Words(
+    en="The model lacks something: {effects}. It explains {share} % of what the repeats leave open; the rest "
+    "cannot be told from irregular scatter.",
+    de="Dem Modell fehlt etwas: {effects}. Es erklärt {share} % dessen, was die Wiederholungen offen lassen; "
+    "der Rest ist von unregelmäßiger Streuung nicht zu unterscheiden.",
+)
+_IMPOSSIBLE = Words(
+    en="{statement} {effects} would explain it only with physically impossible values.",
+    de="{statement} {effects} würde es nur mit physikalisch unmöglichen Werten erklären.",
 )
 _MISSING_TOGETHER = Words(
     en="The model lacks something: {effects} together explain the rest.",
@@ -68,6 +78,7 @@ def report(diagnosis: Diagnosis, language: Language = Language.ENGLISH) -> dict[
         "p_value": diagnosis.p_value,
         "failures": [_failure(each, language) for each in diagnosis.failures],
         "candidates": [_candidate(each, fitted.design, language) for each in diagnosis.candidates],
+        "implausible": [_candidate(each, fitted.design, language) for each in diagnosis.implausible],
         "further": list(diagnosis.further),
         "unexplained": None
         if diagnosis.unnamed is None
@@ -156,6 +167,7 @@ def _candidate(candidate: Candidate, design: Design, language: Language) -> dict
         "p_value": candidate.p_value,
         "p_value_extrapolated": candidate.p_value_is_extrapolated,
         "probability": candidate.probability,
+        "plausible": candidate.is_plausible,
         "rms_after": after["rms"],
         "chi2_per_dof_after": after["chi2_per_dof"],
         "cross_validated_rms_after": after["cross_validated_rms"],
@@ -182,16 +194,26 @@ def verdict_statement(diagnosis: Diagnosis) -> Words:
     if diagnosis.verdict is Verdict.ADEQUATE:
         return _ADEQUATE
     if diagnosis.verdict is Verdict.UNEXPLAINED:
-        unnamed = diagnosis.unnamed
-        if unnamed is None:
-            return _UNEXPLAINED
-        size = wording.deviation(diagnosis.fit.design.axis, unnamed.size)
-        return _SHAPE.given(shape=unnamed.shape, size=size, where=unnamed.where)
+        left = _unexplained(diagnosis)
+        if not diagnosis.implausible:
+            return left
+        names = listed([each.identifier for each in diagnosis.implausible], _OR)
+        return _IMPOSSIBLE.given(statement=left, effects=names)
     leading = diagnosis.candidates[0]
     first = listed([leading.identifier, *leading.equals], _OR)
     if not diagnosis.further:
-        return _MISSING.given(effects=first)
+        if leading.share is None or leading.share >= EXPLAINS:
+            return _MISSING.given(effects=first)
+        return _MISSING_IN_PART.given(effects=first, share=wording.number(100 * leading.share, 0))
     return _MISSING_TOGETHER.given(effects=listed([first, *diagnosis.further], _AND))
+
+
+def _unexplained(diagnosis: Diagnosis) -> Words:
+    unnamed = diagnosis.unnamed
+    if unnamed is None:
+        return _UNEXPLAINED
+    size = wording.deviation(diagnosis.fit.design.axis, unnamed.size)
+    return _SHAPE.given(shape=unnamed.shape, size=size, where=unnamed.where)
 
 
 def serious_candidates(diagnosis: Diagnosis) -> tuple[Candidate, ...]:

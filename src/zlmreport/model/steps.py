@@ -12,6 +12,7 @@ from zlmreport.model.candidates import effects_to_try
 from zlmreport.model.comparison import Comparison
 from zlmreport.model.contrasts import restricted_estimate
 from zlmreport.model.effect import Effect
+from zlmreport.model.estimate import Plausibility
 from zlmreport.model.evidence import EXPLAINED, FURTHER, MENTION, NAMED, Ranked, Ranking, evidence_of, rank
 from zlmreport.model.fit import Fit, fit
 from zlmreport.model.noise import Noise
@@ -113,20 +114,59 @@ def compared(fitted: Fit, effects: Iterable[Effect], first: Fit | None = None) -
     by_source = {part.source: float(ratio) for part, ratio in zip(space.parts, ratios, strict=True)}
     null = simulate_null(comparison, design, ratios)
     scores = comparison.scores(deviation[:, np.newaxis], known)
+    evidence = evidence_of(comparison, design, deviation, least_visible, known)
     return Step(
         fitted,
         comparison,
         null,
         ratios,
         Noise(float(np.sqrt(variance)), by_source, fitted.noise.weights),
-        rank(
-            comparison,
-            design,
-            scores,
-            evidence_of(comparison, design, deviation, least_visible, known),
-            null,
-        ),
+        _possible(fitted, rank(comparison, design, scores, evidence, null)),
         null.p_value(scores),
+    )
+
+
+def is_impossible(after: Fit, identifier: str) -> bool:
+    """Whether an effect of a fitted model has a value that lies outside its plausible range beyond doubt."""
+    counted = after.design.time_is_counted
+    return any(
+        each.plausibility(time_is_counted=counted) is Plausibility.IMPLAUSIBLE
+        for each in after.estimates
+        if each.effect == identifier
+    )
+
+
+def _possible(fitted: Fit, ranking: Ranking) -> Ranking:
+    """Return a ranking that is led by no effect that is physically impossible or not needed.
+
+    An effect has no evidence outside its plausible range, whatever it explains there. Only what may lead is
+    fitted for this.
+    """
+    impossible, unneeded = [], []
+    most = -np.inf
+    for each in ranking.effects:
+        if each.evidence <= 0 or each.evidence < most - MENTION:
+            break
+        after = add(fitted, each)
+        if is_impossible(after, each.identifier):
+            impossible.append(each)
+        elif _is_unneeded(after, each):
+            unneeded.append(each)
+        else:
+            most = max(most, each.evidence)
+    return ranking.without(fitted.design, [*impossible, *unneeded], impossible)
+
+
+def _is_unneeded(after: Fit, ranked: Ranked) -> bool:
+    """Whether all coefficients that an effect adds lie within their uncertainty: a needless polynomial."""
+    effect = ranked.effect
+    if len(effect.grid(after.design)) > 1:
+        return False
+    added = {parameter.name for parameter in effect.linear[len(effect.contains) :]}
+    return all(
+        abs(each.value) < each.expanded_uncertainty
+        for each in after.estimates
+        if each.effect == ranked.identifier and each.parameter.name in added
     )
 
 

@@ -1,0 +1,93 @@
+"""Where the curve of a model is drawn: so that what is drawn is what the model says, at any scale.
+
+A wave that is sampled at fewer positions than it has periods is drawn as another wave. So a curve has several
+positions in each period, and one on either side of a joint; where the travel holds more periods than a page
+can show, it runs through the least and the largest value of each stretch, and shows how far the wave reaches.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from zlmreport.measurement.approach import Approach
+from zlmreport.model.axis_model import Term
+from zlmreport.model.design import Design, at_positions
+from zlmreport.model.effect import Dimension
+from zlmreport.model.fit import Fit
+from zlmreport.quantities.arrays import FloatArray
+
+#: Positions where nothing repeats and nothing jumps.
+_POSITIONS = 480
+_PER_PERIOD = 16
+#: Beyond so many positions a page cannot part the periods; stretches that it can, and probes in each.
+_MOST = 4000
+_STRETCHES, _PROBES = 600, 32
+#: Distance of the two positions at a joint, as a share of the travel.
+_BESIDE = 1e-9
+_GOLDEN = (5.0**0.5 - 1.0) / 2.0
+
+
+def curve_positions(fitted: Fit, approach: Approach) -> FloatArray:
+    """Return the positions of the curve of a model, rising, m or rad, shape (M,).
+
+    Parameters
+    ----------
+    fitted
+        The model.
+    approach
+        A direction in which it was measured.
+    """
+    design = fitted.design
+    first, last = design.span
+    pairs = list(zip(fitted.model.terms, fitted.solution.thetas, strict=True))
+    shortest = min((_scale(term, theta) for term, theta in pairs), default=np.inf)
+    joints = [place for term, theta in pairs for place in _joints(term, theta, design)]
+    wanted = _PER_PERIOD * (last - first) / shortest
+    if wanted <= _POSITIONS:
+        found = np.linspace(first, last, _POSITIONS)
+    elif wanted <= _MOST:
+        found = np.linspace(first, last, int(np.ceil(wanted)) + 1)
+    else:
+        found = _extremes(fitted, approach, shortest)
+    if not joints:
+        return np.asarray(found, dtype=np.float64)
+    beside = np.add.outer(np.array(joints), np.array([-_BESIDE, _BESIDE]) * (last - first)).ravel()
+    return np.unique(np.clip(np.concatenate([found, beside]), first, last))
+
+
+def _extremes(fitted: Fit, approach: Approach, period: float) -> FloatArray:
+    """Return where the model is least and largest in each stretch, and the ends of the travel."""
+    first, last = fitted.design.span
+    edges = np.linspace(first, last, _STRETCHES + 1)
+    length = edges[1] - edges[0]
+    # Probes of a stretch cover whole periods at uneven phases: a row that beats with the wave misses it.
+    phases = (np.arange(_PROBES) * _GOLDEN) % 1.0
+    reach = min(length, max(1.0, np.floor(length / period)) * period)
+    probes = np.sort(edges[:-1, np.newaxis] + reach * phases, axis=1)
+    values = fitted.value_at(at_positions(fitted.design, probes.ravel(), approach)).reshape(probes.shape)
+    rows = np.arange(_STRETCHES)
+    chosen = [probes[rows, values.argmin(axis=1)], probes[rows, values.argmax(axis=1)]]
+    return np.unique(np.concatenate([[first, last], *chosen]))
+
+
+def _scale(term: Term, theta: FloatArray) -> float:
+    """Return the shortest length over which an effect repeats or fades, m or rad; infinite if over none."""
+    scales = [np.inf]
+    orders = [int(each.name.partition("_")[2] or 1) for each in term.effect.linear if "sine" in each.name]
+    for parameter, value in zip(term.effect.searched, theta.tolist(), strict=True):
+        if parameter.dimension is Dimension.POSITION and parameter.name in {"period", "relaxation_length"}:
+            scales.append(abs(value))
+        elif parameter.name == "teeth" and value:
+            scales.append(2 * np.pi / abs(value))
+    return float(min(scales)) / max(orders, default=1) or np.inf
+
+
+def _joints(term: Term, theta: FloatArray, design: Design) -> list[float]:
+    """Return positions at which an effect jumps or bends: its joints, and the rows of a table."""
+    named = zip(term.effect.searched, theta.tolist(), strict=True)
+    found = [value for parameter, value in named if parameter.name in {"joint", "kink"}]
+    tables = {"compensation": design.axis.compensation_table, "abbe": design.axis.angular_errors}
+    for name, table in tables.items():
+        if table is not None and term.effect.identifier.startswith(name):
+            found.extend(table.positions)
+    return found

@@ -1,0 +1,66 @@
+"""What is drawn of a model is what it says, however short its waves are."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from model.axis_tests import AXIS, EFFECTS, linear_test, model_of, noise
+from zlmreport.measurement.approach import Approach
+from zlmreport.model.axis_model import AxisModel, Term
+from zlmreport.model.curve import curve_positions
+from zlmreport.model.design import at_positions
+from zlmreport.model.fit import Fit, fit
+from zlmreport.quantities.arrays import FloatArray
+
+_PITCHES = [0.5, 0.01, 0.005]
+
+
+def _fitted(pitch: float) -> Fit:
+    design = linear_test(15, 2, axis=replace(AXIS, screw_pitch=pitch))
+    wave = 4e-6 * np.sin(2 * np.pi * design.position / pitch + 0.3)
+    return fit(model_of("offset", "screw-pitch"), design, wave + noise(design, sigma=1e-8))
+
+
+@pytest.mark.parametrize("pitch", _PITCHES)
+def test_curve_reaches_as_far_as_the_wave(pitch: float) -> None:
+    fitted = _fitted(pitch)
+    drawn = _values(fitted, curve_positions(fitted, Approach.POSITIVE))
+    assert np.ptp(drawn) == pytest.approx(8e-6, rel=0.03)
+
+
+@pytest.mark.parametrize("pitch", [0.5, 0.01])
+def test_between_what_is_drawn_the_model_does_not_leave_the_line(pitch: float) -> None:
+    fitted = _fitted(pitch)
+    positions = curve_positions(fitted, Approach.POSITIVE)
+    between = (positions[1:] + positions[:-1]) / 2
+    drawn, true = (_values(fitted, each) for each in (positions, between))
+    np.testing.assert_allclose((drawn[1:] + drawn[:-1]) / 2, true, atol=0.03 * 4e-6)
+
+
+def test_many_periods_are_drawn_at_few_positions() -> None:
+    fitted = _fitted(0.0002)
+    assert len(curve_positions(fitted, Approach.POSITIVE)) < 1300
+
+
+def test_step_of_a_joint_is_drawn_upright() -> None:
+    design = linear_test(15, 2)
+    model = AxisModel((Term(EFFECTS["offset"]), Term(EFFECTS["scale-joint"])))
+    fitted = fit(model, design, 5e-6 * (design.position > 0.5) + noise(design, sigma=1e-8))
+    positions = curve_positions(fitted, Approach.POSITIVE)
+    step = int(np.argmax(np.abs(np.diff(_values(fitted, positions)))))
+    assert positions[step + 1] - positions[step] < 1e-6
+
+
+def test_smooth_curve_has_even_positions() -> None:
+    design = linear_test(15, 2)
+    fitted = fit(model_of("offset", "scale-error"), design, 1e-5 * design.position + noise(design))
+    np.testing.assert_allclose(
+        np.diff(curve_positions(fitted, Approach.POSITIVE)), fitted.design.length / 479
+    )
+
+
+def _values(fitted: Fit, positions: FloatArray) -> FloatArray:
+    return fitted.value_at(at_positions(fitted.design, positions, Approach.POSITIVE))
