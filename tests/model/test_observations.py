@@ -7,10 +7,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from model.axis_tests import linear_test, observations
 from zlmreport.language import Language
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.model.axis_model import ModelError
-from zlmreport.model.observations import observations_of
+from zlmreport.model.observations import MOST_TARGETS, observations_of, thinned
 from zlmreport.testing.measurements import poor_tests, simulated_test
 
 TEST = simulated_test()
@@ -58,11 +59,31 @@ def test_an_assumed_overrun_is_said_and_a_known_one_is_not() -> None:
     assert not [each for each in observations_of(TEST, overrun=0.003).remarks if "overrun" in each.values]
 
 
-def test_a_log_with_gaps_is_left_out_and_this_is_said() -> None:
+def test_gap_of_a_log_is_interpolated_in_time_and_said_where() -> None:
     log = np.linspace(293.0, 295.0, len(TEST.deviation))
-    log[7] = np.nan
+    gapped = log.copy()
+    gapped[7] = np.nan
+    found = observations_of(_logged(gapped)).design.conditions["axis_temperature"]
+    assert found == pytest.approx(
+        observations_of(_logged(log)).design.conditions["axis_temperature"], abs=1e-3
+    )
+    assert "axis_temperature has gaps (readings without it: 1)" in _said(_logged(gapped))
+    assert "in the order of the file: 8." in _said(_logged(gapped))
+
+
+def test_log_of_many_gaps_is_left_out_and_this_is_said() -> None:
+    log = np.linspace(293.0, 295.0, len(TEST.deviation))
+    log[::4] = np.nan
     assert "axis_temperature" not in observations_of(_logged(log)).design.conditions
-    assert "axis_temperature has gaps (readings without it: 1)" in _said(_logged(log))
+    assert "and is left out" in _said(_logged(log))
+
+
+def test_thousands_of_targets_are_thinned_at_uneven_places_and_this_is_said() -> None:
+    even = linear_test(700, 1)
+    found = thinned(observations(even, np.zeros(len(even.position))))
+    assert len(found.design.target_positions) == MOST_TARGETS
+    assert len(np.unique(np.diff(np.unique(found.design.target)))) > 1
+    assert "210 of the 700 target positions" in found.remarks[-1].in_language(Language.ENGLISH)
 
 
 def test_noise_of_a_log_is_smoothed_away() -> None:

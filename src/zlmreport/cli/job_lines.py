@@ -21,6 +21,8 @@ if TYPE_CHECKING:
     from zlmreport.evaluation.evaluation import Evaluation, Parameter
     from zlmreport.evaluation.requirements import Finding
     from zlmreport.job.job import Job
+    from zlmreport.measurement.measurement_set import MeasurementSet
+    from zlmreport.model.faults import Fault
 
 #: Of a terminal, in letters: its width where it has none, what a table needs beside the names of
 #: parameters, and how much of a name is always shown; what the column of uncertainties needs.
@@ -48,11 +50,28 @@ def findings(result: Result) -> Iterator[str]:
     if not result.evaluations:
         return
     writer = Writer.of(result.evaluations[0].measurements, Language.ENGLISH)
-    yield f"{Colour.BOLD.of(str(result.path))}  the job and its data are sound"
+    faults = _faults(result.evaluations[0].measurements)
+    sound = Colour.RED.of("its data look wrong") if faults else "the job and its data are sound"
+    yield f"{Colour.BOLD.of(str(result.path))}  {sound}"
+    for fault in faults:
+        yield f"  {writer.say(fault.statement)}; {writer.say(fault.remedy)}"
     for evaluation in result.evaluations:
         yield from requirements(evaluation.designation, evaluation.findings, writer)
     yield from _missing(result, writer)
     yield from _model(result)
+
+
+def _faults(measurements: MeasurementSet) -> tuple[Fault, ...]:
+    """Return what the rows of a file themselves show to be wrong."""
+    import numpy as np  # noqa: PLC0415 - the same
+
+    from zlmreport.model.faults import recorded_faults  # noqa: PLC0415 - only where data are checked
+    from zlmreport.model.observations import observations_of  # noqa: PLC0415 - the same
+
+    if np.all(np.isnan(measurements.deviation)):
+        return ()
+    observed = observations_of(measurements)
+    return tuple(each for each in recorded_faults(observed.design, observed.deviation) if each.is_sure)
 
 
 def requirements(designation: str, found: Iterable[Finding], writer: Writer) -> Iterator[str]:

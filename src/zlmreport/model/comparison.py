@@ -17,9 +17,17 @@ from zlmreport.model.candidates import Bases, BlockGroup, Entry, bases_of
 from zlmreport.model.contrasts import Contrasts, Metric, contrasts_of
 from zlmreport.model.design import Design
 from zlmreport.model.effect import Effect
-from zlmreport.model.nameless import SIZES, NamelessShape, ShapeModes, modes, nameless_shapes, side_by_side
+from zlmreport.model.nameless import (
+    SIZES,
+    NamelessShape,
+    ShapeGroup,
+    ShapeModes,
+    modes,
+    nameless_shapes,
+    side_by_side,
+)
 from zlmreport.model.noise import NoisePart, NoiseSource, noise_parts, ratio_grid
-from zlmreport.quantities.arrays import FloatArray, IntArray
+from zlmreport.quantities.arrays import FloatArray
 
 #: Variances of an effect before any reading, in units of what one reading is worth, and their weights.
 _WORTHS = ((1.0, 0.9), (1e2, 0.05), (1e4, 0.03), (1e6, 0.02))
@@ -98,8 +106,8 @@ class Comparison:
     _roots: tuple[tuple[FloatArray, ...], ...]
     _nameless_columns: FloatArray
     _nameless_shared: FloatArray
-    _nameless_places: IntArray
-    _nameless_modes: dict[int, ShapeModes]
+    _nameless_groups: tuple[ShapeGroup, ...]
+    _nameless_modes: dict[int, tuple[ShapeModes, ...]]
 
     @classmethod
     def of(
@@ -131,10 +139,9 @@ class Comparison:
         grid = ratio_grid(parts)
         bases = bases_of(design, space, [(effect, effect.grid(design)) for effect in effects], least_visible)
         nameless = nameless_shapes(design, space)
-        columns, places = side_by_side(nameless, len(base))
+        columns, groups = side_by_side(nameless, len(base))
         metrics = tuple(space.metric(ratios) for ratios in grid)
         shared, nameless_shared = space.factors.T @ bases.columns, space.factors.T @ columns
-        gram = np.stack([columns[:, row].T @ columns[:, row] for row in places])
         return cls(
             space,
             grid,
@@ -145,8 +152,11 @@ class Comparison:
             tuple(bases.roots(metric, shared) for metric in metrics),
             columns,
             nameless_shared,
-            places,
-            {index: modes(metrics[index], nameless_shared, gram, places) for index in _coarse(grid, parts)},
+            groups,
+            {
+                index: tuple(modes(metrics[index], nameless_shared, group) for group in groups)
+                for index in _coarse(grid, parts)
+            },
         )
 
     def scores(self, deviations: FloatArray, known: float = 0.0) -> Scores:
@@ -255,12 +265,19 @@ class Comparison:
         found = self._nameless_modes.get(trial.index)
         if found is None or not self.nameless:
             return
-        squared = (found.turn @ trial.nameless_products[self._nameless_places]) ** 2
+        groups = self._nameless_groups
+        squared = [
+            (own.turn @ trial.nameless_products[group.places]) ** 2
+            for group, own in zip(groups, found, strict=True)
+        ]
         for size in SIZES:
-            spread = 1.0 + size * found.strengths
-            explained = ((size / spread)[:, np.newaxis, :] @ squared)[:, 0]
-            averaged = np.log(spread).sum(axis=1)[:, np.newaxis]
-            yield self._criterion(trial, trial.squares - explained) + averaged
+            criteria = np.empty((len(self.nameless), len(trial.squares)))
+            for group, own, products in zip(groups, found, squared, strict=True):
+                spread = 1.0 + size * own.strengths
+                explained = ((size / spread)[:, np.newaxis, :] @ products)[:, 0]
+                averaged = np.log(spread).sum(axis=1)[:, np.newaxis]
+                criteria[group.shapes] = self._criterion(trial, trial.squares - explained) + averaged
+            yield criteria
 
 
 def _coarse(grid: FloatArray, parts: tuple[NoisePart, ...]) -> list[int]:

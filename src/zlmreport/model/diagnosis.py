@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 
 import numpy as np
@@ -15,8 +15,9 @@ from zlmreport.model.candidates import NotTestable, effects_to_try
 from zlmreport.model.effect import Effect, is_of_another_axis
 from zlmreport.model.estimate import Estimate
 from zlmreport.model.evidence import Ranked
+from zlmreport.model.faults import Fault, lagging_sensors, recorded_faults, run_faults
 from zlmreport.model.fit import Assumptions, Fit, cross_validated_rms, fit
-from zlmreport.model.observations import Observations
+from zlmreport.model.observations import Observations, thinned
 from zlmreport.model.outliers import outliers
 from zlmreport.model.repeats import noise_floor
 from zlmreport.model.residual_means import flagged
@@ -40,6 +41,10 @@ _EXPLAINS = Words(
 _CONTRIBUTES = Words(
     en="contributes {share} % of what the noise leaves open; {left} remain",
     de="trägt {share} % zu dem bei, was das Rauschen offen lässt; es bleiben {left}",
+)
+_LOOKS_WRONG = Words(
+    en="The data look wrong: {statement}. Remedy: {remedy}.",
+    de="Die Daten sehen falsch aus: {statement}. Abhilfe: {remedy}.",
 )
 _IMPOSSIBLE = Words(
     en="{explains}, but only with a value that is physically impossible",
@@ -191,6 +196,8 @@ class Diagnosis:
         Readings set aside, by their places in the measurement set.
     remarks
         What was assumed, and what was left out.
+    faults
+        What looks wrong in the data.
     """
 
     fit: Fit
@@ -208,6 +215,7 @@ class Diagnosis:
     visibility: tuple[Visibility, ...]
     outliers: IntArray
     remarks: tuple[Words, ...]
+    faults: tuple[Fault, ...] = ()
 
 
 def diagnose(
@@ -234,6 +242,7 @@ def diagnose(
     ModelError
         If the model makes no sense on these readings, or they are too few to tell anything.
     """
+    observed = thinned(observed)
     aside = outliers(observed.design, observed.deviation)
     kept = observed.without(aside.readings)
     fitted = fit(model, kept.design, kept.deviation, assumptions)
@@ -252,6 +261,11 @@ def diagnose(
     tests = residual_tests(residuals_of(fitted, first.noise))
     stand_off = flagged(observed.design, aside)
     shown = () if verdict is Verdict.ADEQUATE else _candidates(first, error)
+    faults = _faults(observed, first, effects)
+    if verdict is Verdict.MISSING and any(each.explains for each in faults):
+        verdict, names = Verdict.UNEXPLAINED, ()
+    if any(each.explains for each in faults):
+        shown = ()
     candidates = shown if any(each.is_plausible for each in shown) else ()
     not_testable = effects_to_try(model, kept.design, effects).not_testable
     return Diagnosis(
@@ -269,8 +283,28 @@ def diagnose(
         not_excluded=_not_excluded(candidates, not_testable),
         visibility=visibility(first.comparison, kept.design, first.null, first.ratios, first.noise.sigma),
         outliers=observed.reading[aside.readings],
-        remarks=observed.remarks,
+        remarks=(
+            *observed.remarks,
+            *(_LOOKS_WRONG.given(statement=each.statement, remedy=each.remedy) for each in faults),
+        ),
+        faults=faults,
     )
+
+
+def _faults(observed: Observations, first: Step, effects: Sequence[Effect]) -> tuple[Fault, ...]:
+    """Return what looks wrong in the data; a run that two signs betray is named once."""
+    recorded = recorded_faults(observed.design, observed.deviation)
+    by_runs = run_faults(first.fit, first.ranking.most)
+    best = add(first.fit, first.best) if first.best else None
+    lagging = lagging_sensors(first.fit, best, effects) if first.something_is_missing else ()
+    known = {(each.kind, each.run): each for each in recorded}
+    found = [
+        replace(known.pop((each.kind, each.run)), explains=each.explains)
+        if (each.kind, each.run) in known
+        else each
+        for each in (*by_runs, *lagging)
+    ]
+    return (*found, *known.values())
 
 
 def _verdict(first: Step, names: Sequence[str]) -> Verdict:

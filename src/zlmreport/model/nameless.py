@@ -92,24 +92,44 @@ def nameless_shapes(design: Design, space: Contrasts) -> tuple[NamelessShape, ..
     return tuple(found)
 
 
-def side_by_side(nameless: tuple[NamelessShape, ...], readings: int) -> tuple[FloatArray, IntArray]:
-    """Return the features of all shapes as columns, and their places in a common frame, shape (shapes, f).
+@dataclass(frozen=True, slots=True)
+class ShapeGroup:
+    """The shapes of one number of features: padded to the widest, many targets would not fit in memory.
 
-    Shapes of fewer features than the largest point to one more column, of zeros, that stands last.
+    Attributes
+    ----------
+    shapes : (g,) integer array
+        Their places among all shapes.
+    places : (g, f) integer array
+        Of their features among the columns of all shapes side by side.
+    gram : (g, f, f) array
+        Products of each shape's features among themselves.
     """
-    widest = max((nameless.features.shape[1] for nameless in nameless), default=0)
-    columns = np.concatenate([*(nameless.features for nameless in nameless), np.zeros((readings, 1))], axis=1)
-    places = np.full((len(nameless), widest), columns.shape[1] - 1, dtype=np.int64)
-    first = 0
-    for row, each in zip(places, nameless, strict=True):
-        width = each.features.shape[1]
-        row[:width] = np.arange(first, first + width)
-        first += width
-    return columns, places
+
+    shapes: IntArray
+    places: IntArray
+    gram: FloatArray
 
 
-def modes(metric: Metric, shared: FloatArray, gram: FloatArray, places: IntArray) -> ShapeModes:
-    """Return the independent modes of all shapes under one φ.
+def side_by_side(
+    nameless: tuple[NamelessShape, ...], readings: int
+) -> tuple[FloatArray, tuple[ShapeGroup, ...]]:
+    """Return the features of all shapes as columns, and the shapes by their number of features."""
+    columns = np.concatenate([np.empty((readings, 0)), *(each.features for each in nameless)], axis=1)
+    widths = np.array([each.features.shape[1] for each in nameless], dtype=np.int64)
+    first = np.cumsum(widths) - widths
+    groups = []
+    for width in np.unique(widths).tolist():
+        shapes = np.flatnonzero(widths == width)
+        places = first[shapes][:, np.newaxis] + np.arange(width)
+        groups.append(
+            ShapeGroup(shapes, places, np.stack([columns[:, row].T @ columns[:, row] for row in places]))
+        )
+    return columns, tuple(groups)
+
+
+def modes(metric: Metric, shared: FloatArray, group: ShapeGroup) -> ShapeModes:
+    """Return the independent modes of the shapes of a group under one φ.
 
     Parameters
     ----------
@@ -117,13 +137,11 @@ def modes(metric: Metric, shared: FloatArray, gram: FloatArray, places: IntArray
         The inner product.
     shared : (r, K) array
         Products of the noise's factors and the features.
-    gram : (nameless, f, f) array
-        Products of each shape's features among themselves.
-    places : (nameless, f) array
-        Of the shapes' features among all columns.
+    group
+        The shapes.
     """
-    coordinates = metric.coordinates(shared)[:, places].transpose(1, 0, 2)
-    strengths, vectors = np.linalg.eigh(gram - coordinates.transpose(0, 2, 1) @ coordinates)
+    coordinates = metric.coordinates(shared)[:, group.places].transpose(1, 0, 2)
+    strengths, vectors = np.linalg.eigh(group.gram - coordinates.transpose(0, 2, 1) @ coordinates)
     return ShapeModes(vectors.transpose(0, 2, 1), np.maximum(strengths, 0.0))
 
 

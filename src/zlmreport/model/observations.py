@@ -22,6 +22,8 @@ OVERRUN = {AxisKind.LINEAR: 5e-3, AxisKind.ROTARY: radians(1.0)}
 _NOISY = 0.2
 #: Resolution of a log, as a share of its range, from which on its steps show.
 _COARSE = 0.1
+#: Share of a log that may be missing for the rest to tell it, and gaps that are named.
+_MOST_GAPS, _NAMED_GAPS = 0.1, 5
 
 _COUNTED = Words(
     en="Not every reading has a time: the readings are taken to follow one another in equal steps, and time "
@@ -38,6 +40,12 @@ _GAPS = Words(
     en="The log of {condition} has gaps (readings without it: {count}) and is left out.",
     de="Die Aufzeichnung von {condition} hat Lücken (Messwerte ohne sie: {count}) und bleibt außer Betracht.",
 )
+_FILLED = Words(
+    en="The log of {condition} has gaps (readings without it: {count}); for the model they are interpolated "
+    "in time. Readings in the order of the file: {rows}.",
+    de="Die Aufzeichnung von {condition} hat Lücken (Messwerte ohne sie: {count}); für das Modell sind sie "
+    "über der Zeit interpoliert. Messwerte in der Folge der Datei: {rows}.",
+)
 _NOISE = Words(
     en="The log of {condition} is noisy: its noise is {share} of its variation. Effects that follow it may "
     "be taken for others.",
@@ -52,6 +60,15 @@ _DEGREE = 3
 _MOST_INTERVALS = 40
 _READINGS_PER_INTERVAL = 4
 _STIFFNESSES = np.logspace(-6, 8, 71)
+
+
+_THINNED = Words(
+    en="The model is held against {kept} of the {all} target positions, spread over the travel.",
+    de="Das Modell wird mit {kept} der {all} Zielpositionen verglichen, über den Verfahrweg verteilt.",
+)
+#: Target positions with which a model is compared at most.
+MOST_TARGETS = 210
+_GOLDEN = (5.0**0.5 - 1.0) / 2.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,6 +101,24 @@ class Observations:
             read_only_integers(self.reading[kept]),
             self.remarks,
         )
+
+
+def thinned(observed: Observations) -> Observations:
+    """Return the observations of so many targets as a comparison can hold, spread over the whole travel.
+
+    What thousands of targets say of causes, two hundred say as well; the time to compare them grows with the
+    third power of their number. One is taken from each of so many stretches, at uneven places: every tenth of
+    even targets might lie at one phase of the pitch.
+    """
+    targets = np.unique(observed.design.target)
+    if len(targets) <= MOST_TARGETS:
+        return observed
+    stretches = np.arange(MOST_TARGETS)
+    places = (stretches + (stretches * _GOLDEN) % 1.0) * len(targets) / MOST_TARGETS
+    kept = targets[places.astype(np.int64)]
+    found = observed.without(np.flatnonzero(~np.isin(observed.design.target, kept)))
+    remark = _THINNED.given(all=len(targets), kept=len(kept))
+    return replace(found, remarks=(*found.remarks, remark))
 
 
 def observations_of(measurements: MeasurementSet, *, overrun: float | None = None) -> Observations:
@@ -121,11 +156,17 @@ def observations_of(measurements: MeasurementSet, *, overrun: float | None = Non
     moments = time[present] - time[present[0]]
     conditions = {}
     for name, log in measurements.conditions.items():
-        gaps = int(np.count_nonzero(np.isnan(log[present])))
-        if gaps:
+        values = log[present]
+        missing = np.isnan(values)
+        gaps = int(np.count_nonzero(missing))
+        if gaps > _MOST_GAPS * len(values):
             remarks.append(_GAPS.given(condition=name, count=gaps))
             continue
-        values = log[present]
+        if gaps:
+            values = np.where(missing, np.interp(moments, moments[~missing], values[~missing]), values)
+            rows = ", ".join(str(row + 1) for row in present[missing][:_NAMED_GAPS].tolist())
+            more = ", …" if gaps > _NAMED_GAPS else ""
+            remarks.append(_FILLED.given(condition=name, count=gaps, rows=rows + more))
         if name in CONDITIONS:
             smooth = smoothed(moments, values)
             remarks.extend(_doubts(name, values, smooth.noise, smooth.variation))

@@ -35,6 +35,10 @@ _MISSING_IN_PART = Words(
     de="Dem Modell fehlt etwas: {effects}. Es erklärt {share} % dessen, was die Wiederholungen offen lassen; "
     "der Rest ist von unregelmäßiger Streuung nicht zu unterscheiden.",
 )
+_FAULTY = Words(
+    en="The data look wrong, and no cause is sought before they are right: {statement}. Remedy: {remedy}.",
+    de="Die Daten sehen falsch aus, und vorher wird keine Ursache gesucht: {statement}. Abhilfe: {remedy}.",
+)
 _IMPOSSIBLE = Words(
     en="{statement} {effects} would explain it only with physically impossible values.",
     de="{statement} {effects} würde es nur mit physikalisch unmöglichen Werten erklären.",
@@ -93,6 +97,16 @@ def report(diagnosis: Diagnosis, language: Language = Language.ENGLISH) -> dict[
         ],
         "not_excluded": list(diagnosis.not_excluded),
         "visibility": [_visibility(each, axis) for each in diagnosis.visibility],
+        "faults": [
+            {
+                "fault": each.kind.value,
+                "run": each.run,
+                "probability": each.probability,
+                "statement": each.statement.in_language(language),
+                "remedy": each.remedy.in_language(language),
+            }
+            for each in diagnosis.faults
+        ],
         "outliers": diagnosis.outliers.tolist(),
         "remarks": [each.in_language(language) for each in diagnosis.remarks],
     }
@@ -194,26 +208,28 @@ def verdict_statement(diagnosis: Diagnosis) -> Words:
     if diagnosis.verdict is Verdict.ADEQUATE:
         return _ADEQUATE
     if diagnosis.verdict is Verdict.UNEXPLAINED:
-        left = _unexplained(diagnosis)
-        if not diagnosis.implausible:
-            return left
-        names = listed([each.identifier for each in diagnosis.implausible], _OR)
-        return _IMPOSSIBLE.given(statement=left, effects=names)
+        return _unexplained(diagnosis)
     leading = diagnosis.candidates[0]
     first = listed([leading.identifier, *leading.equals], _OR)
-    if not diagnosis.further:
-        if leading.share is None or leading.share >= EXPLAINS:
-            return _MISSING.given(effects=first)
-        return _MISSING_IN_PART.given(effects=first, share=wording.number(100 * leading.share, 0))
-    return _MISSING_TOGETHER.given(effects=listed([first, *diagnosis.further], _AND))
+    if diagnosis.further:
+        return _MISSING_TOGETHER.given(effects=listed([first, *diagnosis.further], _AND))
+    if leading.share is None or leading.share >= EXPLAINS:
+        return _MISSING.given(effects=first)
+    return _MISSING_IN_PART.given(effects=first, share=wording.number(100 * leading.share, 0))
 
 
 def _unexplained(diagnosis: Diagnosis) -> Words:
-    unnamed = diagnosis.unnamed
-    if unnamed is None:
-        return _UNEXPLAINED
-    size = wording.deviation(diagnosis.fit.design.axis, unnamed.size)
-    return _SHAPE.given(shape=unnamed.shape, size=size, where=unnamed.where)
+    fault = next((each for each in diagnosis.faults if each.explains), None)
+    if fault is not None:
+        return _FAULTY.given(statement=fault.statement, remedy=fault.remedy)
+    unnamed, left = diagnosis.unnamed, _UNEXPLAINED
+    if unnamed is not None:
+        size = wording.deviation(diagnosis.fit.design.axis, unnamed.size)
+        left = _SHAPE.given(shape=unnamed.shape, size=size, where=unnamed.where)
+    if not diagnosis.implausible:
+        return left
+    names = listed([each.identifier for each in diagnosis.implausible], _OR)
+    return _IMPOSSIBLE.given(statement=left, effects=names)
 
 
 def serious_candidates(diagnosis: Diagnosis) -> tuple[Candidate, ...]:

@@ -21,7 +21,7 @@ from zlmreport.model.effect import Effect, Shape
 from zlmreport.model.estimate import Estimate, InstrumentError
 from zlmreport.model.fit import Assumptions, Fit, fit
 from zlmreport.model.harmonic import Harmonic, harmonics
-from zlmreport.model.observations import Observations, observations_of
+from zlmreport.model.observations import Observations, observations_of, thinned
 from zlmreport.model.outliers import outliers
 from zlmreport.quantities.arrays import read_only_floats
 
@@ -119,7 +119,8 @@ class Study:
         return (*parts, whole or self.fitted())
 
     def _fitted(self, model: AxisModel) -> Fitted:
-        kept = self.observed.without(outliers(self.observed.design, self.observed.deviation).readings)
+        every = thinned(self.observed)
+        kept = every.without(outliers(every.design, every.deviation).readings)
         try:
             found = fit(model, kept.design, kept.deviation, self.assumptions)
         except ModelError as error:

@@ -1,0 +1,428 @@
+"""Faults of the data: what looks like a cause of deviations and is a slip in recording them.
+
+A run is held against the others, as it stands and as it would be without a slip: directions exchanged, signs
+turned, every reading moved by one target. Only a slip that takes away most of what repeats differ by, and far
+more than any effect explains, is said. What the rows themselves show is sure, whatever the readings are.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
+from enum import StrEnum
+
+import numpy as np
+
+from zlmreport.language import Words
+from zlmreport.model import wording
+from zlmreport.model.design import Design
+from zlmreport.model.effect import Effect
+from zlmreport.model.fit import Fit
+from zlmreport.model.observations import of_readings
+from zlmreport.model.repeats import repeats
+from zlmreport.quantities.arrays import BoolArray, FloatArray, IntArray
+
+#: Evidence, 2·ln of a likelihood ratio, that a slip must have, and by which it must surpass every effect.
+_STRONG, _FARTHER = 20.0, 6.0
+#: Share of the squares within the repeats that a slip must take away.
+_MOST_OF_IT = 0.5
+_FEWEST_RUNS = 3
+#: Times by which a run in another unit is larger or smaller than the others.
+_ANOTHER_UNIT = 100.0
+#: m or rad: a whole test that deviates no more is likelier to be one in another unit.
+_TINY = 1e-7
+#: Of the distance between two targets, how far a reading of the wrong one may be off.
+_NEAR = 0.1
+#: Lags of a sensor that are tried, s; evidence ahead of the best effect that surpasses it, and is as good.
+_LAGS, _LAGGING, _AS_GOOD = (120.0, 300.0, 600.0, 1200.0), 10.0, -2.0
+_FEWEST_STUCK, _FEWEST_EQUAL = 20, 6
+#: Agreement of rows with their directions, or of runs with each other, that is clear.
+_CLEAR = 0.5
+_ALMOST, _ALMOST_SURE, _EXACT = 0.99, 50.0, 1e-6
+
+
+class FaultKind(StrEnum):
+    """What went wrong in recording, as results files name it."""
+
+    SWAPPED_DIRECTION = "swapped-direction"
+    WRONG_SIGN = "wrong-sign"
+    WRONG_UNIT = "wrong-unit"
+    SHIFTED_RUN = "shifted-run"
+    DUPLICATED_RUN = "duplicated-run"
+    WRONG_TARGET = "wrong-target"
+    CLOCK_JUMP = "clock-jump"
+    STUCK_SENSOR = "stuck-sensor"
+    LAGGING_SENSOR = "lagging-sensor"
+    SWAPPED_COLUMNS = "swapped-columns"
+
+
+@dataclass(frozen=True, slots=True)
+class Fault:
+    """Something that looks wrong in the data.
+
+    Attributes
+    ----------
+    kind
+        What went wrong.
+    run
+        In which run; None where it is not one.
+    probability
+        That it is so, against the best effect; 1 for what the rows themselves show.
+    statement, remedy
+        What the data look like, and what to do, in sentences without a full stop.
+    explains
+        Whether it explains more than any effect: then no effect is a candidate.
+    """
+
+    kind: FaultKind
+    run: int | None
+    probability: float
+    statement: Words
+    remedy: Words
+    explains: bool = False
+
+    @property
+    def is_sure(self) -> bool:
+        """Whether the rows themselves show it."""
+        return self.probability >= 1.0
+
+
+def recorded_faults(design: Design, deviation: FloatArray) -> tuple[Fault, ...]:
+    """Return what the rows themselves show, without any model."""
+    return (
+        *_against_the_order(design),
+        *_duplicated(design, deviation),
+        *_of_wrong_targets(design, deviation),
+        *_of_the_clock(design),
+        *_of_sensors(design),
+        *_of_units(design, deviation),
+    )
+
+
+def run_faults(fitted: Fit, most: float) -> tuple[Fault, ...]:
+    """Return slips of single runs that explain what the repeats differ by.
+
+    Parameters
+    ----------
+    fitted
+        The model.
+    most
+        Evidence of the best effect.
+    """
+    design, deviation = fitted.design, fitted.deviation
+    runs = np.unique(design.run)
+    if len(runs) < _FEWEST_RUNS:
+        return ()
+    tried = [
+        (kind, run, left, whole, count)
+        for run in runs.tolist()
+        for kind, left, whole, count in _slips(design, deviation, design.run == run)
+    ]
+    found = []
+    for kind, run, left, whole, count in tried:
+        if not left < _MOST_OF_IT * whole:
+            continue
+        evidence = count * float(np.log(whole / max(left, _EXACT * whole))) - 2 * float(np.log(len(tried)))
+        if evidence > _STRONG:
+            ahead = evidence - max(most, 0.0)
+            statement, remedy = _OF_RUNS[kind]
+            fault = Fault(kind, run, _probability(ahead), statement.given(run=run), remedy, ahead > _FARTHER)
+            found.append((evidence, fault))
+    return tuple(fault for _, fault in sorted(found, key=lambda each: -each[0])[:1])
+
+
+def lagging_sensors(fitted: Fit, best: Fit | None, effects: Iterable[Effect]) -> tuple[Fault, ...]:
+    """Return a temperature log that explains as much as any effect, if its sensor lagged behind.
+
+    Parameters
+    ----------
+    fitted
+        The model.
+    best
+        The same with the best effect; None if no effect is better than nothing.
+    effects
+        That may be missing.
+    """
+    design, readings = fitted.design, len(fitted.deviation)
+    if best is None or design.time_is_counted or design.duration == 0:
+        return ()
+    moments, first = np.unique(design.time, return_index=True)
+    base, least = fitted.base(), float(np.sum(best.residual**2))
+    found: list[tuple[float, str, float]] = []
+    for name in design.conditions:
+        if not name.endswith("temperature") or len(moments) < _FEWEST_STUCK:
+            continue
+        log = design.conditions[name]
+        rate = np.interp(design.time, moments, np.gradient(log[first], moments))
+        for effect in _followers(effects, design, name):
+            for lag in _LAGS:
+                corrected = replace(design, conditions={**design.conditions, name: log + lag * rate})
+                columns = np.column_stack([base, effect.columns(corrected, effect.grid(corrected)[0])])
+                left = _squares_left(columns, fitted.open_deviation)
+                found.append((readings * float(np.log(least / max(left, 1e-12 * least))), name, lag))
+    if not found:
+        return ()
+    evidence, name, lag = max(found)
+    # The effect that leads was searched over as many time constants: neither pays more than the other.
+    if evidence < _AS_GOOD:
+        return ()
+    statement = _LAGS_BEHIND.given(column=name, minutes=wording.significant(lag / 60, 1))
+    kind = FaultKind.LAGGING_SENSOR
+    return (
+        Fault(kind, None, _probability(evidence), statement, _OTHER_SENSOR, explains=evidence > _LAGGING),
+    )
+
+
+def _probability(ahead: float) -> float:
+    """Return the probability of a fault by its evidence ahead of the best effect; never quite one."""
+    return min(_ALMOST, float(1.0 / (1.0 + np.exp(-min(ahead, _ALMOST_SURE) / 2))))
+
+
+def _slips(
+    design: Design, deviation: FloatArray, own: BoolArray
+) -> Iterator[tuple[FaultKind, float, float, int]]:
+    """Yield of each slip what is left within the repeats without it, what as it stands, of how many."""
+    whole = repeats(design, deviation).squares
+    if design.is_bidirectional:
+        turned = replace(design, direction=np.where(own, -design.direction, design.direction))
+        yield FaultKind.SWAPPED_DIRECTION, repeats(turned, deviation).squares, whole, len(deviation)
+    negated = np.where(own, -deviation, deviation)
+    yield FaultKind.WRONG_SIGN, repeats(design, negated).squares, whole, len(deviation)
+    for step in (1, -1):
+        source = _moved_by(design, own, step)
+        kept = np.flatnonzero(source >= 0)
+        if len(kept) > len(deviation) // 2:
+            subset = of_readings(design, kept)
+            left = repeats(subset, deviation[source[kept]]).squares
+            yield FaultKind.SHIFTED_RUN, left, repeats(subset, deviation[kept]).squares, len(kept)
+
+
+def _moved_by(design: Design, own: BoolArray, step: int) -> IntArray:
+    """Return for each reading that of the next target in the same run and direction, where it is of a run."""
+    places = {
+        (run, sign, target): place
+        for place, (run, sign, target) in enumerate(
+            zip(design.run.tolist(), design.direction.tolist(), design.target.tolist(), strict=True)
+        )
+    }
+    source = np.arange(len(own))
+    for place in np.flatnonzero(own).tolist():
+        key = int(design.run[place]), float(design.direction[place]), int(design.target[place]) + step
+        source[place] = places.get(key, -1)
+    return np.asarray(source, dtype=np.int64)
+
+
+def _followers(effects: Iterable[Effect], design: Design, log: str) -> Iterator[Effect]:
+    """Yield forms of effects that follow a log and have nothing to be searched."""
+    without = replace(
+        design, conditions={name: each for name, each in design.conditions.items() if name != log}
+    )
+    for effect in effects:
+        for form in effect.forms():
+            follows = form.untestable(design) is None and form.untestable(without) is not None
+            if follows and len(form.grid(design)) == 1:
+                yield form
+
+
+def _squares_left(columns: FloatArray, deviation: FloatArray) -> float:
+    lengths = np.linalg.norm(columns, axis=0)
+    scaled = columns / np.where(lengths > 0, lengths, 1.0)
+    return float(np.sum((deviation - scaled @ np.linalg.lstsq(scaled, deviation, rcond=None)[0]) ** 2))
+
+
+def _against_the_order(design: Design) -> Iterator[Fault]:
+    """Yield runs whose rows lead the other way than their directions say, where others do not."""
+    agrees = {}
+    for run in np.unique(design.run).tolist():
+        own = design.run == run
+        steps = np.diff(design.position[own])
+        same_way = np.diff(design.direction[own]) == 0
+        along = np.sign(steps[same_way]) * design.direction[own][1:][same_way]
+        agrees[run] = float(np.mean(along)) if along.size else 0.0
+    rightly = sum(each > _CLEAR for each in agrees.values())
+    for run, each in agrees.items():
+        if each < -_CLEAR and rightly >= 1 and rightly >= len(agrees) / 2:
+            statement, remedy = _OF_RUNS[FaultKind.SWAPPED_DIRECTION]
+            words = _ORDER_SAYS_SO.given(statement=statement.given(run=run))
+            yield Fault(FaultKind.SWAPPED_DIRECTION, run, 1.0, words, remedy)
+
+
+def _duplicated(design: Design, deviation: FloatArray) -> Iterator[Fault]:
+    """Yield runs that repeat another reading for reading, where readings do not repeat as a rule."""
+    runs = {
+        run: deviation[design.run == run][
+            np.lexsort((design.direction[design.run == run], design.target[design.run == run]))
+        ]
+        for run in np.unique(design.run).tolist()
+    }
+    pairs = [
+        (one, other) for one in runs for other in runs if one < other and len(runs[one]) == len(runs[other])
+    ]
+    alike = {pair: float(np.mean(runs[pair[0]] == runs[pair[1]])) for pair in pairs}
+    for (one, other), share in alike.items():
+        others = [each for pair, each in alike.items() if pair != (one, other)]
+        usual = max(others, default=0.0) if len(runs) > _FEWEST_RUNS - 1 else 0.0
+        if share == 1.0 and len(runs[one]) >= _FEWEST_EQUAL and (usual < _CLEAR) and np.ptp(runs[one]) > 0:
+            statement = _DUPLICATED.given(run=other, first=one)
+            yield Fault(FaultKind.DUPLICATED_RUN, other, 1.0, statement, _EXCLUDE_RUN.given(run=other))
+
+
+def _of_wrong_targets(design: Design, deviation: FloatArray) -> Iterator[Fault]:
+    """Yield readings that are off by the distance to another target."""
+    targets = design.target_positions
+    if len(targets) < _FEWEST_RUNS:
+        return
+    spacing = float(np.diff(targets).min())
+    off = deviation - np.median(deviation)
+    for place in np.flatnonzero(np.abs(off) > 0.5 * spacing).tolist():
+        other = int(np.argmin(np.abs(targets - design.position[place] - off[place])))
+        if abs(targets[other] - design.position[place] - off[place]) < _NEAR * spacing:
+            statement = _WRONG_TARGET.given(
+                reading=wording.reading_at(design, place),
+                target=wording.position(design.axis, float(targets[other])),
+            )
+            yield Fault(FaultKind.WRONG_TARGET, int(design.run[place]), 1.0, statement, _CORRECT_TARGET)
+
+
+def _of_the_clock(design: Design) -> Iterator[Fault]:
+    """Yield where the time falls, or jumps within a run."""
+    if design.time_is_counted:
+        return
+    steps = np.diff(design.time)
+    for place in np.flatnonzero(steps < 0).tolist()[:1]:
+        statement = _CLOCK_FALLS.given(reading=wording.reading_at(design, place + 1))
+        yield Fault(FaultKind.CLOCK_JUMP, int(design.run[place + 1]), 1.0, statement, _CORRECT_CLOCK)
+
+
+def _of_sensors(design: Design) -> Iterator[Fault]:
+    """Yield logs that are in each other's columns, and logs that stopped while others went on."""
+    outside = {
+        name: not bool(np.all((low <= log) & (log <= high)))
+        for name, log in design.conditions.items()
+        for low, high in [_POSSIBLE.get(name, (-np.inf, np.inf))]
+    }
+    wrong = [name for name, is_outside in outside.items() if is_outside]
+    if len(wrong) > 1:
+        statement = _SWAPPED_COLUMNS.given(columns=", ".join(wrong))
+        yield Fault(FaultKind.SWAPPED_COLUMNS, None, 1.0, statement, _CORRECT_COLUMNS)
+    changing = {name for name, log in design.conditions.items() if len(np.unique(log)) > len(log) // 4}
+    for name, log in design.conditions.items():
+        stuck = len(log) - 1 - int(np.flatnonzero(np.diff(log))[-1]) if np.ptp(log) > 0 else 0
+        if name in changing and stuck > max(_FEWEST_STUCK, len(log) // 4):
+            statement = _STUCK.given(column=name, count=stuck)
+            yield Fault(FaultKind.STUCK_SENSOR, None, _ALMOST, statement, _EXCLUDE_LOG)
+
+
+def _of_units(design: Design, deviation: FloatArray) -> Iterator[Fault]:
+    """Yield runs of another size than all others, and a test that is hardly any deviation at all."""
+    sizes = {
+        run: float(np.median(np.abs(deviation[design.run == run]))) for run in np.unique(design.run).tolist()
+    }
+    for run, size in sizes.items() if len(sizes) >= _FEWEST_RUNS else ():
+        others = sorted(each for other, each in sizes.items() if other != run)
+        low, high = others[0], others[-1]
+        if high < _ANOTHER_UNIT * low and (size > _ANOTHER_UNIT * high or size * _ANOTHER_UNIT < low):
+            statement, remedy = _OF_RUNS[FaultKind.WRONG_UNIT]
+            yield Fault(FaultKind.WRONG_UNIT, run, _ALMOST, statement.given(run=run), remedy)
+    largest = float(np.abs(deviation).max())
+    if 0 < largest < _TINY:
+        statement = _TINY_TEST.given(size=wording.deviation(design.axis, largest))
+        yield Fault(FaultKind.WRONG_UNIT, None, 0.5, statement, _STATE_UNITS)
+
+
+#: What a log can be at a machine, SI.
+_POSSIBLE = {
+    **dict.fromkeys(
+        ("axis_temperature", "screw_temperature", "air_temperature", "material_temperature"), (253.15, 373.15)
+    ),
+    "air_pressure": (50_000.0, 110_000.0),
+    "relative_humidity": (0.0, 1.0),
+}
+_ORDER_SAYS_SO = Words(
+    en="{statement}; the order of its rows says so too",
+    de="{statement}; die Folge seiner Zeilen sagt es auch",
+)
+_EXCLUDE_RUN = Words(
+    en="measure run {run} again, or leave it out of the file",
+    de="Durchlauf {run} noch einmal messen oder aus der Datei nehmen",
+)
+_DUPLICATED = Words(
+    en="run {run} has the same readings as run {first}, digit for digit",
+    de="Durchlauf {run} hat Ziffer für Ziffer dieselben Messwerte wie Durchlauf {first}",
+)
+_WRONG_TARGET = Words(
+    en="the reading at {reading} looks as if it had been taken at {target}",
+    de="der Messwert bei {reading} sieht aus wie einer bei {target}",
+)
+_CORRECT_TARGET = Words(
+    en="correct the target in the file, or leave the reading empty",
+    de="die Zielposition in der Datei berichtigen oder den Messwert leer lassen",
+)
+_CLOCK_FALLS = Words(en="the time falls at {reading}", de="die Zeit läuft bei {reading} zurück")
+_CORRECT_CLOCK = Words(
+    en="correct the times in the file, or leave their column out",
+    de="die Zeiten in der Datei berichtigen oder ihre Spalte weglassen",
+)
+_SWAPPED_COLUMNS = Words(
+    en="columns look exchanged: {columns} hold what they cannot",
+    de="Spalten sehen vertauscht aus: {columns} enthalten, was sie nicht können",
+)
+_CORRECT_COLUMNS = Words(
+    en="name the columns rightly, in the file or in source.columns",
+    de="die Spalten richtig benennen, in der Datei oder in source.columns",
+)
+_STUCK = Words(
+    en="{column} stands still during the last {count} readings",
+    de="{column} steht während der letzten {count} Messwerte still",
+)
+_EXCLUDE_LOG = Words(
+    en="leave these values empty in the file; effects that follow them cannot be told otherwise",
+    de="diese Werte in der Datei leer lassen; Einflüsse, die ihnen folgen, sind sonst nicht zu erkennen",
+)
+_TINY_TEST = Words(
+    en="the deviations are no larger than {size}; are they in another unit?",
+    de="die Abweichungen sind nicht größer als {size}; stehen sie in einer anderen Einheit?",
+)
+_STATE_UNITS = Words(en="state source.units", de="source.units angeben")
+_LAGS_BEHIND = Words(
+    en="{column} looks as if its sensor lagged about {minutes} min behind",
+    de="{column} sieht aus, als hinkte ihr Fühler etwa {minutes} min nach",
+)
+_OTHER_SENSOR = Words(
+    en="repeat with a sensor in better contact, or wait until temperatures stand",
+    de="mit einem Fühler in besserem Kontakt wiederholen oder stehende Temperaturen abwarten",
+)
+_CORRECT_RUN = Words(
+    en="correct the run in the file, or leave it out",
+    de="den Durchlauf in der Datei berichtigen oder weglassen",
+)
+_OF_RUNS = {
+    FaultKind.SWAPPED_DIRECTION: (
+        Words(
+            en="run {run} looks as if its directions were swapped",
+            de="Durchlauf {run} sieht aus, als wären seine Richtungen vertauscht",
+        ),
+        _CORRECT_RUN,
+    ),
+    FaultKind.WRONG_SIGN: (
+        Words(
+            en="run {run} looks as if its sign were turned",
+            de="Durchlauf {run} sieht aus, als wäre sein Vorzeichen umgekehrt",
+        ),
+        _CORRECT_RUN,
+    ),
+    FaultKind.SHIFTED_RUN: (
+        Words(
+            en="run {run} looks as if every reading stood at the target beside its own",
+            de="Durchlauf {run} sieht aus, als stünde jeder Messwert bei der Zielposition neben seiner",
+        ),
+        _CORRECT_RUN,
+    ),
+    FaultKind.WRONG_UNIT: (
+        Words(
+            en="run {run} looks as if it were in another unit than the others",
+            de="Durchlauf {run} sieht aus, als stünde er in einer anderen Einheit als die anderen",
+        ),
+        _CORRECT_RUN,
+    ),
+}

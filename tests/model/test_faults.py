@@ -1,0 +1,132 @@
+"""A slip in recording is named as what it is, with its run, and never as a cause of deviations."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from model.axis_tests import INSTALLED, linear_test, model_of, noise, observations
+from zlmreport.model.design import Design
+from zlmreport.model.diagnosis import Verdict, diagnose
+from zlmreport.model.faults import FaultKind, recorded_faults, run_faults
+from zlmreport.model.fit import fit
+from zlmreport.model.report import report
+from zlmreport.quantities.arrays import FloatArray
+
+_DESIGN = linear_test(11, 5)
+_MODEL = model_of("offset", "scale-error", "backlash")
+_THIRD = _DESIGN.run == 3
+#: An irregular axis with 5 µm of backlash.
+_TRUE = (
+    1e-5 * _DESIGN.position
+    - 2.5e-6 * _DESIGN.direction
+    + 2e-6 * np.random.default_rng(5).standard_normal(11)[_DESIGN.target]
+    + noise(_DESIGN, sigma=4e-7)
+)
+
+
+def _kinds(design: Design, deviation: FloatArray) -> list[tuple[FaultKind, int | None]]:
+    return [(each.kind, each.run) for each in recorded_faults(design, deviation)]
+
+
+def _slip(design: Design, deviation: FloatArray) -> list[tuple[FaultKind, int | None]]:
+    return [(each.kind, each.run) for each in run_faults(fit(_MODEL, design, deviation), 0.0)]
+
+
+def test_sound_readings_have_no_fault() -> None:
+    assert _kinds(_DESIGN, _TRUE) == []
+    assert _slip(_DESIGN, _TRUE) == []
+
+
+def test_run_whose_directions_were_swapped_is_told_by_the_other_runs() -> None:
+    assert _slip(_swapped(), _TRUE) == [(FaultKind.SWAPPED_DIRECTION, 3)]
+
+
+def test_order_of_the_rows_shows_swapped_directions() -> None:
+    assert _kinds(_swapped(), _TRUE) == [(FaultKind.SWAPPED_DIRECTION, 3)]
+
+
+def test_swapped_directions_are_a_fault_and_no_cause() -> None:
+    found = diagnose(_MODEL, observations(_swapped(), _TRUE), INSTALLED)
+    assert found.verdict is Verdict.UNEXPLAINED
+    assert found.candidates == ()
+    (fault,) = report(found)["faults"]
+    assert (fault["fault"], fault["run"], fault["probability"]) == ("swapped-direction", 3, 1.0)
+    assert fault["statement"].endswith("were swapped; the order of its rows says so too")
+
+
+def test_run_of_turned_sign_is_told_by_the_other_runs() -> None:
+    assert _slip(_DESIGN, np.where(_THIRD, -_TRUE, _TRUE)) == [(FaultKind.WRONG_SIGN, 3)]
+
+
+def test_run_that_was_moved_by_a_target_is_told_by_the_other_runs() -> None:
+    moved = _TRUE.copy()
+    for sign in (1.0, -1.0):
+        rows = np.flatnonzero(_THIRD & (_DESIGN.direction == sign))
+        rows = rows[np.argsort(_DESIGN.target[rows])]
+        moved[rows] = np.roll(_TRUE[rows], 1)
+    assert _slip(_DESIGN, moved) == [(FaultKind.SHIFTED_RUN, 3)]
+
+
+def test_run_in_another_unit_is_told_by_its_size() -> None:
+    assert (FaultKind.WRONG_UNIT, 3) in _kinds(_DESIGN, np.where(_THIRD, 1e-3 * _TRUE, _TRUE))
+
+
+def test_test_that_hardly_deviates_is_asked_for_its_unit() -> None:
+    (fault,) = recorded_faults(_DESIGN, 1e-3 * _TRUE)
+    assert (fault.kind, fault.run) == (FaultKind.WRONG_UNIT, None)
+    assert not fault.is_sure
+
+
+def test_run_that_repeats_another_digit_for_digit_is_a_duplicate() -> None:
+    copied = _TRUE.copy()
+    copied[_THIRD] = _TRUE[_DESIGN.run == 1]
+    assert _kinds(_DESIGN, copied) == [(FaultKind.DUPLICATED_RUN, 3)]
+
+
+def test_quiet_machine_may_repeat_its_readings() -> None:
+    assert _kinds(_DESIGN, np.round(-5e-6 * _DESIGN.direction + 2e-6, 7)) == []
+
+
+def test_reading_of_another_target_is_told_by_the_distance() -> None:
+    targets = _DESIGN.target_positions
+    deviation = _TRUE.copy()
+    place = int(np.flatnonzero(_THIRD & (_DESIGN.target == 4))[0])
+    deviation[place] += targets[6] - targets[4]
+    assert _kinds(_DESIGN, deviation) == [(FaultKind.WRONG_TARGET, 3)]
+
+
+def test_time_that_falls_is_a_jump_of_the_clock() -> None:
+    time = _DESIGN.time.copy()
+    time[60:] -= 900.0
+    assert _kinds(replace(_DESIGN, time=time), _TRUE) == [(FaultKind.CLOCK_JUMP, 3)]
+
+
+def test_log_that_stops_while_others_go_on_is_a_stuck_sensor() -> None:
+    log = _DESIGN.conditions["axis_temperature"].copy()
+    log[50:] = log[50]
+    design = replace(_DESIGN, conditions={**_DESIGN.conditions, "axis_temperature": log})
+    assert _kinds(design, _TRUE) == [(FaultKind.STUCK_SENSOR, None)]
+
+
+def test_columns_that_hold_what_they_cannot_are_exchanged() -> None:
+    logs = dict(_DESIGN.conditions)
+    logs["air_pressure"], logs["air_temperature"] = logs["air_temperature"], logs["air_pressure"]
+    assert _kinds(replace(_DESIGN, conditions=logs), _TRUE) == [(FaultKind.SWAPPED_COLUMNS, None)]
+
+
+def test_growth_that_a_lagging_sensor_explains_as_well_does_not_stand_alone() -> None:
+    lag = 600.0
+    design = linear_test(11, 5)
+    time = design.time
+    true = 293.15 + 3.0 * -np.expm1(-time / 700.0)
+    logged = 293.15 + 3.0 * (1 + (lag * np.exp(-time / lag) - 700.0 * np.exp(-time / 700.0)) / (700.0 - lag))
+    design = replace(design, conditions={"axis_temperature": logged})
+    deviation = 11e-6 * design.position * (true - 293.15) + noise(design, sigma=1e-7)
+    found = diagnose(model_of("offset", "scale-error"), observations(design, deviation), INSTALLED)
+    assert [each.kind for each in found.faults] == [FaultKind.LAGGING_SENSOR]
+
+
+def _swapped() -> Design:
+    return replace(_DESIGN, direction=np.where(_THIRD, -_DESIGN.direction, _DESIGN.direction))
