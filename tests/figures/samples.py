@@ -234,6 +234,7 @@ DEGENERATE = {
 ORDINARY = {
     "both directions": figure(both_directions()),
     "each direction": figure(*each_direction()),
+    "panels beside each other": replace(figure(*each_direction()), is_wide=True, height=45.0),
     "200 targets": figure(many_targets()),
     "a fall chart": figure(bars(5.77, 3.72, 0.54, names=("without model", "+ offset", "+ screw-pitch"))),
     "a panel of what another leaves": replace(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, TypeAlias, cast
 
@@ -101,12 +101,13 @@ def on_cover(keys: AsFound | None, writer: Writer) -> Iterator[Paragraph]:
         yield Paragraph(writer.say(_ON_COVER[keys.work]))
 
 
-def beside_as_found(
+def beside_as_found(  # noqa: PLR0913, PLR0917 - two measurements of everything
     keys: AsFound,
     as_left: Iterable[Section],
     before: Sequence[Evaluated],
     after: Sequence[Evaluated],
     writer: Writer,
+    section: Callable[[Evaluated, Writer], Section] = results.section,
 ) -> Iterator[Section]:
     """Yield the comparison, the results as left, and those as found; each says which it is.
 
@@ -120,12 +121,14 @@ def beside_as_found(
         Evaluations of the two measurements, by the same standards in the same order.
     writer
         Of the document.
+    section
+        Makes the section of results as found.
     """
     state_before, state_after = NAMES[keys.work]
     yield _comparison(keys, before, after, writer)
-    yield from (_labelled(section, state_after, writer) for section in as_left)
+    yield from (_labelled(each, state_after, writer) for each in as_left)
     own = _scribe_of(before, writer)
-    yield from (_results(each, state_before, own) for each in before)
+    yield from (_results(section, each, state_before, own) for each in before)
 
 
 def readings_as_found(keys: AsFound, before: Sequence[Evaluated], writer: Writer) -> Section:
@@ -171,10 +174,12 @@ def _comparison(
     return Section("as-found-as-left", writer.say(_TITLE), tuple(blocks), new_page=True)
 
 
-def _results(evaluated: Evaluated, state: Words, writer: Writer) -> Section:
+def _results(
+    section_of: Callable[[Evaluated, Writer], Section], evaluated: Evaluated, state: Words, writer: Writer
+) -> Section:
     """Return the results as found by a standard, whose definitions stand with the results as left."""
     figures = tuple(_named(figure, state) for figure in evaluated.figures)
-    section = results.section(replace(evaluated, figures=figures), writer)
+    section = section_of(replace(evaluated, figures=figures), writer)
     blocks = tuple(block for block in section.blocks if not isinstance(block, Formulas))
     return _labelled(replace(section, key=f"as-found-{section.key}", blocks=blocks), state, writer)
 

@@ -17,7 +17,7 @@ from zlmreport.certificate import (
 from zlmreport.certificate.attachments import sources
 from zlmreport.certificate.conditions import Described
 from zlmreport.certificate.cover import lines
-from zlmreport.certificate.document import Certificate, Letterhead, PageWords, Party, Section
+from zlmreport.certificate.document import Certificate, Graph, Letterhead, PageWords, Party, Section
 from zlmreport.certificate.logo import Logo, read_logo
 from zlmreport.certificate.statements import document_title, opinion_sections, running_title
 from zlmreport.language import Words
@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from zlmreport.certificate.linked import Linked
     from zlmreport.certificate.model_annex import Modelled
     from zlmreport.certificate.results import Evaluated
+    from zlmreport.certificate.standard_layout import Pages
     from zlmreport.figures.figure import Figure
     from zlmreport.job.document_keys import Laboratory
     from zlmreport.job.job import Job
@@ -76,6 +77,8 @@ def build(  # noqa: PLR0913, PLR0917 - what a document is made of
     designations = tuple(each.evaluation.designation for each in evaluated)
     logo = _logo(job)
     read = (measurements, *(each.evaluation.measurements for each in as_found[:1]))
+    described = describe(writer)
+    pages = _pages(job, evaluated, writer)
     files = [file for each in read for file in each.provenance.files]
     made_from = sources(job, files, logo.file if logo else None)
     return Certificate(
@@ -86,12 +89,16 @@ def build(  # noqa: PLR0913, PLR0917 - what a document is made of
         issued=certificate.issued,
         paper=certificate.paper,
         letterhead=_letterhead(job.keys.laboratory, logo),
-        cover=cover.blocks(job, measurements, evaluated, writer),
+        cover=cover.blocks(job, measurements, evaluated, writer, pages, described),
         sections=(
-            conditions.section(job, measurements, describe(writer), writer),
-            *_results(job, evaluated, as_found, writer),
-            *_uncertainty(job, evaluated, as_found, writer),
-            *_readings(job, measurements, as_found, writer),
+            *_conditions(job, measurements, described, pages, writer),
+            *_results(job, evaluated, as_found, pages, writer),
+            *_in_common(pages, writer),
+            *_uncertainty(job, evaluated, as_found, pages, writer),
+            *(
+                replace(each, new_page=each.new_page and pages is None)
+                for each in _readings(job, measurements, as_found, writer)
+            ),
             origin.section(made_from, read, GENERATOR, plugins, writer),
             *opinion_sections(job.keys, writer),
             *_model(modelled, writer),
@@ -116,31 +123,87 @@ def build(  # noqa: PLR0913, PLR0917 - what a document is made of
         budget=evaluated[0].budget,
         job=job,
         sources=made_from,
+        is_compact=pages is not None,
     )
 
 
+def _pages(job: Job, evaluated: tuple[Evaluated, ...], writer: Writer) -> Pages | None:
+    """Return which evaluations share a page; None where each has a chapter."""
+    if job.keys.certificate.layout != "standard":
+        return None
+    from zlmreport.certificate.standard_layout import together  # noqa: PLC0415 - of those that ask for it
+
+    return together(evaluated, writer)
+
+
+def _in_common(pages: Pages | None, writer: Writer) -> Iterator[Section]:
+    """Yield what is said once for all standards, where each has no chapter."""
+    if pages is None:
+        return iter(())
+    from zlmreport.certificate.standard_layout import in_common  # noqa: PLC0415 - of those that ask for it
+
+    return in_common(pages, writer)
+
+
+def _without_graphs(section: Section) -> Section:
+    """Return a section whose table says what its bars repeat: that of the uncertainty."""
+    return replace(section, blocks=tuple(each for each in section.blocks if not isinstance(each, Graph)))
+
+
+def _conditions(
+    job: Job,
+    measurements: MeasurementSet,
+    described: Sequence[Described],
+    pages: Pages | None,
+    writer: Writer,
+) -> Iterator[Section]:
+    """Yield the conditions; where the cover holds them, what is said besides."""
+    section = conditions.section(job, measurements, described, writer)
+    besides = tuple(conditions.besides(measurements, described, writer))
+    if pages is None:
+        yield section
+    elif besides:
+        yield replace(section, blocks=besides)
+
+
 def _results(
-    job: Job, evaluated: tuple[Evaluated, ...], as_found: tuple[Evaluated, ...], writer: Writer
+    job: Job,
+    evaluated: tuple[Evaluated, ...],
+    as_found: tuple[Evaluated, ...],
+    pages: Pages | None,
+    writer: Writer,
 ) -> Iterator[Section]:
     """Yield the results by each standard; of an axis that was adjusted, those before, after, and compared."""
-    sections = (results.section(each, writer) for each in evaluated)
     keys = job.keys.as_found
+    if pages is None:
+        sections = (results.section(each, writer) for each in evaluated)
+        page = results.section
+    else:
+        from zlmreport.certificate import standard_layout  # noqa: PLC0415 - of those that ask for it
+
+        sections = (standard_layout.page(each, writer) for each in pages)
+        page = standard_layout.page_of_one
     if keys is None:
         return sections
     from zlmreport.certificate.as_found import beside_as_found  # noqa: PLC0415 - of the few that need it
 
-    return beside_as_found(keys, sections, as_found, evaluated, writer)
+    return beside_as_found(keys, sections, as_found, evaluated, writer, page)
 
 
 def _uncertainty(
-    job: Job, evaluated: tuple[Evaluated, ...], as_found: tuple[Evaluated, ...], writer: Writer
+    job: Job,
+    evaluated: tuple[Evaluated, ...],
+    as_found: tuple[Evaluated, ...],
+    pages: Pages | None,
+    writer: Writer,
 ) -> Iterator[Section]:
     """Yield the uncertainty budget; of an axis that was adjusted, that of both measurements."""
+    sections = iter([uncertainty.section(evaluated[0].budget, job.axis, writer)])
     if job.keys.as_found:
         from zlmreport.certificate.as_found import uncertainty_beside_as_found  # noqa: PLC0415
 
-        return uncertainty_beside_as_found(job.keys.as_found, as_found, evaluated, writer)
-    return iter([uncertainty.section(evaluated[0].budget, job.axis, writer)])
+        sections = uncertainty_beside_as_found(job.keys.as_found, as_found, evaluated, writer)
+    return sections if pages is None else map(_without_graphs, sections)
 
 
 def _model(modelled: Modelled | None, writer: Writer) -> Iterator[Section]:

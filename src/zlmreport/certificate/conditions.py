@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Container, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -74,6 +74,21 @@ def section(
     job: Job, measurements: MeasurementSet, described: Sequence[Described], writer: Writer
 ) -> Section:
     """Return the section on the item, the method, the instrument and the environment."""
+    blocks = (*facts(job, measurements, described, writer), *besides(measurements, described, writer))
+    return Section("conditions", writer.say(_TITLE), blocks)
+
+
+def facts(
+    job: Job,
+    measurements: MeasurementSet,
+    described: Sequence[Described],
+    writer: Writer,
+    beside: Container[str] = (),
+) -> Iterator[Block]:
+    """Yield what is stated of the item, the method, the instrument and the environment.
+
+    A group of which everything stands `beside` them already is left out.
+    """
     keys = job.keys
     environment = tuple(environment_facts(keys.environment, measurements, writer, "environment"))
     groups = (
@@ -84,16 +99,18 @@ def section(
         *((each.heading, each.facts) for each in described),
         (Words(en="Environment", de="Umgebung"), environment),
     )
-    blocks: list[Block] = [
-        Facts(pairs, writer.say(heading))
-        for heading, facts in groups
-        if (pairs := stated_facts(facts, writer))
-    ]
+    for heading, group in groups:
+        pairs = stated_facts(group, writer)
+        if any(value not in beside for _, value in pairs):
+            yield Facts(pairs, writer.say(heading))
     if keys.certificate.kind == "certificate" and not stated_facts(environment, writer):
-        blocks.append(Paragraph(writer.say(_NO_INFLUENCE)))
-    blocks.extend(correction_blocks(measurements, writer))
-    blocks.extend(block for each in described for block in each.blocks)
-    return Section("conditions", writer.say(_TITLE), tuple(blocks))
+        yield Paragraph(writer.say(_NO_INFLUENCE))
+
+
+def besides(measurements: MeasurementSet, described: Sequence[Described], writer: Writer) -> Iterator[Block]:
+    """Yield what does not fit into facts: corrections, and what extensions show."""
+    yield from correction_blocks(measurements, writer)
+    yield from (block for each in described for block in each.blocks)
 
 
 def axis_in_words(job: Job, writer: Writer) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from zlmreport.certificate.document import (
@@ -121,8 +121,7 @@ def blocks(evaluation: Evaluation, writer: Writer) -> Iterator[Block]:
     Nothing where the job states no limit; no table where no uncertainty is known: it would say no more than
     that of the results.
     """
-    limited = [each for each in evaluation.parameters if each.limit is not None]
-    if not limited:
+    if all(each.limit is None for each in evaluation.parameters):
         return
     from zlmreport.figures.bars import conformity_graph  # noqa: PLC0415 - only with limits
 
@@ -130,7 +129,15 @@ def blocks(evaluation: Evaluation, writer: Writer) -> Iterator[Block]:
     if graph is None:
         return
     yield Graph(graph)
-    if all(each.expanded_uncertainty is None for each in limited):
+    yield from statements([evaluation], writer)
+
+
+def statements(evaluations: Sequence[Evaluation], writer: Writer) -> Iterator[Table]:
+    """Yield the table of what is stated of limits, by standard where there are several."""
+    limited = {
+        each.designation: [one for one in each.parameters if one.limit is not None] for each in evaluations
+    }
+    if all(each.expanded_uncertainty is None for some in limited.values() for each in some):
         return
     unit = writer.deviation_unit.symbol
     columns = (
@@ -145,8 +152,12 @@ def blocks(evaluation: Evaluation, writer: Writer) -> Iterator[Block]:
         Column(writer.say(Words(en="Statement", de="Aussage"))),
         Column(writer.say(Words(en="Risk", de="Risiko")), "%", Align.RIGHT),
     )
-    rows = tuple(_row(each, writer) for each in limited)
-    yield Table(writer.say(_CAPTION), columns, (RowGroup(rows),))
+    groups = tuple(
+        RowGroup(tuple(_row(each, writer) for each in some), name if len(limited) > 1 else "")
+        for name, some in limited.items()
+        if some
+    )
+    yield Table(writer.say(_CAPTION), columns, groups)
 
 
 def _row(parameter: Parameter, writer: Writer) -> tuple[Cell, ...]:

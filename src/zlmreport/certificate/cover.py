@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from zlmreport.certificate import conformity, statements, uncertainty
 from zlmreport.certificate.circumstances import Fact, date, days, stated_facts
-from zlmreport.certificate.conditions import MACHINE_KINDS, axis_in_words
+from zlmreport.certificate.conditions import MACHINE_KINDS, Described, axis_in_words
+from zlmreport.certificate.conditions import facts as facts_of_conditions
 from zlmreport.certificate.document import Block, Column, Facts, Notice, RowGroup, Symbol, Table
 from zlmreport.certificate.readings import missing_readings
 from zlmreport.certificate.results import Evaluated, section_key
@@ -26,19 +27,39 @@ if TYPE_CHECKING:
     from zlmreport.presenting.writer import Writer
 
 
-def blocks(
-    job: Job, measurements: MeasurementSet, evaluated: tuple[Evaluated, ...], writer: Writer
+_CALIBRATION = Words(en="Calibration", de="Kalibrierung")
+
+
+def blocks(  # noqa: PLR0913, PLR0917 - what a first page is made of
+    job: Job,
+    measurements: MeasurementSet,
+    evaluated: tuple[Evaluated, ...],
+    writer: Writer,
+    pages: Sequence[tuple[Evaluated, ...]] | None = None,
+    described: Sequence[Described] = (),
 ) -> tuple[Block, ...]:
-    """Return the blocks under the title."""
+    """Return the blocks under the title.
+
+    Where standards share `pages`, they share their results in brief, and the conditions stand here too,
+    with what extensions have `described`.
+    """
     evaluations = tuple(each.evaluation for each in evaluated)
+    facts = stated_facts(identity(job, evaluations, writer), writer)
+    if pages is None:
+        first: tuple[Block, ...] = (Facts(facts),)
+    else:
+        machine, kind = job.keys.machine, writer.say(MACHINE_KINDS[job.keys.machine.kind])
+        beside = {machine.manufacturer or "", machine.model or "", machine.serial or "", kind}
+        of_conditions = facts_of_conditions(job, measurements, described, writer, beside)
+        first = (Facts(facts, writer.say(_CALIBRATION)), *of_conditions)
     return (
         *amendment_notice(job.keys.certificate, writer),
-        Facts(stated_facts(identity(job, evaluations, writer), writer)),
-        _results(evaluations, writer),
+        *first,
+        _results(pages or [(each,) for each in evaluated], writer, dense=pages is not None),
         *uncertainty.statement(evaluated[0].budget, writer),
         *conformity.rule_paragraph(job.keys.decision_rule, evaluations, writer),
         *missing_readings(measurements, writer),
-        *_shortfalls(evaluations, writer),
+        *_shortfalls(evaluations, writer, in_a_line=pages is not None),
         *_as_found(job, writer),
         *statements.notices(job.keys, writer),
         *statements.paragraphs(job.keys, writer),
@@ -53,8 +74,8 @@ def _as_found(job: Job, writer: Writer) -> Iterator[Block]:
         yield from on_cover(job.keys.as_found, writer)
 
 
-def _results(evaluations: tuple[Evaluation, ...], writer: Writer) -> Table:
-    values = Values.of(evaluations, writer)
+def _results(pages: Sequence[tuple[Evaluated, ...]], writer: Writer, *, dense: bool) -> Table:
+    values = Values.of((page[0].evaluation for page in pages), writer)
     columns = (
         Column(writer.say(Words(en="Symbol", de="Zeichen"))),
         Column(writer.say(Words(en="Parameter", de="Kenngröße"))),
@@ -68,14 +89,15 @@ def _results(evaluations: tuple[Evaluation, ...], writer: Writer) -> Table:
                     writer.say(parameter.quantity.name),
                     *values.cells(parameter),
                 )
-                for parameter in _in_brief(evaluation)
+                for parameter in _in_brief(page[0].evaluation)
             ),
-            evaluation.designation,
-            section=section_key(evaluation),
+            ", ".join(each.evaluation.designation for each in page),
+            section=section_key(page[0].evaluation),
         )
-        for evaluation in evaluations
+        for page in pages
     )
-    return Table(writer.say(Words(en="Results in brief", de="Ergebnisse im Überblick")), columns, groups)
+    caption = Words(en="Results in brief", de="Ergebnisse im Überblick")
+    return Table(writer.say(caption), columns, groups, dense)
 
 
 def _in_brief(evaluation: Evaluation) -> tuple[Parameter, ...]:
@@ -87,7 +109,7 @@ def _in_brief(evaluation: Evaluation) -> tuple[Parameter, ...]:
     return limited or composite or evaluation.parameters
 
 
-def _shortfalls(evaluations: tuple[Evaluation, ...], writer: Writer) -> Iterator[Notice]:
+def _shortfalls(evaluations: tuple[Evaluation, ...], writer: Writer, *, in_a_line: bool) -> Iterator[Notice]:
     one = Words(
         en="{designation}: {count} not met; see its section",
         de="{designation}: {count} nicht erfüllt; siehe den Abschnitt dazu",
@@ -97,6 +119,10 @@ def _shortfalls(evaluations: tuple[Evaluation, ...], writer: Writer) -> Iterator
         for evaluation in evaluations
         if (unmet := sum(finding.met is False for finding in evaluation.findings))
     )
+    if in_a_line and len(items) > 1:
+        named = (each.designation for each in evaluations if any(one.met is False for one in each.findings))
+        words = Words(en="{designations}; see their sections", de="{designations}; siehe die Abschnitte dazu")
+        items = (writer.say(words.given(designations=", ".join(named))),)
     if items:
         heading = Words(
             en="Requirements of the standards that the test does not meet",

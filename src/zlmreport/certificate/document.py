@@ -204,6 +204,8 @@ class Certificate:
         Date of issue; None where the job states none.
     paper
         ``A4`` or ``Letter``.
+    is_compact
+        Whether it is set in smaller type, with less room between its parts.
     letterhead
         The issuing laboratory.
     cover
@@ -259,6 +261,7 @@ class Certificate:
     job: Job | None = None
     sources: tuple[Source, ...] = ()
     attachments: tuple[Attachment, ...] = ()
+    is_compact: bool = False
 
     @property
     def figures(self) -> tuple[Figure, ...]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -12,6 +12,7 @@ from zlmreport.certificate import conformity
 from zlmreport.certificate.document import (
     Align,
     Block,
+    Cell,
     Column,
     Explained,
     Formulas,
@@ -93,14 +94,14 @@ def section(evaluated: Evaluated, writer: Writer) -> Section:
     title = Words(en="Results by {designation}", de="Ergebnisse nach {designation}")
     blocks: list[Block] = [
         Paragraph(writer.say(evaluation.title)),
-        *_shortfalls(evaluation, writer),
+        *([shortfall(evaluation.designation, items, writer)] if (items := unmet(evaluation, writer)) else []),
         _parameters(evaluation, writer) if evaluation.parameters else Paragraph(writer.say(_NO_PARAMETER)),
-        *_raised(evaluation, writer),
+        *raised(evaluation, writer),
         *map(Graph, evaluated.figures),
         *conformity.blocks(evaluation, writer),
-        _positions(evaluation, writer),
-        *([_requirements(evaluation, writer)] if evaluation.findings else []),
-        *([_definitions(evaluation, writer)] if evaluation.parameters else []),
+        positions(evaluation, writer),
+        *([requirements([evaluation], writer)] if evaluation.findings else []),
+        *([definitions(evaluation, writer)] if evaluation.parameters else []),
         *(Paragraph(writer.say(note)) for note in evaluation.notes),
     ]
     return Section(
@@ -111,23 +112,20 @@ def section(evaluated: Evaluated, writer: Writer) -> Section:
     )
 
 
-def _shortfalls(evaluation: Evaluation, writer: Writer) -> Iterator[Notice]:
-    """Yield the notice of the requirements that the test does not meet, if there are any."""
-    unmet = [finding for finding in evaluation.findings if finding.met is False]
-    if unmet:
-        statement = Words(en="{requirement}: {found}", de="{requirement}: {found}")
-        yield Notice(
-            writer.say(
-                Words(
-                    en="The test deviates from {designation}",
-                    de="Die Messung weicht von {designation} ab",
-                ).given(designation=evaluation.designation)
-            ),
-            tuple(
-                writer.say(statement.given(requirement=_requirement(finding, writer), found=finding.found))
-                for finding in unmet
-            ),
-        )
+def unmet(evaluation: Evaluation, writer: Writer) -> tuple[str, ...]:
+    """Return the requirements that the test does not meet, each with what was found."""
+    statement = Words(en="{requirement}: {found}", de="{requirement}: {found}")
+    return tuple(
+        writer.say(statement.given(requirement=_requirement(finding, writer), found=finding.found))
+        for finding in evaluation.findings
+        if finding.met is False
+    )
+
+
+def shortfall(designations: str, items: tuple[str, ...], writer: Writer) -> Notice:
+    """Return the notice of requirements that are not met."""
+    heading = Words(en="The test deviates from {designation}", de="Die Messung weicht von {designation} ab")
+    return Notice(writer.say(heading.given(designation=designations)), items)
 
 
 def _parameters(evaluation: Evaluation, writer: Writer) -> Table:
@@ -155,7 +153,7 @@ def _parameters(evaluation: Evaluation, writer: Writer) -> Table:
     )
 
 
-def _raised(evaluation: Evaluation, writer: Writer) -> Iterator[Paragraph]:
+def raised(evaluation: Evaluation, writer: Writer) -> Iterator[Paragraph]:
     """Yield which uncertainties were raised, and to what."""
     for least, words in RAISED_TO.items():
         symbols = [each.quantity.notation for each in evaluation.parameters if each.raised_to is least]
@@ -164,7 +162,7 @@ def _raised(evaluation: Evaluation, writer: Writer) -> Iterator[Paragraph]:
             yield Paragraph(writer.say(statement.given(symbols=", ".join(map(plain, symbols)), what=words)))
 
 
-def _positions(evaluation: Evaluation, writer: Writer) -> Table:
+def positions(evaluation: Evaluation, writer: Writer) -> Table:
     """Return the table by position; it shows n where readings are missing somewhere."""
     statistics = evaluation.statistics
     measurements = evaluation.measurements
@@ -219,23 +217,34 @@ def _mean_uncertainties(evaluation: Evaluation) -> Iterator[tuple[str, FloatArra
         yield approach.arrow, values
 
 
-def _requirements(evaluation: Evaluation, writer: Writer) -> Table:
+def requirements(evaluations: Sequence[Evaluation], writer: Writer) -> Table:
+    """Return what standards require of a test, and what was found; standards that agree share their rows."""
     columns = (
         Column(writer.say(Words(en="Requirement on the test", de="Anforderung an die Messung"))),
         Column(writer.say(Words(en="Found", de="Vorgefunden"))),
         Column(writer.say(Words(en="Result", de="Ergebnis"))),
     )
-    rows = tuple(
-        (_requirement(finding, writer), writer.say(finding.found), _mark(finding, writer))
-        for finding in evaluation.findings
-    )
+    groups: dict[tuple[tuple[Cell, ...], ...], list[str]] = {}
+    for evaluation in evaluations:
+        rows = tuple(
+            (_requirement(finding, writer), writer.say(finding.found), _mark(finding, writer))
+            for finding in evaluation.findings
+        )
+        groups.setdefault(rows, []).append(evaluation.designation)
     caption = Words(
         en="Requirements on the test. Those marked * are applied as this program's reading of the "
         "standard, not quoted from its text.",
         de="Anforderungen an die Messung. Mit * bezeichnete werden nach dem Verständnis dieses Programms "
         "angewandt und nicht aus dem Wortlaut der Norm zitiert.",
     )
-    return Table(writer.say(caption), columns, (RowGroup(rows),))
+    of_several = len(evaluations) > 1
+    return Table(
+        writer.say(caption),
+        columns,
+        tuple(
+            RowGroup(rows, ", ".join(names) if of_several else "") for rows, names in groups.items() if rows
+        ),
+    )
 
 
 def _requirement(finding: Finding, writer: Writer) -> str:
@@ -251,7 +260,8 @@ def _mark(finding: Finding, writer: Writer) -> Verdict:
     return Verdict(Mark.NOT_MET, writer.say(_NOT_MET))
 
 
-def _definitions(evaluation: Evaluation, writer: Writer) -> Formulas:
+def definitions(evaluation: Evaluation, writer: Writer) -> Formulas:
+    """Return the definitions of a standard's parameters."""
     caption = Words(
         en="Definitions. Names describe the parameters; the formulas define what was computed.",
         de="Definitionen. Die Namen beschreiben die Kenngrößen; maßgebend für die Berechnung sind die "

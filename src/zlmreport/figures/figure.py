@@ -185,6 +185,10 @@ class Figure:
         From top to bottom; they share the position axis.
     spans_are_alike
         Whether lengths of all panels compare by eye: not where one shows what is left of the other.
+    height
+        In millimetres; None for the usual one.
+    is_wide
+        Whether the panels stand beside each other instead of one below the other.
     """
 
     key: str
@@ -196,3 +200,5 @@ class Figure:
     y_unit: str
     panels: tuple[Panel, ...]
     spans_are_alike: bool = True
+    height: float | None = None
+    is_wide: bool = False

@@ -64,6 +64,8 @@ class FigureLayout:
 
 def figure_size(figure: Figure) -> tuple[float, float]:
     """Return width and height of a figure in points; they depend on nothing but its panels and bars."""
+    if figure.height is not None:
+        return WIDTH, figure.height * _MILLIMETRE
     heights = (_HEIGHT_OF_BARS if panel.bars else _HEIGHT_OF_PANEL for panel in figure.panels)
     return WIDTH, _HEIGHT_BESIDES + sum(heights)
 
@@ -74,17 +76,23 @@ def lay_out(figure: Figure, language: Language) -> FigureLayout:
     has_bars = any(panel.bars for panel in figure.panels)
     bottom = _EDGE + 1.35 * TEXT_SIZE + _TITLE_GAP + TICK_TEXT_SIZE + TICK_GAP + TICK_LENGTH
     bottom += TICK_LINE if has_bars else 0.0
+    columns = len(figure.panels) if figure.is_wide else 1
+    rows = max(1, len(figure.panels) // max(1, columns))
     # The width of the values' labels is the left margin, and the legend's rows follow from it; so the
     # values come first, for the height that a legend of one row leaves.
-    y_scales = _y_scales(figure, language, (height - bottom) / max(1, len(figure.panels)) - _ABOUT_LEGEND)
+    y_scales = _y_scales(figure, language, (height - bottom) / rows - _ABOUT_LEGEND)
     widest = max((_tick_width(text) for scale in y_scales for text in scale.labels), default=0.0)
     left = _EDGE + TEXT_SIZE + _TITLE_GAP + widest + TICK_GAP + TICK_LENGTH
     levels = max(map(level_width, figure.panels), default=0.0)
     brackets = max(map(bracket_width, figure.panels), default=0.0)
-    right = WIDTH - _EDGE - max(levels + brackets, _LEAST_MARGIN)
+    room = (WIDTH + _PANEL_GAP) / max(1, columns) - _PANEL_GAP
+    right = room - _EDGE - max(levels + brackets, _LEAST_MARGIN)
     x_scale = _x_scale(figure, language, right - left)
-    legends = [lay_out_legend(panel, language, WIDTH - _EDGE - left) for panel in figure.panels]
-    boxes = _boxes(left, bottom, right, height, legends)
+    legends = [lay_out_legend(panel, language, room - _EDGE - left) for panel in figure.panels]
+    if figure.is_wide:
+        boxes = _boxes_in_a_row(Box(left, bottom, right, height), room + _PANEL_GAP, legends)
+    else:
+        boxes = _boxes(left, bottom, right, height, legends)
     panels = tuple(
         lay_out_panel(panel, Frame(box, x_scale, y_scale), legend, levels, language)
         for panel, box, y_scale, legend in zip(figure.panels, boxes, y_scales, legends, strict=True)
@@ -92,6 +100,7 @@ def lay_out(figure: Figure, language: Language) -> FigureLayout:
     x_title = plain_label(axis_title(figure.x_title, figure.x_unit, language), TEXT_SIZE)
     y_title = plain_label(axis_title(figure.y_title, figure.y_unit, language), TEXT_SIZE)
     top = boxes[0].top if boxes else height
+    right = boxes[-1].right if boxes else right
     titles = (
         PlacedLabel(x_title, (left + right - x_title.width) / 2, _EDGE + 0.35 * TEXT_SIZE),
         PlacedLabel(y_title, _EDGE + 0.8 * TEXT_SIZE, (bottom + top - y_title.width) / 2, 90.0),
@@ -137,6 +146,13 @@ def _boxes(left: float, bottom: float, right: float, top: float, legends: list[L
 
 def _tick_width(text: str) -> float:
     return plain_label(text, TICK_TEXT_SIZE).width
+
+
+def _boxes_in_a_row(first: Box, distance: float, legends: list[LegendLayout]) -> list[Box]:
+    """Return the frames' places beside each other, alike in size, below the highest of the legends."""
+    top = first.top - max((legend.height for legend in legends), default=0.0) - LEGEND_GAP
+    shifts = (number * distance for number in range(len(legends)))
+    return [Box(first.left + shift, first.bottom, first.right + shift, top) for shift in shifts]
 
 
 def _x_scale(figure: Figure, language: Language, width: float) -> Scale:

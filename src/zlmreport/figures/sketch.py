@@ -38,7 +38,8 @@ def sketch(layout: FigureLayout) -> Iterator[Shape]:
     """Yield everything that a figure is made of."""
     for panel in layout.panels:
         yield from legend_shapes(panel)
-        yield from panel_shapes(panel, is_lowest=panel is layout.panels[-1])
+        is_lowest = panel.frame.box.bottom == layout.panels[-1].frame.box.bottom
+        yield from panel_shapes(panel, is_lowest=is_lowest)
     for title in layout.titles:
         yield Lettering("title", title, INK)
 

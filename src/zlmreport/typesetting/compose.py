@@ -77,6 +77,7 @@ def compose(certificate: Certificate, setting: Setting = Setting()) -> str:
     return render(
         DocumentContext(
             language=certificate.language.value,
+            is_compact=certificate.is_compact,
             title=certificate.title,
             subtitle=certificate.subtitle,
             number=certificate.number,

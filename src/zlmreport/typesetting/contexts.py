@@ -192,6 +192,8 @@ class DocumentContext:
     ----------
     language
         ISO 639-1 code.
+    is_compact
+        Whether it is set in smaller type, with less room between its parts.
     title, subtitle, number
         As printed on the cover.
     author, description, keywords, generator, issued
@@ -208,6 +210,7 @@ class DocumentContext:
 
     template: ClassVar[str] = "document.html"
     language: str
+    is_compact: bool
     title: str
     subtitle: str
     number: str

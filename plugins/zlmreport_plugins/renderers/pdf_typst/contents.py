@@ -56,6 +56,7 @@ def contents(certificate: Certificate) -> Data:
     return {
         "language": certificate.language.value,
         "paper": certificate.paper,
+        "compact": certificate.is_compact,
         "file": {
             "title": f"{certificate.title} {certificate.number}",
             "author": letterhead.laboratory.name if letterhead else "",
