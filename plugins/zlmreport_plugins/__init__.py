@@ -81,4 +81,6 @@ OFFERS: Mapping[str, Mapping[str, tuple[str, ...]]] = {
             "vdi-vde-2617",
         )
     },
+    "controller_csv": {"controller": ("csv",)},
+    "controller_linuxcnc": {"controller": ("linuxcnc",)},
 }

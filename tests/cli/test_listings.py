@@ -26,6 +26,8 @@ def test_plugins_are_listed_by_kind_with_title_and_distribution(shop: Shop) -> N
         "  exemplary-wave  A wave over the travel  exemplary-plugins 1.2",
         "part programs",
         "  exemplary-steps  Three words  exemplary-plugins 1.2",
+        "controllers",
+        "  none",
         "extensions",
         "  none",
         "instruments",

@@ -17,6 +17,7 @@ from typing import Any
 
 import pytest
 
+import zlmreport_plugins.controllers
 import zlmreport_plugins.instruments
 import zlmreport_plugins.part_programs
 import zlmreport_plugins.renderers
@@ -93,6 +94,7 @@ def test_the_sources_hold_what_a_packager_runs_and_reads(folder: str, in_sdist: 
 
 def test_every_built_in_plugin_is_declared_as_an_entry_point(metadata: dict[str, Any]) -> None:
     kinds = [
+        zlmreport_plugins.controllers,
         zlmreport_plugins.instruments,
         zlmreport_plugins.part_programs,
         zlmreport_plugins.renderers,

@@ -48,6 +48,7 @@ AXIS_KINDS = {
     AxisKind.ROTARY: Words(en="rotary axis", de="Drehachse"),
 }
 
+_NO_TABLE = Words(en="none", de="keine")
 _NO_INFLUENCE = Words(
     en="The laboratory names no environmental condition that influenced the results.",
     de="Das Laboratorium nennt keine Umgebungsbedingung, die die Ergebnisse beeinflusst hat.",
@@ -157,7 +158,7 @@ def _axis(job: Job, writer: Writer) -> Iterator[Fact]:
         yield Fact(name, None if length is None else writer.length(length), (f"axis.{key}",))
     yield Fact(
         Words(en="Compensation table", de="Kompensationstabelle"),
-        _file_name(keys.compensation_table),
+        _table(keys.compensation_table, writer),
         ("axis.compensation_table",),
     )
     yield Fact(
@@ -170,6 +171,11 @@ def _axis(job: Job, writer: Writer) -> Iterator[Fact]:
         with_unit(keys.abbe_offset, "mm", writer),
         ("axis.abbe_offset",),
     )
+
+
+def _table(stated: str | Path | None, writer: Writer) -> str | None:
+    """Write the table that was active during the test; the word for none."""
+    return _file_name(stated) if isinstance(stated, Path | None) else writer.say(_NO_TABLE)
 
 
 def _file_name(path: Path | None) -> str | None:

@@ -269,3 +269,31 @@ def programs_by_name(
     if problems:
         raise InputError(problems)
     return found
+
+
+@dataclass(frozen=True, slots=True)
+class ControllerChoice:
+    """A control that takes compensation tables: its own keys validated, as stated, and where it is named."""
+
+    identifier: str
+    options: Options
+    place: Place
+    stated: Keys
+
+
+def controller_choice(
+    stated: Node | None, registry: Installed, problems: list[Problem]
+) -> ControllerChoice | None:
+    """Return the control that a group of keys names; None if it names none, or a wrong one."""
+    named = stated.entries.get("controller") if isinstance(stated, Keys) else None
+    if not isinstance(stated, Keys) or named is None or not isinstance(named.value, Scalar):
+        return None
+    place = named.value.place
+    try:
+        controller = registry.controller(named.value.text, place)
+    except InputError as error:
+        problems.extend(error.problems)
+        return None
+    own = replace(stated.without("controller"), place=place)
+    options = validate(controller.options, own, problems, within="compensation", also_known=["controller"])
+    return ControllerChoice(controller.identifier, options, place, own) if options else None

@@ -191,6 +191,13 @@ class Installed(Protocol):
     def programs_for(self, takes: type | None = None) -> Sequence[InstalledProgram]:
         """Return the writers of part programs that take this; without it, the motion of a planned test."""
 
+    @property
+    def controllers(self) -> Sequence[WithKeys]:
+        """All controls for which compensation tables are written."""
+
+    def controller(self, identifier: str, named_at: Place | None = None) -> WithKeys:
+        """Return a control for which compensation tables are written."""
+
     def part_program(
         self, identifier: str, named_at: Place | None = None, takes: type | None = None
     ) -> InstalledProgram:

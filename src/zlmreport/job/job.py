@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from zlmreport.errors import Place
-from zlmreport.job.choices import EffectChoice, InstrumentChoice, ProgramChoice
+from zlmreport.job.choices import ControllerChoice, EffectChoice, InstrumentChoice, ProgramChoice
 from zlmreport.job.keys import JobKeys
 from zlmreport.job.tree import Keys, Step, keys_of, place_of
 from zlmreport.job.types import Options
@@ -77,6 +77,8 @@ class Job:
         The part programs of its plan.
     extensions
         The groups of keys that belong to extensions.
+    controller
+        The control for which a compensation table is written; None where the job names none.
     formats
         Identifiers of the renderers.
     directory
@@ -98,6 +100,7 @@ class Job:
     source_as_found: SourceChoice | None = None
     programs: tuple[ProgramChoice, ...] = ()
     extensions: tuple[ExtensionChoice, ...] = ()
+    controller: ControllerChoice | None = None
     tree: Keys = field(default_factory=lambda: keys_of(Place("job")))
 
     @property

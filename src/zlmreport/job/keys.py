@@ -32,7 +32,7 @@ from zlmreport.job.measurement_keys import (
     Machine,
     Measurement,
 )
-from zlmreport.job.plan_keys import PlanKeys
+from zlmreport.job.plan_keys import ControllerKeys, PlanKeys
 from zlmreport.job.types import JobPart, Lines, Text
 
 
@@ -145,5 +145,10 @@ class JobKeys(JobPart):
         default_factory=PlanKeys,
         description="The test before it is done, for `zlmreport plan`.",
         examples=[{"targets": {"count": 21}, "repeatability": 0.5}],
+    )
+    compensation: ControllerKeys | None = Field(
+        None,
+        description="The control for which `zlmreport compensate` writes a table.",
+        examples=[{"controller": "linuxcnc", "type": 0}],
     )
     output: Output = Field(default_factory=Output, description="What is written, and where.")

@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from zlmreport.errors import InputError, Place, Problem, did_you_mean
-from zlmreport.job.choices import effect_choices, instrument_choice, program_choices
+from zlmreport.job.choices import controller_choice, effect_choices, instrument_choice, program_choices
 from zlmreport.job.contradictions import contradictions
 from zlmreport.job.extends import JOB, Defaults, compose, refuse_other_format
 from zlmreport.job.extensions import extension_choices
@@ -26,6 +26,7 @@ _SOURCE = ("measurement", "source")
 _SOURCE_AS_FOUND = ("as_found", "measurement", "source")
 _EFFECTS = ("model", "effects")
 _PROGRAMS = ("plan", "programs")
+_COMPENSATION = ("compensation",)
 
 
 def load(
@@ -73,6 +74,7 @@ def load(
         found_at(tree, _PROGRAMS), registry.part_program, problems, within=".".join(_PROGRAMS)
     )
     extensions = tuple(extension_choices(tree, registry, problems))
+    controller = controller_choice(found_at(tree, _COMPENSATION), registry, problems)
     formats = formats or _formats(tree, keys, registry, problems)
     if keys:
         found = [
@@ -98,6 +100,7 @@ def load(
         effects=effects,
         programs=programs,
         extensions=extensions,
+        controller=controller,
         formats=formats,
         directory=keys.output.directory or path.parent,
         files=(*composition.files, *axis.files),
@@ -262,7 +265,7 @@ def axis_in_si(keys: AxisKeys) -> Axis:
         scale_element=to_si(keys.scale_element) if keys.scale_element else None,
         compensation_table=(
             read_position_table(keys.compensation_table, position, deviation)
-            if keys.compensation_table
+            if isinstance(keys.compensation_table, Path)
             else None
         ),
         angular_errors=(

@@ -125,10 +125,11 @@ class AxisKeys(JobPart):
     scale_element: Positive | None = Field(
         None, description="Length of one element of a scale made of several, mm or degrees."
     )
-    compensation_table: JobPath | None = Field(
+    compensation_table: Literal["none"] | JobPath | None = Field(
         None,
-        description="CSV file of the control's compensation table: columns position and deviation "
-        "(actual - target), mm and micrometres (degrees and arc seconds).",
+        union_mode="left_to_right",
+        description="CSV file of the compensation table that was active during the test: columns position "
+        "and deviation (actual - target), mm and micrometres (degrees and arc seconds); or none.",
         examples=["x-compensation.csv"],
     )
     angular_errors: JobPath | None = Field(

@@ -46,6 +46,14 @@ class ProgramKeys(BaseModel):
         return {"program": value} if isinstance(value, str | int | float) else value
 
 
+class ControllerKeys(BaseModel):
+    """A control that takes compensation tables; the plugin's own keys may follow."""
+
+    model_config = ConfigDict(extra="allow", frozen=True)
+
+    controller: Text = Field(description="Identifier of an installed controller.", examples=["linuxcnc"])
+
+
 class PlanKeys(JobPart):
     """The test before it is done, for `zlmreport plan`."""
 

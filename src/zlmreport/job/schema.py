@@ -14,7 +14,7 @@ from zlmreport.job.fields import model_at
 from zlmreport.job.installed import Installed, InstalledEffect, InstalledStandard, WithKeys
 from zlmreport.job.keys import JobKeys
 from zlmreport.job.measurement_keys import SourceKeys
-from zlmreport.job.plan_keys import ProgramKeys
+from zlmreport.job.plan_keys import ControllerKeys, ProgramKeys
 from zlmreport.job.tree import Step
 from zlmreport.job.types import LiveInstrumentKeys
 from zlmreport.language import Language
@@ -60,6 +60,13 @@ def job_schema(registry: Installed) -> Schema:
             *(_effect(effect, definitions) for effect in registry.effects),
         ]
     }
+    if registry.controllers:
+        definitions[ControllerKeys.__name__] = {
+            "description": definitions[ControllerKeys.__name__]["description"],
+            "oneOf": [
+                _by_name("controller", "controller", each, definitions) for each in registry.controllers
+            ],
+        }
     for extension in registry.extensions:
         own = group_model(extension).model_json_schema()
         definitions.update(own["$defs"])
@@ -239,7 +246,7 @@ def _parts(schema: Any) -> Iterator[Schema]:
 def _without_demands(schema: Schema) -> Schema:
     """Return the schema without what its own parts must have; plugins' keys stay with their plugin."""
     relaxed = {key: value for key, value in schema.items() if key != "required"}
-    plugin_parts = {SourceKeys.__name__, StandardKeys.__name__, ProgramKeys.__name__}
+    plugin_parts = {ControllerKeys.__name__, SourceKeys.__name__, StandardKeys.__name__, ProgramKeys.__name__}
     relaxed["$defs"] = {
         name: definition
         if name in plugin_parts or "." in name

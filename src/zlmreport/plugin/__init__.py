@@ -49,6 +49,7 @@ if TYPE_CHECKING:
         Verdict,
     )
     from zlmreport.certificate.statements import ONLY_THIS_ITEM
+    from zlmreport.compensation.curve import CompensationTable
     from zlmreport.correction.refractive_index import (
         STANDARD_HUMIDITY,
         STANDARD_PRESSURE,
@@ -188,6 +189,7 @@ if TYPE_CHECKING:
     from zlmreport.plugin.kinds import hookimpl
     from zlmreport.plugin.protocols import (
         Connection,
+        Controller,
         DataSource,
         Instrument,
         PartProgram,
@@ -311,10 +313,12 @@ __all__ = [
     "Command",
     "CommandHost",
     "CommandOption",
+    "CompensationTable",
     "Conformity",
     "Confusion",
     "Connection",
     "Contribution",
+    "Controller",
     "Correction",
     "Curve",
     "Customer",
@@ -557,6 +561,7 @@ _ROOMS = {
     "zlmreport.figures.scale": "round_ticks",
     "zlmreport.presenting.writer": "Writer",
     "zlmreport.certificate.circumstances": "Fact",
+    "zlmreport.compensation.curve": "CompensationTable",
     "zlmreport.certificate.conditions": "Described",
     "zlmreport.capture.events": (
         "CaptureEnded=Ended CaptureResumed=Resumed DatumClosed=Closed DatumHolds DatumMoved DatumTaken "
@@ -643,7 +648,7 @@ _ROOMS = {
     "zlmreport.model.report": "report_error report_model",
     "zlmreport.plugin.kinds": "hookimpl",
     "zlmreport.plugin.protocols": (
-        "Connection DataSource Instrument PartProgram Renderer SourceContext Standard"
+        "Connection Controller DataSource Instrument PartProgram Renderer SourceContext Standard"
     ),
     "zlmreport.quantities.arrays": "BoolArray FloatArray read_only_floats",
     "zlmreport.quantities.formatting": "DecimalSign MINUS_SIGN=MINUS fixed_number general_number",

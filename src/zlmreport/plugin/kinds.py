@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from zlmreport.model.effect import Effect
     from zlmreport.plugin.extension import Extension
     from zlmreport.plugin.protocols import (
+        Controller,
         DataSource,
         Instrument,
         PartProgram,
@@ -147,6 +148,14 @@ PART_PROGRAM: Kind[PartProgram] = Kind(
     reserved=frozenset({"program"}),
     suffix=".ngc",
 )
+CONTROLLER: Kind[Controller] = Kind(
+    name="controller",
+    label="controller",
+    offers="the controls for which this plugin writes compensation tables",
+    interface="Controller",
+    kit="check_controller",
+    reserved=frozenset({"controller"}),
+)
 EXTENSION: Kind[Extension] = Kind(
     name="extension",
     label="extension",
@@ -170,6 +179,7 @@ KINDS: tuple[Kind[Any], ...] = (
     RENDERER,
     EFFECT,
     PART_PROGRAM,
+    CONTROLLER,
     EXTENSION,
     INSTRUMENT,
 )

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
 
     from zlmreport.certificate.attachments import Relationship
     from zlmreport.certificate.document import Certificate
+    from zlmreport.compensation.curve import CompensationTable
     from zlmreport.emulation.emulator import Emulator, Scene
     from zlmreport.errors import Place
     from zlmreport.evaluation.evaluation import Arithmetic, Evaluation
@@ -199,6 +200,46 @@ def taken_by(program: PartProgram) -> type:
 
     takes: type = getattr(program, "takes", Motion)
     return takes
+
+
+@runtime_checkable
+class Controller(Protocol):
+    """A writer and reader of compensation tables in the words of a control.
+
+    Attributes
+    ----------
+    identifier
+        As ``compensation.controller`` names it: ``linuxcnc``.
+    title
+        In words.
+    options
+        Its job keys beside ``controller``; all have a default.
+    confidence
+        ``verified`` on the control, ``documented`` by its maker, or ``unconfirmed``.
+    is_directional, is_equidistant
+        Whether a table has both directions of approach, and whether its rows must be equally far apart.
+    notes
+        What who loads the files must know: how, when they take effect, what the control does outside.
+    """
+
+    identifier: str
+    title: Words
+    options: type[Options]
+    confidence: str
+    is_directional: bool
+    is_equidistant: bool
+    notes: tuple[Words, ...]
+
+    def files(self, table: CompensationTable, options: Any) -> Mapping[str, str]:
+        """Return the texts of its files by the ends of their names, such as ``.comp``.
+
+        Raises `InputError` at ``table.place`` for rows, digits or steps that the control would refuse or cut
+        off. The table has e = actual − nominal: a control that wants another sign gets it here, and nowhere
+        else.
+        """
+
+    def read(self, files: Mapping[str, str], table: CompensationTable, options: Any) -> CompensationTable:
+        """Return what the control takes away when it reads these files; the table says of which axis."""
 
 
 class Connection(Protocol):

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from zlmreport.model.effect import Effect
     from zlmreport.plugin.extension import Extension
     from zlmreport.plugin.protocols import (
+        Controller,
         DataSource,
         Instrument,
         PartProgram,
@@ -195,6 +196,11 @@ class Registry:
         return self.all(kinds.PART_PROGRAM)
 
     @property
+    def controllers(self) -> tuple[Controller, ...]:
+        """All controls for which compensation tables are written."""
+        return self.all(kinds.CONTROLLER)
+
+    @property
     def extensions(self) -> tuple[Extension, ...]:
         """All groups of job keys that plugins add."""
         return self.all(kinds.EXTENSION)
@@ -239,6 +245,10 @@ class Registry:
     def programs_for(self, takes: type | None = None) -> tuple[PartProgram, ...]:
         """Return the part programs that are written of this; without it, of the motion of a planned test."""
         return tuple(each for each in self.part_programs if _is_for(each, takes))
+
+    def controller(self, identifier: str, named_at: Place | None = None) -> Controller:
+        """Return a control for which compensation tables are written, as `find` does."""
+        return self.find(kinds.CONTROLLER, identifier, named_at)
 
     def extension(self, identifier: str, named_at: Place | None = None) -> Extension:
         """Return a group of job keys that a plugin adds, as `find` does."""

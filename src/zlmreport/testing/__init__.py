@@ -19,6 +19,7 @@ expected. The kit needs no test framework.
 """
 
 from zlmreport.testing.certificates import sample_certificate
+from zlmreport.testing.controllers import CONTROLLER_CHECKS, check_controller
 from zlmreport.testing.designs import full_designs
 from zlmreport.testing.effects import EFFECT_CHECKS, check_effect
 from zlmreport.testing.extensions import EXTENSION_CHECKS, check_extension
@@ -31,6 +32,7 @@ from zlmreport.testing.sources import SOURCE_CHECKS, check_source
 from zlmreport.testing.standards import STANDARD_CHECKS, check_standard
 
 __all__ = [
+    "CONTROLLER_CHECKS",
     "EFFECT_CHECKS",
     "EXTENSION_CHECKS",
     "INSTRUMENT_CHECKS",
@@ -40,6 +42,7 @@ __all__ = [
     "SOURCE_CHECKS",
     "STANDARD_CHECKS",
     "bidirectional_test",
+    "check_controller",
     "check_effect",
     "check_extension",
     "check_instrument",

@@ -22,6 +22,10 @@ _COMMANDS: Mapping[str, tuple[str, Callable[[str], CommandParser]]] = MappingPro
     {
         "capture": ("take the readings live, from the instrument that a job names", measuring.capture),
         "check": ("validate jobs, their data and the tests; write nothing", documents.check),
+        "compensate": (
+            "write a compensation table for a control, and say what it will leave",
+            measuring.compensate,
+        ),
         "emulate": (
             "put an instrument that is not there on a line, to try capture",
             measuring.emulate,

@@ -7,10 +7,12 @@ from pathlib import Path
 from zlmreport.cli.arguments.parser import (
     FAULTS,
     CommandParser,
+    add_jobs,
     course,
     fault,
     port,
     position,
+    setting,
 )
 
 
@@ -43,6 +45,57 @@ def plan(command: str) -> CommandParser:
         "--json",
         action="store_true",
         help="print the plan as JSON (zlmreport/plan/1, or that of an extension)",
+    )
+    return parser
+
+
+def compensate(command: str) -> CommandParser:
+    """Return the parser of ``zlmreport compensate``."""
+    parser = CommandParser(
+        f"zlmreport {command}",
+        "Write a compensation table for a control from the mean deviations of a job's test, with a sheet\n"
+        "for who loads it, and say what that very table will leave. The job must say which table was active\n"
+        "during the test: axis.compensation_table, a file or none. After the table has been loaded and the\n"
+        "axis measured again, --confirm holds the second test against the first.",
+        "examples:\n"
+        "  zlmreport compensate x-axis.yaml --controller linuxcnc --set type=1 --output table\n"
+        "  zlmreport compensate --confirm x-axis.yaml x-axis-after.yaml\n\n"
+        "exit codes: 0 done; 1 the second test does not hold the forecast; 2 a job, its data or the command\n"
+        "line is wrong; 3 a file could not be read or written",
+    )
+    add_jobs(parser)
+    parser.add_argument(
+        "--controller",
+        metavar="NAME",
+        help="the control, such as linuxcnc, instead of the job's own",
+    )
+    parser.add_argument(
+        "--set",
+        metavar="KEY=VALUE",
+        type=setting,
+        action="append",
+        default=[],
+        help="a key of the controller, such as type=1; may be given several times",
+    )
+    parser.add_argument(
+        "--step",
+        metavar="S",
+        type=position,
+        help="distance of the rows, mm or degrees; without it rows at the targets",
+    )
+    parser.add_argument("-o", "--output", metavar="DIR", type=Path, help="folder of the table and its sheet")
+    parser.add_argument(
+        "--unconfirmed",
+        action="store_true",
+        help="write a format, too, that was never tried on the control itself",
+    )
+    parser.add_argument(
+        "--confirm", action="store_true", help="two jobs: did the table of the first do what was forecast?"
+    )
+    parser.add_argument(
+        "--json",
+        action="store_true",
+        help="print the forecast as JSON (zlmreport/compensation/1, zlmreport/confirmation/1)",
     )
     return parser
 

@@ -80,6 +80,14 @@ def fault(text: str) -> tuple[str, float]:
     return kind, start
 
 
+def setting(text: str) -> tuple[str, str]:
+    """Read a key and its value."""
+    key, sign, value = text.partition("=")
+    if not (key and sign and value):
+        raise argparse.ArgumentTypeError(f"{text!r} sets nothing; write KEY=VALUE, such as type=1")
+    return key, value
+
+
 def course(text: str) -> tuple[float, ...]:
     """Read positions, parted by commas."""
     return tuple(position(part) for part in text.split(","))

@@ -1,0 +1,112 @@
+"""LinuxCNC: `COMP_FILE` of a joint, types 0 and 1. Tried on the control itself (linuxcnc-uspace 2.9).
+
+A row is three numbers: nominal, forward, reverse. Type 0 has the positions that the axis reached,
+nominal + e; type 1 the trims, −e. The control reads up to the first line that is anything else, drops rows
+that do not rise and those beyond 256, and says so at most in its log: what it would cut off is refused here.
+Between two rows it interpolates, outside the end value holds.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
+from itertools import pairwise
+from typing import Literal
+
+import numpy as np
+from pydantic import Field
+
+from zlmreport.plugin import (
+    CompensationTable,
+    Controller,
+    InputError,
+    Options,
+    Words,
+    hookimpl,
+    read_only_floats,
+)
+
+_MOST_ROWS = 256
+_ROW = re.compile(r"\s*([-+.\deE]+)\s+([-+.\deE]+)\s+([-+.\deE]+)")
+_END = ".comp"
+
+
+class LinuxCncOptions(Options):
+    """The keys of ``linuxcnc``."""
+
+    type: Literal[0, 1] = Field(
+        0, description="COMP_FILE_TYPE: 0 for positions that the axis reached, 1 for trims."
+    )
+    decimals: int = Field(6, ge=3, le=9, description="Digits after the decimal point.")
+
+
+class LinuxCnc:
+    """LinuxCNC, `COMP_FILE` of a joint."""
+
+    identifier = "linuxcnc"
+    title = Words(en="LinuxCNC (COMP_FILE)", de="LinuxCNC (COMP_FILE)")
+    options: type[Options] = LinuxCncOptions
+    confidence = "verified"
+    is_directional = True
+    is_equidistant = False
+    notes: tuple[Words, ...] = (
+        Words(
+            en="In the section of the joint state COMP_FILE and COMP_FILE_TYPE, and start LinuxCNC again. "
+            "BACKLASH is ignored then: the table has both directions.",
+            de="Im Abschnitt des Gelenks COMP_FILE und COMP_FILE_TYPE angeben und LinuxCNC neu starten. "
+            "BACKLASH gilt dann nicht: die Tabelle enthält beide Richtungen.",
+        ),
+        Words(
+            en="Between two rows LinuxCNC interpolates; outside the table the end value holds.",
+            de="Zwischen zwei Zeilen interpoliert LinuxCNC; außerhalb der Tabelle gilt der Endwert.",
+        ),
+    )
+
+    def files(self, table: CompensationTable, options: LinuxCncOptions) -> Mapping[str, str]:
+        """Return the one file."""
+        unit = table.axis.position_unit
+        nominal = [round(unit.from_si(each), options.decimals) for each in table.positions.tolist()]
+        if len(nominal) > _MOST_ROWS:
+            raise InputError.at(
+                table.place,
+                f"LinuxCNC takes {_MOST_ROWS} rows, and this table has {len(nominal)}; state a longer step",
+            )
+        if len(nominal) < 2 or any(b <= a for a, b in pairwise(nominal)):
+            raise InputError.at(
+                table.place, "rows must rise in the digits that are written; state more decimals"
+            )
+        sign = 1 if options.type == 0 else -1
+        rows = []
+        for at, forward, reverse in zip(nominal, table.forward.tolist(), table.reverse.tolist(), strict=True):
+            base = at if options.type == 0 else 0.0
+            values = (at, base + sign * unit.from_si(forward), base + sign * unit.from_si(reverse))
+            rows.append(
+                " ".join(f"{round(each, options.decimals) + 0.0:.{options.decimals}f}" for each in values)
+            )
+        return {_END: "".join(f"{row}\n" for row in rows)}
+
+    def read(
+        self, files: Mapping[str, str], table: CompensationTable, options: LinuxCncOptions
+    ) -> CompensationTable:
+        """Return what LinuxCNC makes of the file, line by line as its parser does."""
+        to_si = table.axis.position_unit.to_si
+        rows: list[tuple[float, float, float]] = []
+        for line in files[_END].splitlines():
+            found = _ROW.match(line)
+            if found is None:
+                break
+            nominal, forward, reverse = (float(each) for each in found.groups())
+            if (rows and nominal <= rows[-1][0]) or len(rows) == _MOST_ROWS:
+                continue
+            base, sign = (nominal, 1) if options.type == 0 else (0.0, -1)
+            rows.append((nominal, sign * (forward - base), sign * (reverse - base)))
+        columns = np.array(rows).reshape(-1, 3).T
+        grid, up, down = (read_only_floats([to_si(each) for each in column]) for column in columns)
+        return replace(table, positions=grid, forward=up, reverse=down)
+
+
+@hookimpl
+def zlmreport_controllers() -> Iterable[Controller]:
+    """Return LinuxCNC."""
+    return [LinuxCnc()]

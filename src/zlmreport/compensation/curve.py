@@ -1,0 +1,147 @@
+"""What a table is to compensate: the mean deviations of a test, and the table on a grid.
+
+One sign for all: e = actual − nominal. A controller turns it where it has to, and nowhere else.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from zlmreport.errors import InputError, Place
+from zlmreport.evaluation.statistics import position_statistics
+from zlmreport.measurement.axis import Axis
+from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.quantities.arrays import FloatArray, read_only_floats
+
+
+@dataclass(frozen=True, slots=True)
+class ErrorCurve:
+    """The deviations of an axis at its targets.
+
+    Attributes
+    ----------
+    positions : (m,) array
+        Targets, rising, m or rad.
+    forward, reverse : (m,) arrays
+        Mean deviations e by direction of approach, m or rad; alike where one direction was measured.
+    spread : (2, m) array
+        Standard deviations by direction, m or rad; NaN where there are none.
+    runs
+        Number of readings behind each mean.
+    is_bidirectional
+        Whether both directions were measured.
+    """
+
+    positions: FloatArray
+    forward: FloatArray
+    reverse: FloatArray
+    spread: FloatArray
+    runs: int
+    is_bidirectional: bool
+
+
+@dataclass(frozen=True, slots=True)
+class CompensationTable:
+    """A compensation table before a control has its own words for it.
+
+    Attributes
+    ----------
+    axis
+        The axis.
+    number
+        Of the job; it names the files.
+    positions : (g,) array
+        The grid, rising, m or rad.
+    forward, reverse : (g,) arrays
+        The deviations e that the control is to take away, m or rad.
+    place
+        Where the table is asked for: for messages about what a control cannot take.
+    """
+
+    axis: Axis
+    number: str
+    positions: FloatArray
+    forward: FloatArray
+    reverse: FloatArray
+    place: Place
+
+    def at(self, positions: FloatArray) -> FloatArray:
+        """Return what the control takes away, shape (2, …): linear between rows, the end value outside."""
+        return np.stack([np.interp(positions, self.positions, each) for each in (self.forward, self.reverse)])
+
+
+def curve_of(measurements: MeasurementSet, place: Place) -> ErrorCurve:
+    """Return the curve of a test.
+
+    Raises
+    ------
+    InputError
+        At the place, if a target lacks a mean in a direction that was measured.
+    """
+    statistics = position_statistics(measurements.deviations())
+    sign = -1.0 if measurements.is_indication else 1.0
+    forward, reverse = sign * statistics.mean_positive, sign * statistics.mean_negative
+    has = [bool(np.isfinite(each).any()) for each in (forward, reverse)]
+    if not all(has):
+        forward = reverse = forward if has[0] else reverse
+    if not (np.isfinite(forward).all() and np.isfinite(reverse).all()):
+        raise InputError.at(
+            place,
+            "a table needs the mean deviation of every target in each direction that was measured; some "
+            "targets lack readings",
+        )
+    return ErrorCurve(
+        read_only_floats(measurements.target_positions),
+        read_only_floats(forward),
+        read_only_floats(reverse),
+        read_only_floats(statistics.standard_deviation),
+        len(set(measurements.run.tolist())),
+        all(has),
+    )
+
+
+def table_of(  # noqa: PLR0913 - what, of which axis, on which grid, for whom
+    curve: ErrorCurve,
+    axis: Axis,
+    number: str,
+    place: Place,
+    *,
+    step: float | None = None,
+    is_equidistant: bool = False,
+) -> CompensationTable:
+    """Return the table of a curve, with that of a table that was active during the test added.
+
+    Parameters
+    ----------
+    curve
+        The deviations that are left.
+    axis, number, place
+        As of `CompensationTable`; the axis has the table that was active.
+    step
+        Distance of the rows, m or rad; None for rows at the targets.
+    is_equidistant
+        Whether the control takes no other grid: then the targets' own number of rows.
+
+    Raises
+    ------
+    InputError
+        If the step does not divide the measured length into at least one interval.
+    """
+    first, last = float(curve.positions[0]), float(curve.positions[-1])
+    grid: FloatArray = curve.positions
+    if step is not None:
+        intervals = (last - first) / step
+        if intervals < 1:
+            raise InputError.at(place, "the step is longer than the measured length; state a shorter one")
+        grid = np.asarray(first + step * np.arange(int(intervals + 1e-9) + 1), dtype=np.float64)
+    elif is_equidistant:
+        grid = np.asarray(np.linspace(first, last, len(curve.positions)), dtype=np.float64)
+    old = axis.compensation_table
+    active = np.interp(grid, old.positions, old.values) if old else 0.0
+    forward, reverse = (
+        read_only_floats(np.interp(grid, curve.positions, each) + active)
+        for each in (curve.forward, curve.reverse)
+    )
+    return CompensationTable(axis, number, read_only_floats(grid), forward, reverse, place)

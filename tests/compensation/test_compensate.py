@@ -1,0 +1,122 @@
+"""A table from readings of a real control's run, its forecast, and what a second run says of it."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from environments import ROOT
+from zlmreport.cli import main
+
+DATA = ROOT / "tests" / "data" / "linuxcnc"
+Capture = pytest.CaptureFixture[str]
+JOB = """\
+schema: zlmreport/job/1
+certificate: {{number: LOOP-1, kind: report}}
+axis: {{name: X{table}}}
+measurement:
+  source: {{plugin: laser-csv, file: "{file}"}}
+evaluate: ["iso230-2:2014"]
+{more}
+"""
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def job(
+    folder: Path, name: str, readings: str, table: str = ", compensation_table: none", more: str = ""
+) -> str:
+    text = JOB.format(table=table, file=DATA / f"captured_{readings}.csv", more=more)
+    (folder / name).write_text(text, encoding="utf-8")
+    return name
+
+
+def run(capsys: Capture, *arguments: str) -> tuple[int, Any]:
+    code = main(["compensate", *arguments, "--json"])
+    return code, json.loads(capsys.readouterr().out)
+
+
+def test_the_table_is_the_one_that_the_control_ran(folder: Path) -> None:
+    name = job(folder, "job.yaml", "without")
+    for kind, loaded in (("0", "loop.comp"), ("1", "loop.comp1")):
+        code = main(
+            ["compensate", name, "--controller", "linuxcnc", "--set", f"type={kind}", "-o", f"out{kind}"]
+        )
+        assert code == 0
+        written = np.loadtxt(folder / f"out{kind}" / "LOOP-1.comp")
+        assert written == pytest.approx(np.loadtxt(DATA / loaded), abs=1.1e-6)
+        assert "worked row" in (folder / f"out{kind}" / "LOOP-1-compensation.txt").read_text("utf-8")
+
+
+def test_json_states_the_forecast_and_writes_nothing(folder: Path, capsys: Capture) -> None:
+    name = job(folder, "job.yaml", "without", more="compensation: {controller: linuxcnc, type: 1}")
+    code, values = run(capsys, name)
+    assert code == 0
+    assert values["schema"] == "zlmreport/compensation/1"
+    assert (values["controller"], values["confidence"], values["unit"]) == ("linuxcnc", "verified", "um")
+    assert values["forecast"]["before"]["E"] == pytest.approx(65.4, abs=0.01)
+    assert values["forecast"]["after"]["E"] < 0.1
+    assert values["forecast"]["between_grid_points"]["largest"] < 0.1
+    assert [path.name for path in folder.iterdir()] == ["job.yaml"]
+
+
+def test_a_coarser_grid_states_what_it_leaves_between_its_rows(folder: Path, capsys: Capture) -> None:
+    _, values = run(capsys, job(folder, "job.yaml", "without"), "--controller", "csv", "--step", "60")
+    assert values["rows"] == 6
+    assert values["forecast"]["between_grid_points"]["largest"] > 1
+
+
+@pytest.mark.parametrize(
+    ("readings", "code", "verdict"),
+    [("type0", 0, "held"), ("wrong_sign", 1, "wrong-sign"), ("without", 1, "other")],
+)
+def test_a_second_run_is_held_against_the_forecast(
+    folder: Path, capsys: Capture, readings: str, code: int, verdict: str
+) -> None:
+    before = job(folder, "before.yaml", "without", more="compensation: {controller: linuxcnc}")
+    after = job(folder, "after.yaml", readings)
+    found, values = run(capsys, "--confirm", before, after)
+    assert (found, values["verdict"]) == (code, verdict)
+    if verdict != "other":
+        assert values["ratio"] == pytest.approx({"held": 0.0, "wrong-sign": 2.0}[verdict], abs=0.01)
+
+
+def test_a_table_that_was_active_is_part_of_the_new_one(folder: Path) -> None:
+    (folder / "old.csv").write_text("position,deviation\n0,10\n300,10\n", encoding="utf-8")
+    name = job(folder, "job.yaml", "without", table=", compensation_table: old.csv")
+    assert main(["compensate", name, "--controller", "linuxcnc", "-o", "out"]) == 0
+    written, without = np.loadtxt(folder / "out" / "LOOP-1.comp"), np.loadtxt(DATA / "loop.comp")
+    assert written[:, 1:] - without[:, 1:] == pytest.approx(np.full((11, 2), 0.010), abs=1.1e-6)
+
+
+@pytest.mark.parametrize(
+    ("table", "arguments", "message"),
+    [
+        ("", ["--controller", "linuxcnc"], "axis.compensation_table is missing"),
+        (", compensation_table: none", [], "which control?"),
+        (", compensation_table: none", ["--controller", "linuxcncc"], "did you mean 'linuxcnc'?"),
+        (
+            ", compensation_table: none",
+            ["--controller", "linuxcnc", "--set", "tipe=1"],
+            "did you mean 'type'?",
+        ),
+        (", compensation_table: none", ["--controller", "linuxcnc", "--set", "type"], "write KEY=VALUE"),
+        (", compensation_table: none", ["--controller", "linuxcnc", "--step", "1"], "takes 256 rows"),
+        (", compensation_table: none", ["--controller", "csv", "--confirm"], "--confirm takes two jobs"),
+    ],
+)
+def test_a_mistake_ends_with_2_and_writes_nothing(
+    folder: Path, capsys: Capture, table: str, arguments: list[str], message: str
+) -> None:
+    name = job(folder, "job.yaml", "without", table=table)
+    assert main(["compensate", name, *arguments, "-o", "out"]) == 2
+    assert message in capsys.readouterr().err
+    assert not (folder / "out").exists()
