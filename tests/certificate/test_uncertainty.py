@@ -149,7 +149,9 @@ def test_the_first_page_says_what_the_uncertainty_covers(tmp_path: Path) -> None
     document = certificate(tmp_path, COMPLETE)
 
     said = [block.text for block in document.cover if hasattr(block, "text")]
-    assert any("coverage factor k" in text and "probability of about 95 %" in text for text in said)
+    assert any(
+        "expanded uncertainty of this test" in text and "probability of about 95 %" in text for text in said
+    )
 
 
 def test_without_a_number_of_the_instrument_the_document_says_why_nothing_is_stated(tmp_path: Path) -> None:

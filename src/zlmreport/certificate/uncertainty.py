@@ -35,16 +35,13 @@ if TYPE_CHECKING:
 
 _TITLE = Words(en="Uncertainty of measurement", de="Messunsicherheit")
 _COVERAGE = Words(
-    en="U is the expanded uncertainty of measurement, the standard uncertainty multiplied by the coverage "
-    "factor k: the interval y ± U about a stated value y holds, with a probability of about 95 %, the value "
-    "that a faultless measuring set-up would have found in this test. Where another test of this axis by the "
-    "same plan would find the parameter, with the same probability, is stated as the interval of the axis: "
-    "it holds the scatter of the axis, which U does not.",
-    de="U ist die erweiterte Messunsicherheit: die Standardunsicherheit, multipliziert mit dem "
-    "Erweiterungsfaktor k. Das Intervall y ± U um einen angegebenen Wert y enthält mit einer "
-    "Wahrscheinlichkeit von etwa 95 % den Wert, den eine fehlerfreie Messeinrichtung in dieser Messung "
-    "gefunden hätte. Wo eine weitere Messung dieser Achse nach demselben Plan die Kenngröße mit derselben "
-    "Wahrscheinlichkeit fände, steht als Intervall der Achse: es enthält die Streuung der Achse, U nicht.",
+    en="U = k·u is the expanded uncertainty of this test: y ± U holds, with a probability of about 95 %, the "
+    "value that a faultless measuring set-up would have found in it. The interval of the axis holds, with "
+    "the same probability, what another test of this axis by the same plan would find.",
+    de="U = k·u ist die erweiterte Messunsicherheit dieser Messung: y ± U enthält mit einer "
+    "Wahrscheinlichkeit von etwa 95 % den Wert, den eine fehlerfreie Messeinrichtung darin gefunden hätte. "
+    "Das Intervall der Achse enthält mit derselben Wahrscheinlichkeit, was eine weitere Messung nach "
+    "demselben Plan fände.",
 )
 _INCOMPLETE = Words(
     en="U incomplete: {missing} not considered",
