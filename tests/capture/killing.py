@@ -52,7 +52,7 @@ measurement:
   source:
     plugin: serial-interferometer
     journal: x.journal
-    instrument: {{plugin: umd1, port: {port}}}
+    instrument: {{plugin: umd1, port: {port}, timeout: 60}}
     dwell: 0.1
 plan: {{targets: {{positions: [0, 10, 20, 30, 40]}}, runs: {runs}, overrun: 4}}
 evaluate: [iso230-2:2014]
