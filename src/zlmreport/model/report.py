@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+import numpy as np
+
 from zlmreport.language import Language, Words
 from zlmreport.measurement.axis import Axis
 from zlmreport.model import wording
@@ -120,6 +122,49 @@ def report_model(fitted: Fit) -> dict[str, Any]:
             {"effect": each.effect, **_estimate(each, fitted.design)} for each in fitted.estimates
         ],
     }
+
+
+def report_covariance(fitted: Fit) -> dict[str, Any]:
+    """Return how the estimated parameters hang together, in the units in which they are reported."""
+    design = fitted.design
+    terms = fitted.model.terms
+    listed = [
+        (term.effect.identifier, parameter)
+        for term in terms
+        for parameter, is_solved in zip(term.effect.linear, term.is_solved, strict=True)
+        if is_solved
+    ]
+    listed += [
+        (terms[place.term].effect.identifier, terms[place.term].effect.searched[place.column])
+        for place in fitted.places
+    ]
+    units = [
+        unit_of(each.dimension, design.axis.kind, time_is_counted=design.time_is_counted)
+        for _, each in listed
+    ]
+    known = fitted.uncertainties
+    covariance = known.sigma**2 * known.inverse + known.systematic @ known.systematic.T
+    scale = np.array([each.per_si for each in units])
+    deviations = np.sqrt(np.diagonal(covariance))
+    deviations = np.where(deviations > 0, deviations, 1.0)
+    return {
+        "parameters": [f"{effect}.{each.name}" for effect, each in listed],
+        "units": [each.ascii for each in units],
+        "covariance": (covariance * np.outer(scale, scale)).tolist(),
+        "correlation": (covariance / np.outer(deviations, deviations)).tolist(),
+    }
+
+
+def report_residuals(fitted: Fit) -> list[dict[str, Any]]:
+    """Return what the model leaves of each reading, in the order in which they were taken."""
+    design = fitted.design
+    positions = design.axis.position_unit.from_si(design.position).tolist()
+    residuals = design.axis.deviation_unit.from_si(fitted.residual).tolist()
+    signs = ["+" if each > 0 else "-" for each in design.direction.tolist()]
+    return [
+        {"target": target, "direction": sign, "run": run, "residual": residual}
+        for target, sign, run, residual in zip(positions, signs, design.run.tolist(), residuals, strict=True)
+    ]
 
 
 def report_error(error: ErrorNumbers, axis: Axis) -> dict[str, Any]:

@@ -8,8 +8,11 @@ from zlmreport.model.design import Design
 from zlmreport.model.effect import Effect
 from zlmreport.testing import full_designs
 from zlmreport_plugins.effects import zlmreport_effects
+from zlmreport_step_gauge.effects import zlmreport_effects as effects_of_gauge
 
-EFFECTS: Mapping[str, Effect] = {effect.identifier: effect for effect in zlmreport_effects()}
+EFFECTS: Mapping[str, Effect] = {
+    effect.identifier: effect for effect in (*zlmreport_effects(), *effects_of_gauge())
+}
 ROTARY_ONLY = {"eccentricity", "ellipticity", "gear-mesh"}
 
 

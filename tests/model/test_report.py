@@ -1,0 +1,36 @@
+"""What results files say of a fitted model agrees with itself."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from model.axis_tests import hidden, linear_test, model_of, noise
+from zlmreport.model.fit import fit
+from zlmreport.model.report import report_covariance, report_model, report_residuals
+
+_DESIGN = linear_test(11, 3)
+_DEVIATION = 2e-6 + hidden(_DESIGN, "thermal-growth", [300.0], size=8.0) + noise(_DESIGN)
+_FIT = fit(model_of("offset", "thermal-growth"), _DESIGN, _DEVIATION)
+
+
+def test_covariance_has_the_standard_uncertainties_on_its_diagonal() -> None:
+    found = report_covariance(_FIT)
+    expected = {
+        f"{each['effect']}.{each['name']}": each["expanded_uncertainty"] / each["coverage_factor"]
+        for each in report_model(_FIT)["parameters"]
+    }
+    standard = dict(zip(found["parameters"], np.sqrt(np.diagonal(found["covariance"])), strict=True))
+    assert standard == pytest.approx(expected)
+
+
+def test_parameter_is_wholly_correlated_with_itself() -> None:
+    correlation = np.array(report_covariance(_FIT)["correlation"])
+    np.testing.assert_allclose(np.diagonal(correlation), 1.0)
+    assert np.all(np.abs(correlation) <= 1.0 + 1e-12)
+
+
+def test_residuals_are_what_the_model_leaves_of_each_reading() -> None:
+    found = report_residuals(_FIT)
+    assert [each["residual"] for each in found] == pytest.approx((_FIT.residual * 1e6).tolist())
+    assert (found[0]["direction"], found[0]["run"]) == ("+", 1)
