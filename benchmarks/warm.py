@@ -15,7 +15,7 @@ from zlmreport.job.loading import load
 from zlmreport.pipeline import run
 from zlmreport.plugins import Registry, find_plugins
 
-#: For tagged PDF by WeasyPrint, graphs drawn with matplotlib's help, and tables that are tables.
+#: For tagged PDF by WeasyPrint, graphs as vectors, and tables that are tables.
 _TARGET = 0.40
 
 
