@@ -19,10 +19,14 @@ from zlmreport.plugins import find_plugins
 PLAIN_RECIPE = Path(__file__).with_name("plain.py")
 
 _CPU_OF_VERSION = 0.15
+#: What a run that prints nothing cannot do without; commands are held against it.
+_LEAST = "numpy, yaml, pydantic, pluggy"
+_CPU_OF_RUN, _CPU_OF_HELP = 2.5, 0.5
 _WALL_OF_CERTIFICATE = 0.7
 
 #: Modules, each imported alone into an empty interpreter.
 _IMPORTS = (
+    _LEAST,
     "pluggy, yaml",
     "numpy",
     "pydantic",
@@ -45,6 +49,15 @@ def measure(sizes: Sizes) -> list[Measured]:
     bare = median(cpu(costs["python"]))
     return [
         Measured("zlmreport --version", median(cpu(costs["--version"])), "s CPU", _CPU_OF_VERSION),
+        *(
+            Measured(f"{label} / import {_LEAST}", ratio(cpu(costs[label]), cpu(costs[_LEAST])), "", target)
+            for label, target in (
+                ("json", _CPU_OF_RUN),
+                ("check", _CPU_OF_RUN),
+                ("--help", _CPU_OF_HELP),
+                ("--version", _CPU_OF_HELP),
+            )
+        ),
         Measured("zlmreport plugins", median(cpu(costs["plugins"])), "s CPU"),
         Measured("zlmreport check JOB", median(cpu(costs["check"])), "s CPU"),
         Measured("zlmreport JOB, one certificate", median(wall(costs["job"])), "s"),
@@ -70,6 +83,8 @@ def _commands(folder: Path) -> dict[str, list[str | Path]]:
     document.write_text(json.dumps(words), encoding="utf-8")
     return {
         "--version": [zlmreport, "--version"],
+        "--help": [zlmreport, "--help"],
+        "json": [zlmreport, job, "--format", "json", "--output", folder / "json", "--quiet"],
         "plugins": [zlmreport, "plugins"],
         "check": [zlmreport, "check", job],
         "job": [zlmreport, job, "--output", folder / "out", "--quiet"],

@@ -29,7 +29,15 @@ measurement:
   feed: 2000
   source: {{plugin: laser-csv, file: {number}.csv}}
 instrument: {{name: Laser interferometer, certificate: EXAMPLE-CAL-1, expanded_uncertainty: 0.5}}
-environment: {{air_temperature: 20.1, air_pressure: 1013.2, relative_humidity: 48}}
+uncertainty:
+  misalignment: 0.2
+  machine_temperature: 0.3
+  expansion_coefficient: 2
+  environmental_variation: 0.2
+  negligible:
+    device_temperature: a laser has no length of its own
+    device_expansion_coefficient: a laser has no length of its own
+environment: {{axis_temperature: 20.3, expansion_coefficient: 11.5, air_temperature: 20.1, air_pressure: 1013.2, relative_humidity: 48}}
 evaluate:
   - {{standard: "iso230-2:2014", tolerances: {{A: 20, E: 15, M: 12, R: 8, B: 5}}}}
   - {{standard: vdi-dgq-3441, tolerances: {{P: 20, Pa: 12, Ps_max: 8, U_max: 5}}}}
