@@ -37,7 +37,12 @@ uncertainty:
   negligible:
     device_temperature: a laser has no length of its own
     device_expansion_coefficient: a laser has no length of its own
-environment: {{axis_temperature: 20.3, expansion_coefficient: 11.5, air_temperature: 20.1, air_pressure: 1013.2, relative_humidity: 48}}
+environment:
+  axis_temperature: 20.3
+  expansion_coefficient: 11.5
+  air_temperature: 20.1
+  air_pressure: 1013.2
+  relative_humidity: 48
 evaluate:
   - {{standard: "iso230-2:2014", tolerances: {{A: 20, E: 15, M: 12, R: 8, B: 5}}}}
   - {{standard: vdi-dgq-3441, tolerances: {{P: 20, Pa: 12, Ps_max: 8, U_max: 5}}}}
