@@ -5,6 +5,8 @@ from __future__ import annotations
 import json
 import re
 from dataclasses import replace
+from functools import cache
+from typing import Any
 
 import numpy as np
 import pytest
@@ -87,22 +89,25 @@ def test_a_parameter_that_is_given_its_true_value_leaves_nothing_to_be_found() -
     assert given.fit.noise.sigma == pytest.approx(free.fit.noise.sigma, rel=0.05)
 
 
-SCREW = _diagnosis(hidden(DESIGN, "screw-pitch", [0.01], size=2.0))
+@cache
+def screw() -> Diagnosis:
+    """Return the diagnosis of a test that hides the pitch of a screw."""
+    return _diagnosis(hidden(DESIGN, "screw-pitch", [0.01], size=2.0))
 
 
 def test_adding_the_effect_takes_the_error_to_the_noise() -> None:
-    first, floor = SCREW.candidates[0], SCREW.error.noise_rms
+    first, floor = screw().candidates[0], screw().error.noise_rms
     assert floor is not None
-    assert SCREW.error.rms > 1.8 * floor
+    assert screw().error.rms > 1.8 * floor
     assert first.error.rms < 1.25 * floor  # irregular geometry and slow drift remain
     assert first.share is not None
     assert first.share > 0.9
     assert first.error.cross_validated_rms is not None
-    assert first.error.cross_validated_rms < 0.6 * (SCREW.error.cross_validated_rms or 0.0)
+    assert first.error.cross_validated_rms < 0.6 * (screw().error.cross_validated_rms or 0.0)
 
 
 def test_the_first_candidate_has_the_amplitude_that_was_hidden() -> None:
-    estimates = {each.parameter.name: each for each in SCREW.candidates[0].estimates}
+    estimates = {each.parameter.name: each for each in screw().candidates[0].estimates}
     truth = hidden(DESIGN, "screw-pitch", [0.01], size=2.0)
     columns = EFFECTS["screw-pitch"].columns(DESIGN, np.array([0.01]))
     expected = np.linalg.lstsq(columns, truth, rcond=None)[0]
@@ -111,10 +116,10 @@ def test_the_first_candidate_has_the_amplitude_that_was_hidden() -> None:
 
 
 def test_candidates_come_best_first_with_probabilities_of_one_whole() -> None:
-    evidence = [each.evidence for each in SCREW.candidates]
+    evidence = [each.evidence for each in screw().candidates]
     assert evidence == sorted(evidence, reverse=True)
-    assert sum(each.probability for each in SCREW.candidates) <= 1 + 1e-12
-    assert SCREW.candidates[0].probability > 0.95
+    assert sum(each.probability for each in screw().candidates) <= 1 + 1e-12
+    assert screw().candidates[0].probability > 0.95
 
 
 def test_where_nothing_is_missing_the_model_is_adequate_and_nothing_is_named() -> None:
@@ -260,7 +265,9 @@ def test_readings_without_any_scatter_are_diagnosed() -> None:
 class TestReport:
     """The results file of a diagnosis."""
 
-    written = report(SCREW)
+    @property
+    def written(self) -> dict[str, Any]:
+        return report(screw())
 
     def test_it_has_what_is_promised(self) -> None:
         assert self.written["schema"] == "zlmreport/diagnosis/1"
@@ -286,7 +293,7 @@ class TestReport:
         assert promised | {"indistinguishable_from", "discriminate_by"} <= set(first)
 
     def test_it_speaks_in_micrometres_and_millimetres(self) -> None:
-        assert self.written["error"]["rms"] == pytest.approx(1e6 * SCREW.error.rms)
+        assert self.written["error"]["rms"] == pytest.approx(1e6 * screw().error.rms)
         parameters = {each["name"]: each for each in self.written["candidates"][0]["parameters"]}
         assert (parameters["period"]["value"], parameters["period"]["unit"]) == (10.0, "mm")
         lost_motion = next(
@@ -300,6 +307,6 @@ class TestReport:
 
     def test_its_sentences_are_in_the_language_asked_for(self) -> None:
         english = self.written["candidates"][0]["explains"]
-        german = report(SCREW, Language.GERMAN)["candidates"][0]["explains"]
+        german = report(screw(), Language.GERMAN)["candidates"][0]["explains"]
         assert re.match(r"explains (9\d|100) % of what the noise leaves open", english)
         assert re.match(r"erklärt (9\d|100) % dessen, was das Rauschen offen lässt", german)
