@@ -82,5 +82,16 @@ OFFERS: Mapping[str, Mapping[str, tuple[str, ...]]] = {
         )
     },
     "controller_csv": {"controller": ("csv",)},
+    "controllers_on_paper": {
+        "controller": (
+            "beckhoff",
+            "etalon",
+            "fanuc",
+            "heidenhain",
+            "isg",
+            "mitsubishi",
+            "siemens-840d",
+        )
+    },
     "controller_linuxcnc": {"controller": ("linuxcnc",)},
 }

@@ -110,6 +110,12 @@ def test_a_table_that_was_active_is_part_of_the_new_one(folder: Path) -> None:
         ),
         (", compensation_table: none", ["--controller", "linuxcnc", "--set", "type"], "write KEY=VALUE"),
         (", compensation_table: none", ["--controller", "linuxcnc", "--step", "1"], "takes 256 rows"),
+        (", compensation_table: none", ["--controller", "isg"], "--unconfirmed writes it all the same"),
+        (
+            ", compensation_table: none",
+            ["--controller", "fanuc", "--unconfirmed"],
+            "raise magnification (3623)",
+        ),
         (", compensation_table: none", ["--controller", "csv", "--confirm"], "--confirm takes two jobs"),
     ],
 )

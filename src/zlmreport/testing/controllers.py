@@ -70,7 +70,8 @@ def reads_what_it_writes(controller: Controller, keys: Mapping[str, Any]) -> Non
     meant = table.at(table.positions)
     if not controller.is_directional:
         meant = np.broadcast_to(meant.mean(axis=0), meant.shape)
-    off = float(np.abs(decoded.at(table.positions) - meant).max())
+    difference = decoded.at(table.positions) - meant
+    off = float(np.abs(difference - difference.mean()).max())  # a control may want zero at its first row
     expect(off <= _HALF_A_QUANTUM, f"{controller.identifier}: read back, the table is off by {off:.2e} m")
 
 

@@ -1,0 +1,327 @@
+"""Formats of compensation tables that are known from paper: none of them was tried on its control.
+
+ISG, Siemens and Mitsubishi document format and sign; of the others the sign or the file is not confirmed. All
+are written with ``--unconfirmed`` only, and each says so on the sheet.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from pydantic import Field
+
+from zlmreport.plugin import (
+    CompensationTable,
+    Controller,
+    FloatArray,
+    InputError,
+    Options,
+    Words,
+    hookimpl,
+    read_only_floats,
+)
+
+_NUMBER = r"([-+]?\d+(?:\.\d+)?)"
+_NO_TRIAL = Words(
+    en="This format was never tried on the control. Load it with the axis clear, and check one point first.",
+    de="Dieses Format wurde nie an der Steuerung erprobt. Bei freier Achse laden, einen Punkt prüfen.",
+)
+_MEAN_ONLY = Words(
+    en="The table has the mean of both directions; the play is left to the backlash parameter.",
+    de="Die Tabelle enthält das Mittel beider Richtungen; das Spiel bleibt der Losekompensation.",
+)
+_ZERO_AT_THE_START = Words(
+    en="The first row is zero: the constant before it was taken out.",
+    de="Die erste Zeile ist null: die Konstante davor wurde herausgenommen.",
+)
+
+
+class _OnPaper:
+    """What these controls share: a file, read back as it is documented."""
+
+    confidence = "unconfirmed"
+    is_directional = False
+    is_equidistant = False
+    notes: tuple[Words, ...] = (_NO_TRIAL, _MEAN_ONLY)
+    options: type[Options] = Options
+
+
+def _columns(table: CompensationTable) -> tuple[list[float], FloatArray, FloatArray]:
+    """Return positions, mm or °, and the deviations forward and reverse in the same unit; refuse a fall."""
+    unit = table.axis.position_unit
+    positions = [round(unit.from_si(each), 6) for each in table.positions.tolist()]
+    if len(positions) < 2 or any(b <= a for a, b in pairwise(positions)):
+        raise InputError.at(table.place, "the rows of a table rise, and it has two at least")
+    return positions, unit.from_si(table.forward), unit.from_si(table.reverse)
+
+
+def _decoded(
+    table: CompensationTable, positions: Iterable[float], forward: Iterable[float], reverse: Iterable[float]
+) -> CompensationTable:
+    to_si = table.axis.position_unit.to_si
+    grid, up, down = (
+        read_only_floats([to_si(float(each)) for each in column]) for column in (positions, forward, reverse)
+    )
+    return replace(table, positions=grid, forward=up, reverse=down)
+
+
+def _increments(table: CompensationTable, quantum: float, largest: int, remedy: str) -> list[int]:
+    """Return −Δe of each interval in whole quanta; the running sum is rounded, so that nothing drifts."""
+    _, forward, reverse = _columns(table)
+    mean = (forward + reverse) / 2
+    sums = np.round(-(mean - mean[0]) / quantum).astype(int)
+    steps: list[int] = np.diff(sums).tolist()
+    worst = max(map(abs, steps))
+    if worst > largest:
+        raise InputError.at(
+            table.place, f"a step of {worst} is more than the control takes, {largest}; {remedy}"
+        )
+    return steps
+
+
+def _summed(table: CompensationTable, steps: Iterable[int], quantum: float) -> CompensationTable:
+    sums = -quantum * np.concatenate([[0.0], np.cumsum(list(steps))])
+    positions = table.axis.position_unit.from_si(table.positions)
+    return _decoded(table, positions.tolist(), sums.tolist(), sums.tolist())
+
+
+class SiemensOptions(Options):
+    """The keys of ``siemens-840d``."""
+
+    axis: str | None = Field(
+        None,
+        pattern=r"^[A-Z][A-Z0-9]{0,7}$",
+        description="Machine axis; without it the axis's name with a 1.",
+    )
+
+
+class Siemens840d(_OnPaper):
+    """SINUMERIK 840D, encoder compensation (EEC, ``$AA_ENC_COMP``): a positive value is +e."""
+
+    identifier = "siemens-840d"
+    title = Words(en="Siemens SINUMERIK 840D (EEC)", de="Siemens SINUMERIK 840D (EEC)")
+    confidence = "documented"
+    is_equidistant = True
+    options: type[Options] = SiemensOptions
+    notes: tuple[Words, ...] = (
+        *_OnPaper.notes,
+        Words(
+            en="MD38000 holds the number of points; MD32700 is 0 while the table is loaded, then 1; the "
+            "table is zero at the reference point.",
+            de="MD38000 enthält die Zahl der Punkte; MD32700 ist beim Laden 0, danach 1; am Referenzpunkt "
+            "ist die Tabelle null.",
+        ),
+    )
+
+    def files(self, table: CompensationTable, options: Any) -> Mapping[str, str]:
+        """Return the one file."""
+        positions, forward, reverse = _columns(table)
+        name = options.axis or f"{table.axis.name}1"
+        mean = ((forward + reverse) / 2).tolist()
+        lines = ["%_N_AX_EEC_INI", "CHANDATA(1)"]
+        lines += [f"$AA_ENC_COMP[0,{row},{name}]={each + 0.0:.5f}" for row, each in enumerate(mean)]
+        lines += [
+            f"$AA_ENC_COMP_STEP[0,{name}]={positions[1] - positions[0]:.6f}",
+            f"$AA_ENC_COMP_MIN[0,{name}]={positions[0]:.6f}",
+            f"$AA_ENC_COMP_MAX[0,{name}]={positions[-1]:.6f}",
+            f"$AA_ENC_COMP_IS_MODULO[0,{name}]=0",
+            "M17",
+        ]
+        return {"_EEC.INI": "".join(f"{line}\n" for line in lines)}
+
+    def read(self, files: Mapping[str, str], table: CompensationTable, options: Any) -> CompensationTable:  # noqa: ARG002
+        """Return the table that the lines describe."""
+        text = files["_EEC.INI"]
+        values = [float(each) for each in re.findall(rf"COMP\[0,\d+,\w+\]={_NUMBER}", text)]
+        (step,) = re.findall(rf"STEP\[0,\w+\]={_NUMBER}", text)
+        (first,) = re.findall(rf"MIN\[0,\w+\]={_NUMBER}", text)
+        positions = [float(first) + float(step) * row for row in range(len(values))]
+        return _decoded(table, positions, values, values)
+
+
+class Isg(_OnPaper):
+    """ISG and TwinCAT CNC (TF5200): ``kw.ssfk`` lists, +e by direction in whole 0.1 µm."""
+
+    identifier = "isg"
+    title = Words(en="ISG, TwinCAT CNC (kw.ssfk)", de="ISG, TwinCAT CNC (kw.ssfk)")
+    confidence = "documented"
+    is_directional = True
+    notes: tuple[Words, ...] = (_NO_TRIAL,)
+
+    def files(self, table: CompensationTable, options: Any) -> Mapping[str, str]:  # noqa: ARG002
+        """Return the one file; set positions are in whole 0.1 µm (0.0001°), too."""
+        positions, forward, reverse = _columns(table)
+        lines = [
+            "kopf.achs_nr 1",
+            f"kopf.log_achs_name {table.axis.name}",
+            "kw.ssfk.interval 0",
+            f"kw.ssfk.kw_startpos {round(positions[0] * 1e4)}",
+            f"kw.ssfk.kw_nr_max {len(positions)}",
+            "kw.ssfk.unit 1",
+            "kw.ssfk.bilateral 1",
+        ]
+        for row, (at, up, down) in enumerate(zip(positions, forward.tolist(), reverse.tolist(), strict=True)):
+            lines += [
+                f"kw.ssfk.table[{row}].setpoint {round(at * 1e4)}",
+                f"kw.ssfk.table[{row}].pos {round(up * 1e4)}",
+                f"kw.ssfk.table[{row}].neg {round(down * 1e4)}",
+            ]
+        return {".lis": "".join(f"{line}\n" for line in lines)}
+
+    def read(self, files: Mapping[str, str], table: CompensationTable, options: Any) -> CompensationTable:  # noqa: ARG002
+        """Return the table of the list."""
+        found = (
+            [int(each) / 1e4 for each in re.findall(rf"\]\.{name} (-?\d+)", files[".lis"])]
+            for name in ("setpoint", "pos", "neg")
+        )
+        return _decoded(table, *found)
+
+
+class FanucOptions(Options):
+    """The keys of ``fanuc``."""
+
+    reference: int = Field(40, ge=0, le=1023, description="Number of the first row (parameter 3620).")
+    magnification: int = Field(1, ge=1, le=100, description="Parameter 3623.")
+
+
+class Fanuc(_OnPaper):
+    """Fanuc pitch error compensation: −Δe of each interval in units of 1 µm times parameter 3623."""
+
+    identifier = "fanuc"
+    title = Words(en="Fanuc (pitch error compensation)", de="Fanuc (Steigungsfehlerkompensation)")
+    is_equidistant = True
+    options: type[Options] = FanucOptions
+    notes: tuple[Words, ...] = (*_OnPaper.notes, _ZERO_AT_THE_START)
+
+    def files(self, table: CompensationTable, options: Any) -> Mapping[str, str]:
+        """Return the one file: the value at a number belongs to the interval before it."""
+        if len(table.positions) > 128:
+            raise InputError.at(table.place, "the control takes 128 points; state a longer step")
+        steps = _increments(
+            table, options.magnification * 1e-3, 7, "raise magnification (3623), or state a shorter step"
+        )
+        lines = [f"N1{options.reference + row:04d}P{step}" for row, step in enumerate(steps, start=1)]
+        return {".txt": "".join(f"{line}\n" for line in ("%", *lines, "%"))}
+
+    def read(self, files: Mapping[str, str], table: CompensationTable, options: Any) -> CompensationTable:
+        """Return the sums of the increments."""
+        steps = [int(each) for each in re.findall(r"N\d+P(-?\d+)", files[".txt"])]
+        return _summed(table, steps, options.magnification * 1e-3)
+
+
+class Mitsubishi(_OnPaper):
+    """Mitsubishi memory pitch error compensation: −Δe times 2 in output units of 0.001 mm, ± 127."""
+
+    identifier = "mitsubishi"
+    title = Words(en="Mitsubishi (memory pitch error)", de="Mitsubishi (Steigungsfehler)")
+    confidence = "documented"
+    is_equidistant = True
+    notes: tuple[Words, ...] = (*_OnPaper.notes, _ZERO_AT_THE_START)
+
+    def files(self, table: CompensationTable, options: Any) -> Mapping[str, str]:  # noqa: ARG002
+        """Return the increments, one a line, to be typed in at the control."""
+        steps = _increments(table, 0.5e-3, 127, "state a shorter step")
+        return {"-increments.txt": "".join(f"{row} {step}\n" for row, step in enumerate(steps, start=1))}
+
+    def read(self, files: Mapping[str, str], table: CompensationTable, options: Any) -> CompensationTable:  # noqa: ARG002
+        """Return the sums of the increments."""
+        steps = [int(line.split()[1]) for line in files["-increments.txt"].splitlines()]
+        return _summed(table, steps, 0.5e-3)
+
+
+class Heidenhain(_OnPaper):
+    """HEIDENHAIN ``.COM``: position, play and deviation forward, mm; head and sign are not confirmed."""
+
+    identifier = "heidenhain"
+    title = Words(en="HEIDENHAIN (.COM)", de="HEIDENHAIN (.COM)")
+    is_directional = True
+    notes: tuple[Words, ...] = (
+        _NO_TRIAL,
+        Words(
+            en="The .CMA file that names this table for the axis is made at the control.",
+            de="Die .CMA-Datei, die der Achse diese Tabelle zuordnet, wird an der Steuerung angelegt.",
+        ),
+    )
+
+    def files(self, table: CompensationTable, options: Any) -> Mapping[str, str]:  # noqa: ARG002
+        """Return the one file."""
+        name = table.axis.name
+        lines = [f"BEGIN {name}_AXIS .COM", f"NR AXISPOS  BACKLASH  {name}"]
+        for row, (at, up, down) in enumerate(zip(*_columns(table), strict=True)):
+            lines.append(f"{row}     {at:+.4f}   {float(down - up) + 0.0:+.4f}   {float(up) + 0.0:+.4f}")
+        return {".COM": "".join(f"{line}\n" for line in (*lines, "[END]"))}
+
+    def read(self, files: Mapping[str, str], table: CompensationTable, options: Any) -> CompensationTable:  # noqa: ARG002
+        """Return the rows."""
+        rows = [[float(each) for each in line.split()] for line in files[".COM"].splitlines()[2:-1]]
+        _, positions, play, forward = zip(*rows, strict=True)
+        return _decoded(table, positions, forward, [up + gap for up, gap in zip(forward, play, strict=True)])
+
+
+class Etalon(_OnPaper):
+    """The exchange format of Etalon: grid points and deviations, mm."""
+
+    identifier = "etalon"
+    title = Words(en="Etalon exchange format", de="Etalon-Austauschformat")
+
+    def files(self, table: CompensationTable, options: Any) -> Mapping[str, str]:  # noqa: ARG002
+        """Return the one file; its section is named by the axis: EXX for X."""
+        positions, forward, reverse = _columns(table)
+        rows = [
+            f"{at:.6g} {each + 0.0:.6f}"
+            for at, each in zip(positions, ((forward + reverse) / 2).tolist(), strict=True)
+        ]
+        head = [f"[E{table.axis.name}{table.axis.name}]", "Gridpoints = {"]
+        return {
+            "-etalon.txt": "".join(
+                f"{line}\n" for line in (*head, *rows, f"}} // end of E{table.axis.name * 2}")
+            )
+        }
+
+    def read(self, files: Mapping[str, str], table: CompensationTable, options: Any) -> CompensationTable:  # noqa: ARG002
+        """Return the grid points."""
+        rows = [line.split() for line in files["-etalon.txt"].splitlines()[2:-1]]
+        values = [float(each) for _, each in rows]
+        return _decoded(table, [float(at) for at, _ in rows], values, values)
+
+
+class Beckhoff(_OnPaper):
+    """Beckhoff NC PTP: elements of ``ST_CompensationElement`` by direction, the correction −e in mm."""
+
+    identifier = "beckhoff"
+    title = Words(en="Beckhoff TwinCAT NC PTP", de="Beckhoff TwinCAT NC PTP")
+    is_directional = True
+    notes: tuple[Words, ...] = (_NO_TRIAL,)
+
+    def files(self, table: CompensationTable, options: Any) -> Mapping[str, str]:  # noqa: ARG002
+        """Return the elements of each direction as structured text."""
+        positions, forward, reverse = _columns(table)
+        return {
+            end: "".join(
+                f"(fPos := {at:.6f}, fCompensation := {0.0 - each:.6f}),\n"
+                for at, each in zip(positions, values.tolist(), strict=True)
+            )
+            for end, values in (("-positive.st", forward), ("-negative.st", reverse))
+        }
+
+    def read(self, files: Mapping[str, str], table: CompensationTable, options: Any) -> CompensationTable:  # noqa: ARG002
+        """Return the elements."""
+        pattern = rf"fPos := {_NUMBER}, fCompensation := {_NUMBER}"
+        forward, reverse = (re.findall(pattern, files[end]) for end in ("-positive.st", "-negative.st"))
+        return _decoded(
+            table,
+            [float(at) for at, _ in forward],
+            [-float(each) for _, each in forward],
+            [-float(each) for _, each in reverse],
+        )
+
+
+@hookimpl
+def zlmreport_controllers() -> Iterable[Controller]:
+    """Return all of them."""
+    return [Beckhoff(), Etalon(), Fanuc(), Heidenhain(), Isg(), Mitsubishi(), Siemens840d()]
