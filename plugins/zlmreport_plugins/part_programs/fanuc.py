@@ -72,6 +72,8 @@ def _lines(motion: Motion, options: FanucOptions) -> Iterator[str]:
     yield f"F{feed}"
     for stop in motion.in_decimals(options.decimals).stops:
         yield f"G01 {axis}{stop.position:.{options.decimals}f}"
+        if options.waits_at(stop):
+            yield "M00"
         if stop.reading:
             yield f"N{stop.reading.number} G04 X{dwell} {_remark(reading_remark(stop.reading))}"
     yield "M30"

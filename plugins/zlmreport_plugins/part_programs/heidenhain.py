@@ -4,6 +4,7 @@ Everything here is (check): no such control has run a program of this kind yet.
 
 - ``M91`` moves in machine coordinates; it holds for its own block. ``R0`` is without radius compensation.
 - A straight line ``L`` with a feed of its own ends before the dwell after it begins.
+- ``STOP`` stops until the operator lets the program go on.
 - Cycle 9 waits for so many seconds, as soon as it is defined.
 - Blocks are numbered without a gap, from 0.
 """
@@ -58,6 +59,8 @@ def _blocks(motion: Motion, options: HeidenhainOptions) -> Iterator[str]:
     yield from (f"; {text}" for text in program_heading(motion))
     for stop in motion.in_decimals(options.decimals).stops:
         yield f"L {axis}{stop.position:+.{options.decimals}f} R0 F{feed} M91"
+        if options.waits_at(stop):
+            yield "STOP"
         if stop.reading:
             yield f"; reading {stop.reading.number}, {reading_remark(stop.reading)}"
             yield "CYCL DEF 9.0 DWELL TIME"

@@ -4,6 +4,7 @@ The words used are those of LinuxCNC's own documentation, and its stand-alone in
 
 - ``G53`` moves in machine coordinates; it holds for its own block, and takes the feed of ``G1``.
 - ``G61.1`` stops exactly at the end of every block.
+- ``M0`` stops until the operator lets the program go on.
 - ``G4 P`` waits for so many seconds.
 - ``F`` is mm/min, and degrees/min where only a rotary axis moves.
 """
@@ -55,6 +56,8 @@ def _lines(motion: Motion, options: LinuxCncOptions) -> Iterator[str]:
     yield f"F{program_number(motion.feed)}"
     for stop in motion.in_decimals(options.decimals).stops:
         yield f"G53 G1 {axis}{stop.position:.{options.decimals}f}"
+        if options.waits_at(stop):
+            yield f"M0 (wait before the {stop.begins})"
         if stop.reading:
             yield f"(reading {stop.reading.number}, {reading_remark(stop.reading)})"
             yield f"G4 P{program_number(motion.dwell)}"

@@ -63,6 +63,8 @@ def _lines(motion: Motion, options: Siemens840dOptions) -> Iterator[str]:
     yield f"F{program_number(motion.feed)}"
     for stop in motion.in_decimals(options.decimals).stops:
         yield f"SUPA G1 {axis}={stop.position:.{options.decimals}f}"
+        if options.waits_at(stop):
+            yield "M0"
         if stop.reading:
             yield "STOPRE"
             dwell = program_number(motion.dwell)

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from typing import Literal
 
 import numpy as np
 from pydantic import Field
@@ -13,7 +14,7 @@ from zlmreport.errors import InputError, Place
 from zlmreport.job.types import Options
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.axis import Axis, AxisKind
-from zlmreport.planning.methods import Method, path, visits
+from zlmreport.planning.methods import Method, Stop, path, visits
 from zlmreport.planning.plan import Plan
 from zlmreport.planning.targets import in_users_unit
 
@@ -63,10 +64,14 @@ class ProgramStop:
         mm or °.
     reading
         What is read there; None where the axis only turns round.
+    begins
+        Of a stop before the first reading of the test, or of a run that goes over the whole axis: which of
+        the two begins from here; empty for any other.
     """
 
     position: float
     reading: Reading | None = None
+    begins: Literal["", "test", "run"] = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -184,6 +189,8 @@ def motion_of(number: str, axis: Axis, plan: Plan, place: Place) -> Motion:
             message = f"{key}: {value:.6g} is less than can be programmed; state {_LEAST_RATE:g} or more"
             raise InputError.at(place, message)
     stops = path(plan.method, plan.targets.tolist(), plan.runs, plan.overrun)
+    if stops[-1].position != stops[0].position:
+        stops = (*stops, Stop(stops[0].position))  # where the datum was taken it is looked at once more
     positions = in_users_unit(axis, np.array([stop.position for stop in stops]))
     targets = in_users_unit(axis, plan.targets)
     readings = (
@@ -197,16 +204,27 @@ def motion_of(number: str, axis: Axis, plan: Plan, place: Place) -> Motion:
         runs=plan.runs,
         targets=tuple(targets),
         stops=tuple(
-            ProgramStop(position)
+            ProgramStop(position, begins=_begins(stops, index, plan.method))
             if stop.target is None
             else ProgramStop(targets[stop.target], next(readings))
-            for stop, position in zip(stops, positions, strict=True)
+            for index, (stop, position) in enumerate(zip(stops, positions, strict=True))
         ),
         overrun=in_users_unit(axis, np.array([plan.overrun]))[0],
         feed=feed,
         dwell=plan.dwell,
         place=place,
     )
+
+
+def _begins(stops: Sequence[Stop], index: int, method: Method) -> Literal["", "test", "run"]:
+    """Return what begins from a stop at which nothing is read."""
+    if not index:
+        return "test"
+    is_run_by_run = method in {Method.LINEAR, Method.UNIDIRECTIONAL}
+    after = stops[index + 1] if index + 1 < len(stops) else None
+    before = next((stop for stop in reversed(stops[:index]) if stop.target is not None), None)
+    is_new = after is not None and before is not None and after.run > before.run
+    return "run" if is_run_by_run and is_new else ""
 
 
 class ProgramOptions(Options):
@@ -218,6 +236,15 @@ class ProgramOptions(Options):
         examples=["X"],
     )
     decimals: int = Field(3, ge=0, le=9, description="Digits after the decimal point of positions.")
+    wait: Literal["start", "runs", "never"] = Field(
+        "start",
+        description="Where the program stops until the operator lets it go on: at its start, for the datum "
+        "of a capture; before each run too (linear and unidirectional method); or nowhere.",
+    )
+
+    def waits_at(self, stop: ProgramStop) -> bool:
+        """Tell whether the program stops at a stop until the operator lets it go on."""
+        return {"start": stop.begins == "test", "runs": bool(stop.begins), "never": False}[self.wait]
 
 
 def axis_address(

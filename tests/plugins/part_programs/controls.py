@@ -23,12 +23,18 @@ class Machine:
 
     feed: float | None = None
     stops: list[tuple[float, float]] = field(default_factory=list)
+    waits: list[float] = field(default_factory=list)
     blocks: list[int] = field(default_factory=list)
 
     def move(self, position: float) -> None:
         if not self.feed:
             raise AlarmError("no feed is programmed")
         self.stops.append((position, 0.0))
+
+    def wait(self) -> None:
+        if not self.stops:
+            raise AlarmError("waits before it has moved")
+        self.waits.append(self.stops[-1][0])
 
     def rest(self, seconds: float) -> None:
         if not self.stops:
@@ -54,6 +60,8 @@ def linuxcnc(text: str, axis: str = "[XYZABCUVW]") -> Machine:
         elif words := re.fullmatch(rf"G53 G1 {axis}(-?\d+\.\d+)", code):
             _demand({"G21", "G90", "G94", "G49", "G61.1"} <= modes, "modes are not set")
             machine.move(float(words[1]))
+        elif code == "M0":
+            machine.wait()
         elif words := re.fullmatch(r"G4 P([\d.]+)", code):
             machine.rest(float(words[1]))
         else:
@@ -70,6 +78,9 @@ def fanuc(text: str) -> Machine:
     _demand(re.fullmatch(r"O\d{4}", number), "no program number")
     for line in lines:
         code = re.sub(r"\([A-Z0-9 .,+/-]*\)", "", line).strip()
+        if code == "M00":
+            machine.wait()
+            continue
         found = _WORD.findall(code)
         _demand("".join(f"{letter}{value}" for letter, value in found) == code.replace(" ", ""), line)
         words = [(letter, value) for letter, value in found if letter not in "GN"]
@@ -112,6 +123,8 @@ def siemens(text: str) -> Machine:
             machine.move(float(words[1]))
         elif words := re.fullmatch(r"F([\d.]+)", code):
             machine.feed = float(words[1])
+        elif code == "M0":
+            machine.wait()
         elif code != "STOPRE":
             _demand(re.fullmatch(r"([GD]\d+ ?)+", code), line)
             modes |= set(code.split())
@@ -132,6 +145,9 @@ def heidenhain(text: str) -> Machine:
     _demand(begin and blocks[-1] == f"END PGM {begin[1]} MM", "no begin and end of one name")
     for code in blocks[1:-1]:
         if code.startswith(";"):
+            continue
+        if code == "STOP":
+            machine.wait()
             continue
         if code == "CYCL DEF 9.0 DWELL TIME":
             is_defining = True

@@ -63,3 +63,16 @@ def test_interpreter_of_linuxcnc_makes_the_same_moves(method: Method, tmp_path: 
         else:
             stops[-1] = stops[-1][0], float(first)
     assert stops == linuxcnc(text).stops
+
+
+@controls
+def test_a_program_waits_at_the_datum_and_comes_back_to_it(control: str) -> None:
+    machine = CONTROLS[control](written(control, sample_motion(Method.PENDULUM)))
+    assert machine.waits == [machine.stops[0][0]] == [machine.stops[-1][0]]
+
+
+@controls
+@pytest.mark.parametrize(("wait", "times"), [("start", 1), ("runs", 3), ("never", 0)])
+def test_a_program_waits_before_each_run_if_asked(control: str, wait: str, times: int) -> None:
+    motion = sample_motion(Method.UNIDIRECTIONAL, runs=3)
+    assert len(CONTROLS[control](written(control, motion, wait=wait)).waits) == times
