@@ -55,7 +55,7 @@ def job_with(text_of: Callable[[Path], str]) -> str:
     """Return a job that states every text it can state."""
     job: dict[str, Any] = {
         "schema": "zlmreport/job/1",
-        "certificate": {"number": "CAL-1", "issued": "2026-11-20"},
+        "certificate": {"number": "CAL-1", "issued": "2026-11-20", "kind": "report"},
         "laboratory": {"country": "DE"},
         "location": {"kind": "laboratory"},
         "axis": {"kind": "linear", "travel": [0, 100]},
