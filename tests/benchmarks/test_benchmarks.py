@@ -37,9 +37,19 @@ def run(*arguments: str | Path) -> CompletedProcess[str]:
     return processes.run(processes.PYTHON, BENCHMARKS, *arguments)
 
 
-def test_benchmarks_measure_on_the_smallest_sizes(tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    ("names", "known"),
+    [
+        (("warm", "evaluation"), {}),
+        (("cold", "typst"), {"zlmreport JOB / plain recipe": 1.0}),
+        (("capture", "memory"), {"plain recipe, growth": 1.0}),
+    ],
+    ids=["warm and evaluation", "cold and typst", "capture and memory"],
+)
+def test_benchmarks_measure_on_the_smallest_sizes(
+    tmp_path: Path, names: tuple[str, ...], known: dict[str, float]
+) -> None:
     file = tmp_path / "results.json"
-    names = ("warm", "cold", "evaluation", "typst", "capture", "memory")
     sizes = ("--rounds", "1", "--tests", "20", "--certificates", "2")
     done = processes.run(processes.PYTHON, "-c", _IN_ONE_PROCESS, *names, *sizes, "--json", file)
     assert done.returncode == 0, done.stderr
@@ -48,10 +58,7 @@ def test_benchmarks_measure_on_the_smallest_sizes(tmp_path: Path) -> None:
     lines = [line for name in names for line in results[name]]
     assert all(math.isfinite(line["value"]) for line in lines)
     assert all(line["name"] in done.stdout for line in lines)
-    values = {line["name"]: line["value"] for line in lines}
-    assert values["zlmreport JOB / plain recipe"] == 1.0
-    assert values["pages by zlmreport"] > 1
-    assert values["plain recipe, growth"] == 1.0
+    assert known.items() <= {line["name"]: line["value"] for line in lines}.items()
 
 
 def test_a_pdf_that_lacks_a_number_of_the_document_is_not_compared(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -75,8 +82,8 @@ def test_documents_of_very_different_length_are_not_compared(monkeypatch: pytest
 def test_the_coverage_of_stated_uncertainties_is_counted_for_each_budget() -> None:
     done = run("coverage", "--trials", "2", "--simulated", "50", "nmtba")
     assert done.returncode == 0, done.stderr
-    heading, _, *rows = done.stdout.strip().splitlines()
-    assert heading == "| nmtba | P | Pa | Ps_max | Ps_mean | O |"
-    shares = [float(cell) for row in rows for cell in row.split("|")[2:-1]]
-    assert len(shares) == 5 * 5
-    assert set(shares) <= {0.0, 50.0, 100.0}
+    for question, table in zip(("this test", "this axis"), done.stdout.strip().split("\n\n"), strict=True):
+        heading, _, *rows = table.splitlines()
+        assert heading == f"| nmtba, {question} | P | Pa | Ps_max | Ps_mean | O |"
+        shares = {float(cell) for row in rows for cell in row.split("|")[2:-1]}
+        assert shares <= {0.0, 50.0, 100.0}
