@@ -19,7 +19,7 @@ from zlmreport.model.design import Design
 from zlmreport.model.effect import Effect
 from zlmreport.model.fit import Fit
 from zlmreport.model.observations import of_readings
-from zlmreport.model.repeats import repeats
+from zlmreport.model.repeats import noise_floor, repeats
 from zlmreport.quantities.arrays import BoolArray, FloatArray, IntArray
 
 #: Evidence, 2·ln of a likelihood ratio, that a slip must have, and by which it must surpass every effect.
@@ -35,6 +35,8 @@ _TINY = 1e-7
 _NEAR = 0.1
 #: Lags of a sensor that are tried, s; evidence ahead of the best effect that surpasses it, and is as good.
 _LAGS, _LAGGING, _AS_GOOD = (120.0, 300.0, 600.0, 1200.0), 10.0, -2.0
+#: Squares that may be left, over those of the noise floor.
+_NEARLY_NOISE = 1.3
 _FEWEST_STUCK, _FEWEST_EQUAL = 20, 6
 #: Agreement of rows with their directions, or of runs with each other, that is clear.
 _CLEAR = 0.5
@@ -144,8 +146,11 @@ def lagging_sensors(fitted: Fit, best: Fit | None, effects: Iterable[Effect]) ->
         That may be missing.
     """
     design, readings = fitted.design, len(fitted.deviation)
-    if best is None or design.time_is_counted or design.duration == 0:
+    floor = noise_floor(design, fitted.deviation)
+    if best is None or floor is None or design.time_is_counted or design.duration == 0:
         return ()
+    # A lag turns a log into another: only one with which nothing is left is worth a word.
+    enough = _NEARLY_NOISE * readings * floor**2
     moments, first = np.unique(design.time, return_index=True)
     base, least = fitted.base(), float(np.sum(best.residual**2))
     found: list[tuple[float, str, float]] = []
@@ -159,6 +164,8 @@ def lagging_sensors(fitted: Fit, best: Fit | None, effects: Iterable[Effect]) ->
                 corrected = replace(design, conditions={**design.conditions, name: log + lag * rate})
                 columns = np.column_stack([base, effect.columns(corrected, effect.grid(corrected)[0])])
                 left = _squares_left(columns, fitted.open_deviation)
+                if left > enough:
+                    continue
                 found.append((readings * float(np.log(least / max(left, 1e-12 * least))), name, lag))
     if not found:
         return ()
