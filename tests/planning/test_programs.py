@@ -49,8 +49,17 @@ def test_rounded_zero_has_no_sign() -> None:
 def test_stop_that_the_axis_has_reached_already_is_left_out() -> None:
     # From target 1, approached from above, the second target's turning point is target 1 itself.
     motion = sample_motion(Method.PENDULUM, targets=(0.0, 5.0), runs=1, overrun=5.0)
-    assert [stop.position for stop in motion.stops] == [-5.0, 0.0, 5.0, 0.0, 0.0, 5.0, 10.0, 5.0]
-    assert [stop.position for stop in motion.in_decimals(3).stops] == [-5.0, 0.0, 5.0, 0.0, 5.0, 10.0, 5.0]
+    assert [stop.position for stop in motion.stops] == [-5.0, 0.0, 5.0, 0.0, 0.0, 5.0, 10.0, 5.0, -5.0]
+    assert [stop.position for stop in motion.in_decimals(3).stops] == [
+        -5.0,
+        0.0,
+        5.0,
+        0.0,
+        5.0,
+        10.0,
+        5.0,
+        -5.0,
+    ]
 
 
 def test_overrun_that_rounds_to_nothing_is_refused() -> None:

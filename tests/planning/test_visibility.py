@@ -115,12 +115,6 @@ def test_conditions_that_are_needed_are_known_from_the_effects_themselves() -> N
     assert "face" not in logs  # nothing can be expected of it: it belongs to a gauge
 
 
-def test_effect_whose_condition_nobody_can_expect_is_not_testable() -> None:
-    seen = sight_of(plan_of_test(), "probe-radius")
-    assert seen.sight is Sight.NOT_TESTABLE
-    assert seen.logs == ("face",)
-
-
 def test_effects_of_rotary_axes_belong_to_another_axis() -> None:
     assert sight_of(plan_of_test(), "eccentricity").sight is Sight.OTHER_AXIS
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -20,6 +19,7 @@ from verification.test_verify import differing
 from zlmreport import pipeline
 from zlmreport.job.loading import load
 from zlmreport.plugin.protocols import made
+from zlmreport.plugins import DISABLE, find_plugins
 from zlmreport.verification import verify as verifying
 from zlmreport.verification.findings import Verdict, Verification
 
@@ -63,7 +63,6 @@ def test_where_its_renderer_is_missing_nothing_of_its_drawing_is_said_to_hold(
 ) -> None:
     path = tmp_path / "certificate.pdf"
     path.write_bytes(printed)
-    others = tuple(each for each in registry().renderers if each.identifier != "pdf-typst")
-    found = verifying.verify(path, replace(registry(), renderers=others))
+    found = verifying.verify(path, find_plugins({DISABLE: "pdf_typst"}))
     assert Verdict.HOLDS not in {each.verdict for each in found.pages}
     assert {each.verdict for each in found.values} == {Verdict.HOLDS}
