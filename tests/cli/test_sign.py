@@ -47,7 +47,7 @@ def test_the_password_is_asked_for_at_a_terminal(
     monkeypatch.delenv(SIGN_PASSWORD, raising=False)
     monkeypatch.setattr("sys.stdin.isatty", lambda: True, raising=False)
     asked = []
-    monkeypatch.setattr("zlmreport.cli.report.getpass", lambda prompt, stream: asked.append(prompt) or "x")  # noqa: ARG005
+    monkeypatch.setattr("getpass.getpass", lambda prompt, stream: asked.append(prompt) or "x")  # noqa: ARG005
     shop.job()
     assert shop.run("job.yaml", "--sign", str(key)).code == 2
     assert asked == [f"Password of {key}: "]
