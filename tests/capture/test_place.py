@@ -82,6 +82,14 @@ def test_a_stop_that_is_no_visit_is_told_to_be_none() -> None:
     assert kinds(follower.told(None)) == ["Placed", "NotNext"]
 
 
+def test_a_stop_that_was_told_to_be_none_leaves_open_that_the_program_began_anew() -> None:
+    """A feed hold short of the first target of a program that began anew; then the display stood still."""
+    axis, follower = Axis(), following(listed(targets=TARGETS, runs=3), is_watched=True)
+    happened(chain(axis.stand(), axis.go(0, 50, 100), axis.turn(-5), axis.go(-0.6)), follower)
+    assert kinds(follower.told(None)) == ["Placed", "NotNext"]
+    assert kinds(happened(chain(axis.stand(17), axis.go(0)), follower)) == ["Frozen", "Unclear"]
+
+
 @pytest.mark.parametrize("method", Method)
 def test_programs_that_do_not_go_as_planned_misfile_nothing(method: Method) -> None:
     """Skips, stalls, repeats, feed holds and new beginnings; 1,000 of them: ``./run benchmark capturing``."""

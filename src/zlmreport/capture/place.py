@@ -207,7 +207,7 @@ class Place:
             stop, turns, breaks = self._before or (self.undecided[0], 0, 0)
             files = (index, *[None] * (len(self.undecided) - 1))
             self._guesses = [_Guess(index, 0.0, stop.mean.time, turns, breaks, files=files)]
-        self._settle(index, is_sure=True)
+        self._settle(index, is_sure=index is not None)  # a program that began anew may stop short of a target
         return self.undecided.pop(0)
 
     def _settle(self, index: int | None, *, is_sure: bool) -> None:
@@ -231,7 +231,7 @@ class Place:
                     stop.mean.time,
                     len(route.turns),
                     route.breaks,
-                    is_heading_known=stop.heading is not None,
+                    is_heading_known=route.heading is not None,
                     files=(*guess.files, None if stop.heading is None else index),
                 )
         is_on_its_way = guess.is_told and any(
