@@ -20,6 +20,7 @@ from zlmreport.certificate.cover import lines
 from zlmreport.certificate.document import Certificate, Graph, Letterhead, PageWords, Party, Section
 from zlmreport.certificate.logo import Logo, read_logo
 from zlmreport.certificate.statements import document_title, opinion_sections, running_title
+from zlmreport.evaluation.likely_units import doubts
 from zlmreport.language import Words
 from zlmreport.presenting.marks import Marks
 from zlmreport.presenting.writer import Writer
@@ -81,6 +82,7 @@ def build(  # noqa: PLR0913, PLR0917 - what a document is made of
     pages = _pages(job, evaluated, writer)
     files = [file for each in read for file in each.provenance.files]
     made_from = sources(job, files, logo.file if logo else None)
+    doubtful = doubts(job, [each.evaluation for each in evaluated])
     return Certificate(
         number=certificate.number,
         title=writer.say(document_title(certificate)),
@@ -89,7 +91,7 @@ def build(  # noqa: PLR0913, PLR0917 - what a document is made of
         issued=certificate.issued,
         paper=certificate.paper,
         letterhead=_letterhead(job.keys.laboratory, logo),
-        cover=cover.blocks(job, measurements, evaluated, writer, pages, described),
+        cover=cover.blocks(job, measurements, evaluated, doubtful, writer, pages, described),
         sections=(
             *_conditions(job, measurements, described, pages, writer),
             *_results(job, evaluated, as_found, pages, writer),
@@ -124,6 +126,7 @@ def build(  # noqa: PLR0913, PLR0917 - what a document is made of
         job=job,
         sources=made_from,
         is_compact=pages is not None,
+        doubts=doubtful,
     )
 
 

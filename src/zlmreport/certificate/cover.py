@@ -34,11 +34,14 @@ def blocks(  # noqa: PLR0913, PLR0917 - what a first page is made of
     job: Job,
     measurements: MeasurementSet,
     evaluated: tuple[Evaluated, ...],
+    doubts: tuple[Words, ...],
     writer: Writer,
     pages: Sequence[tuple[Evaluated, ...]] | None = None,
     described: Sequence[Described] = (),
 ) -> tuple[Block, ...]:
     """Return the blocks under the title.
+
+    `doubts` are sentences on values that seem to be in another unit.
 
     Where standards share `pages`, they share their results in brief, and the conditions stand here too,
     with what extensions have `described`.
@@ -58,12 +61,22 @@ def blocks(  # noqa: PLR0913, PLR0917 - what a first page is made of
         _results(pages or [(each,) for each in evaluated], writer, dense=pages is not None),
         *uncertainty.statement(evaluated[0].budget, writer),
         *conformity.rule_paragraph(job.keys.decision_rule, evaluations, writer),
+        *_unlikely(doubts, writer),
         *missing_readings(measurements, writer),
         *_shortfalls(evaluations, writer, in_a_line=pages is not None),
         *_as_found(job, writer),
         *statements.notices(job.keys, writer),
         *statements.paragraphs(job.keys, writer),
     )
+
+
+def _unlikely(doubts: tuple[Words, ...], writer: Writer) -> Iterator[Notice]:
+    heading = Words(
+        en="Values that are unusual in the unit in which they are stated",
+        de="Werte, die in der angegebenen Einheit ungewöhnlich sind",
+    )
+    if doubts:
+        yield Notice(writer.say(heading), tuple(map(writer.say, doubts)))
 
 
 def _as_found(job: Job, writer: Writer) -> Iterator[Block]:

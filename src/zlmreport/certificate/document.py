@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from zlmreport.evaluation.evaluation import Evaluation
     from zlmreport.figures.figure import Figure
     from zlmreport.job.job import Job
-    from zlmreport.language import Language
+    from zlmreport.language import Language, Words
     from zlmreport.measurement.measurement_set import MeasurementSet
     from zlmreport.model.diagnosis import Diagnosis
     from zlmreport.uncertainty.budget import Budget, NoBudget
@@ -236,6 +236,8 @@ class Certificate:
         The files that it was made from, the job first.
     attachments
         What a document that can carry files carries.
+    doubts
+        Values that seem to be in another unit, in sentences; the first page has them, too.
     """
 
     number: str
@@ -262,6 +264,7 @@ class Certificate:
     sources: tuple[Source, ...] = ()
     attachments: tuple[Attachment, ...] = ()
     is_compact: bool = False
+    doubts: tuple[Words, ...] = ()
 
     @property
     def figures(self) -> tuple[Figure, ...]:

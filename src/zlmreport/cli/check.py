@@ -28,7 +28,12 @@ def run(options: Namespace) -> int:
                 demand_capturable(job, registry)
                 return result
         certificate = pipeline.compose(job, registry)
-        return replace(result, evaluations=certificate.evaluations, diagnosis=certificate.diagnosis)
+        return replace(
+            result,
+            evaluations=certificate.evaluations,
+            diagnosis=certificate.diagnosis,
+            doubts=certificate.doubts,
+        )
 
     def lines(result: Result) -> Iterator[str]:
         if result.job is None or result.evaluations:

@@ -55,6 +55,7 @@ def findings(result: Result) -> Iterator[str]:
     yield f"{Colour.BOLD.of(str(result.path))}  {sound}"
     for fault in faults:
         yield f"  {writer.say(fault.statement)}; {writer.say(fault.remedy)}"
+    yield from _unlikely(result, writer)
     for evaluation in result.evaluations:
         yield from requirements(evaluation.designation, evaluation.findings, writer)
     yield from _missing(result, writer)
@@ -139,7 +140,7 @@ def _verdict(parameter: Parameter, writer: Writer) -> str:
 
 
 def _notices(result: Result, writer: Writer) -> Iterator[str]:
-    notices = list(_missing(result, writer))
+    notices = [*_unlikely(result, writer), *_missing(result, writer)]
     for evaluation in result.evaluations:
         notices.extend(
             f"  {Colour.YELLOW.of('not met')}  {evaluation.designation}: "
@@ -151,6 +152,11 @@ def _notices(result: Result, writer: Writer) -> Iterator[str]:
     if notices:
         yield ""
         yield from notices
+
+
+def _unlikely(result: Result, writer: Writer) -> Iterator[str]:
+    for doubt in result.doubts:
+        yield f"  {Colour.YELLOW.of('unlikely')} {writer.say(doubt)}"
 
 
 def _missing(result: Result, writer: Writer) -> Iterator[str]:

@@ -18,6 +18,7 @@ from zlmreport.version import __version__
 if TYPE_CHECKING:
     from zlmreport.evaluation.evaluation import Evaluation
     from zlmreport.job.job import Job
+    from zlmreport.language import Words
     from zlmreport.model.diagnosis import Diagnosis
     from zlmreport.plugins import Registry
 
@@ -80,6 +81,8 @@ class Result:
         By each of its standards.
     diagnosis
         Of its error model; None where the job names none.
+    doubts
+        Values that seem to be in another unit, in sentences.
     files
         That were written.
     error
@@ -90,6 +93,7 @@ class Result:
     job: Job | None = None
     evaluations: tuple[Evaluation, ...] = ()
     diagnosis: Diagnosis | None = None
+    doubts: tuple[Words, ...] = ()
     files: tuple[Path, ...] = ()
     error: ZlmreportError | None = None
 
@@ -174,6 +178,7 @@ def _job(result: Result) -> dict[str, Any]:
         "files": [str(path) for path in result.files],
         "evaluations": [_evaluation(evaluation) for evaluation in result.evaluations],
         "missing_readings": _missing_readings(result),
+        "doubts": [each.in_language(Language.ENGLISH) for each in result.doubts],
         "problems": [problem_values(problem) for problem in (result.error.problems if result.error else ())],
     }
 

@@ -45,7 +45,13 @@ def _make(options: Namespace, registry: Registry, formats: tuple[str, ...], sign
         outcome = pipeline.run(job, registry, signer)
         files = write(outcome.documents)
         made = outcome.certificate
-        return replace(result, evaluations=made.evaluations, diagnosis=made.diagnosis, files=files)
+        return replace(
+            result,
+            evaluations=made.evaluations,
+            diagnosis=made.diagnosis,
+            doubts=made.doubts,
+            files=files,
+        )
 
     loaded = [
         replace(result, job=replace(result.job, directory=options.output))

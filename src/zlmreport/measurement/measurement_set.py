@@ -36,12 +36,15 @@ class ConditionKind:
         The one that is meant where a file names none, and in which messages speak.
     lowest, highest
         In that unit: beyond, the value is a mistake and not the condition of a measurement.
+    usual
+        In that unit, the lowest and the highest that is usual where machines are measured.
     """
 
     units: Mapping[str, Scale]
     unit: Scale
     lowest: float
     highest: float
+    usual: tuple[float, float]
 
 
 #: What the conditions are called on pages.
@@ -61,9 +64,9 @@ CONDITION_NAMES: Mapping[str, Words] = MappingProxyType(
 #: What the refractive index of air follows from.
 STATE_OF_AIR = ("air_temperature", "air_pressure", "relative_humidity")
 
-_TEMPERATURE = ConditionKind(TEMPERATURE_UNITS, CELSIUS, -50.0, 150.0)
-_PRESSURE = ConditionKind(PRESSURE_UNITS, HECTOPASCAL, 0.0, 1200.0)
-_HUMIDITY = ConditionKind(RATIO_UNITS, PERCENT, 0.0, 100.0)
+_TEMPERATURE = ConditionKind(TEMPERATURE_UNITS, CELSIUS, -50.0, 150.0, (0.0, 45.0))
+_PRESSURE = ConditionKind(PRESSURE_UNITS, HECTOPASCAL, 0.0, 1200.0, (600.0, 1100.0))
+_HUMIDITY = ConditionKind(RATIO_UNITS, PERCENT, 0.0, 100.0, (2.0, 100.0))
 
 #: By name; `axis_temperature` is that of the machine's scale.
 CONDITIONS: Mapping[str, ConditionKind] = MappingProxyType(

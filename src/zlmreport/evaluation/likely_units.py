@@ -1,0 +1,153 @@
+"""Values whose size lets one think that another unit was meant: 68.2 °C, a limit of 0.02 µm, an axis C in mm.
+
+Nothing is refused or changed for that: who knows the machine is told, with the unit that would fit.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from zlmreport.evaluation.evaluation import Evaluation, Parameter
+from zlmreport.job.job import Job
+from zlmreport.language import Words, same
+from zlmreport.measurement.axis import AxisKind
+from zlmreport.measurement.measurement_set import CONDITION_NAMES, CONDITIONS, ConditionKind, MeasurementSet
+from zlmreport.quantities.decimals import decimals_of
+from zlmreport.quantities.notation import plain
+from zlmreport.quantities.units import Scale
+
+_UNLIKELY = Words(
+    en="{name}: {value} {unit} is unusual where machines are measured",
+    de="{name}: {value} {unit} ist ungewöhnlich, wo Maschinen gemessen werden",
+)
+_MEANT = Words(
+    en="{name}: {value} {unit} is unusual where machines are measured; {value} {other} would be "
+    "{meant} {unit}",
+    de="{name}: {value} {unit} ist ungewöhnlich, wo Maschinen gemessen werden; {value} {other} wären "
+    "{meant} {unit}",
+)
+_SMALL_LIMITS = Words(
+    en="{designation}: limits far below the values or their last digit: {limits}; tolerances are stated in "
+    "{unit}, and 1 {other} is {per_other} {unit}",
+    de="{designation}: Grenzwerte weit unter den Werten oder ihrer letzten Stelle: {limits}; Toleranzen "
+    "stehen in {unit}, und 1 {other} ist {per_other} {unit}",
+)
+_LARGE_LIMITS = Words(
+    en="{designation}: limits wider than the measured range: {limits}; tolerances are stated in {unit}",
+    de="{designation}: Grenzwerte weiter als der gemessene Bereich: {limits}; Toleranzen stehen in {unit}",
+)
+_TURNS = Words(
+    en="Axis {name} is taken for a linear one that was measured over {range} mm; if these are degrees: "
+    "axis.kind: rotary",
+    de="Achse {name} gilt als Linearachse, gemessen über {range} mm; falls das Grade sind: axis.kind: rotary",
+)
+_MOVES_STRAIGHT = Words(
+    en="Axis {name} is taken for a rotary one that was measured over {range}°; if these are millimetres: "
+    "axis.kind: linear",
+    de="Achse {name} gilt als Drehachse, gemessen über {range}°; falls das Millimeter sind: "
+    "axis.kind: linear",
+)
+#: Axes by their first letters (ISO 841), and the ranges that say that one of them turns.
+_TURNING, _STRAIGHT = frozenset("ABC"), frozenset("XYZUVW")
+_PARTS_OF_A_TURN = (90.0, 180.0, 360.0)
+#: A limit as small as this, µm or ″, beside a value so many times as large, was meant in mm or °.
+_SMALL, _MANY_TIMES = 0.5, 50.0
+_MOST_DECIMALS = 3
+
+
+def doubts(job: Job, evaluations: Sequence[Evaluation]) -> tuple[Words, ...]:
+    """Return a sentence for each value of a job or its readings that seems to be in another unit.
+
+    Parameters
+    ----------
+    job
+        The job.
+    evaluations
+        Of its readings, at least one, with the limits that it states.
+    """
+    measurements = evaluations[0].measurements
+    return (
+        *_conditions(job, measurements),
+        *(sentence for each in evaluations for sentence in _limits(each)),
+        *_kind_of_axis(measurements),
+    )
+
+
+def _conditions(job: Job, measurements: MeasurementSet) -> Iterator[Words]:
+    for name, kind in CONDITIONS.items():
+        value = getattr(job.keys.environment, name, None)
+        logged = measurements.conditions.get(name)
+        if value is None and logged is not None and np.isfinite(logged).any():
+            value = kind.unit.from_si(float(np.nanmedian(logged)))
+        low, high = kind.usual
+        if isinstance(value, float) and not low <= value <= high:
+            meant = _other_unit(value, kind)
+            sentence = _UNLIKELY
+            if meant:
+                sentence = _MEANT.given(other=_named(meant), meant=_shown(value, meant, kind))
+            yield sentence.given(name=CONDITION_NAMES[name], value=value, unit=kind.unit.symbol)
+
+
+def _other_unit(value: float, kind: ConditionKind) -> Scale | None:
+    """Return the unit in which a value would be a usual one, if there is one."""
+    low, high = kind.usual
+    others = (unit for unit in kind.units.values() if low <= kind.unit.from_si(unit.to_si(value)) <= high)
+    return next(others, None)
+
+
+def _named(unit: Scale) -> Words:
+    return Words("of 1", "von 1") if unit.symbol == "1" else same(unit.symbol)
+
+
+def _shown(value: float, unit: Scale, kind: ConditionKind) -> float:
+    return float(f"{kind.unit.from_si(unit.to_si(value)):.3g}")
+
+
+def _limits(evaluation: Evaluation) -> Iterator[Words]:
+    """Yield what is said of the limits of a standard that do not fit the readings."""
+    measurements = evaluation.measurements
+    axis, targets = measurements.axis, measurements.target_positions
+    unit = axis.deviation_unit
+    step = unit.to_si(10.0 ** -decimals_of(unit.from_si(measurements.deviation), _MOST_DECIMALS))
+    small, large = [], []
+    for each in evaluation.parameters:
+        if each.limit is None:
+            continue
+        is_tiny = each.limit < unit.to_si(_SMALL) and _MANY_TIMES * each.limit < abs(each.value)
+        if is_tiny or each.limit < step:
+            small.append(each)
+        elif each.limit > float(targets[-1] - targets[0]) > 0:
+            large.append(each)
+    other = axis.position_unit
+    for sentence, found in (
+        (_SMALL_LIMITS.given(other=other.symbol, per_other=unit.from_si(other.to_si(1.0))), small),
+        (_LARGE_LIMITS, large),
+    ):
+        if found:
+            limits = Words("{limits}", "{limits}").given(limits=_in_a_line(found, evaluation))
+            yield sentence.given(designation=evaluation.designation, limits=limits, unit=unit.symbol)
+
+
+def _in_a_line(parameters: Sequence[Parameter], evaluation: Evaluation) -> Words:
+    unit = evaluation.measurements.axis.deviation_unit
+    places = {f"limit{index}": unit.from_si(each.limit or 0.0) for index, each in enumerate(parameters)}
+    phrase = ", ".join(
+        f"{plain(each.quantity.notation)} {{limit{index}}} {unit.symbol}"
+        for index, each in enumerate(parameters)
+    )
+    return Words(phrase, phrase).given(**places)
+
+
+def _kind_of_axis(measurements: MeasurementSet) -> Iterator[Words]:
+    """Yield whether degrees seem to have been taken for millimetres, or the other way round."""
+    axis, targets = measurements.axis, measurements.target_positions
+    first, last = axis.travel or (float(targets[0]), float(targets[-1]))
+    extent = axis.position_unit.from_si(last - first)
+    letter = axis.name.strip().upper()[:1]
+    name = same(axis.name)
+    if axis.kind is AxisKind.LINEAR and letter in _TURNING and np.isclose(extent, _PARTS_OF_A_TURN).any():
+        yield _TURNS.given(name=name, range=float(f"{extent:.4g}"))
+    if axis.kind is AxisKind.ROTARY and letter in _STRAIGHT:
+        yield _MOVES_STRAIGHT.given(name=name, range=float(f"{extent:.4g}"))
