@@ -28,6 +28,7 @@ def test_done_job(shop: Shop) -> None:
         "conforms": True,
         "files": ["out/CAL-1.json"],
         "missing_readings": [],
+        "doubts": [],
         "problems": [],
     }
     assert evaluation["standard"] == "exemplary:1"
