@@ -96,3 +96,18 @@ def test_programs_that_do_not_go_as_planned_misfile_nothing(method: Method) -> N
     for seed in range(12):
         done = trial(method, seed)
         assert (done.misfiled, done.lost, done.unnamed) == ([], set(), set()), seed
+
+
+@pytest.mark.parametrize(
+    ("method", "seed"),
+    [
+        (Method.UNIDIRECTIONAL, 476),  # a run began anew, and its first target was passed: it was filed as the next
+        (Method.PENDULUM, 1218),  # the program began in a silence, and was at its fourth visit after it
+        (Method.PENDULUM, 1638),
+        (Method.QUASI_PILGRIM, 1052),
+    ],
+)
+def test_what_once_was_misfiled_or_lost_is_asked_about(method: Method, seed: int) -> None:
+    done = trial(method, seed)
+    assert (done.misfiled, done.lost, done.unnamed) == ([], set(), set())
+    assert done.questions

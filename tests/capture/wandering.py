@@ -102,7 +102,9 @@ class Machine:
                 yield from self._go(stops[beginning].position / MM)
                 yield from self._stand(self.random.choice([0.2, 5.0]))
                 at = beginning + 1
-        yield from self._stand(2.0)
+        for reading in self._stand(2.0):  # still at its last visit
+            self.stood[-1] = (self.stood[-1][0], self.time, self.stood[-1][2])
+            yield reading
 
     def _beginning(self, stops, visited, at: int) -> int:
         """Return the block before the first visit of the program, or of the run."""

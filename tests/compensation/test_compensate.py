@@ -97,6 +97,15 @@ def test_a_table_that_was_active_is_part_of_the_new_one(folder: Path) -> None:
     assert written[:, 1:] - without[:, 1:] == pytest.approx(np.full((11, 2), 0.010), abs=1.1e-6)
 
 
+def test_a_table_that_csv_wrote_was_active_in_both_directions(folder: Path) -> None:
+    first = job(folder, "job.yaml", "without")
+    assert main(["compensate", first, "--controller", "csv", "--set", "decimals=6", "-o", "old"]) == 0
+    second = job(folder, "second.yaml", "type0", table=", compensation_table: old/LOOP-1-compensation.csv")
+    assert main(["compensate", second, "--controller", "linuxcnc", "-o", "new"]) == 0
+    written, without = np.loadtxt(folder / "new" / "LOOP-1.comp"), np.loadtxt(DATA / "loop.comp")
+    assert written[:, 1:] == pytest.approx(without[:, 1:], abs=0.1e-3)
+
+
 @pytest.mark.parametrize(
     ("table", "arguments", "message"),
     [

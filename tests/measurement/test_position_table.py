@@ -45,6 +45,15 @@ def test_decimal_commas_are_read_where_no_comma_parts_cells(tmp_path: Path) -> N
     assert _read(tmp_path, "position;deviation\n0,5;1,25\n1,5;2\n").values == (1.25e-6, 2e-6)
 
 
+def test_a_table_may_have_a_column_for_each_direction(tmp_path: Path) -> None:
+    (tmp_path / "table.csv").write_text("position,forward,reverse\n0,1,5\n100,3,7\n", encoding="utf-8")
+    table = read_position_table(tmp_path / "table.csv", POSITION, DEVIATION, ("forward", "reverse"))
+    at, direction = np.array([0.05, 0.05, 1.0]), np.array([1.0, -1.0, -1.0])
+    np.testing.assert_allclose(table.at(at, direction), [2e-6, 6e-6, 7e-6], atol=1e-18)
+    with pytest.raises(InputError, match="the first row names the columns"):
+        read_position_table(tmp_path / "table.csv", POSITION, DEVIATION)
+
+
 def test_the_file_is_known_by_its_digest(tmp_path: Path) -> None:
     source = _read(tmp_path, "position,deviation\n0,0\n1,1\n").source
     assert source is not None

@@ -67,7 +67,7 @@ class CompensationSign(Effect):
         """Return one column: C(P)."""
         table = design.axis.compensation_table
         assert table is not None  # noqa: S101  # else it is untestable
-        return table.at(design.position)[:, np.newaxis]
+        return table.at(design.position, design.direction)[:, np.newaxis]
 
 
 class ShiftOptions(Options):
@@ -126,7 +126,8 @@ class CompensationShift(Effect):
         table = design.axis.compensation_table
         assert table is not None  # noqa: S101  # else it is untestable
         shifted = design.position + self.rows * table.interval
-        return (table.at(design.position) - table.at(shifted))[:, np.newaxis]
+        value = table.at(design.position, design.direction)
+        return (value - table.at(shifted, design.direction))[:, np.newaxis]
 
     def expected(self, axis: Axis) -> dict[str, float]:  # noqa: ARG002 - of any axis
         """Return that the shift is one row, and not part of one."""

@@ -216,7 +216,7 @@ class Follower:
         seconds = reading.time - self._unchanged_since
         if self.progress.taken and seconds >= 2 * self._settings.stay and not self._is_frozen:
             self._is_frozen = True
-            self._route.lose()
+            self._route.lose(seconds)
             yield Frozen(seconds)
 
     def _without_zero(self, reading: LiveReading) -> Iterator[Event]:
@@ -241,7 +241,7 @@ class Follower:
             yield TrackLost(gap)
         if self.progress.zero is not None and not self._has_stayed(latest, reading):
             self._track.forget()
-            self._route.lose()
+            self._route.lose(gap)
             self._look_ahead()
 
     def _has_stayed(self, latest: LiveReading, reading: LiveReading) -> bool:

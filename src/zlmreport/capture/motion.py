@@ -19,8 +19,8 @@ class Route:
     ----------
     turns
         Turning points so far, m or rad.
-    breaks
-        How often the axis was out of sight.
+    breaks, silence
+        How often the axis was out of sight; for how long in all, s.
     heading
         Which way it goes; None as long as that is not known.
     first, last
@@ -30,15 +30,17 @@ class Route:
     def __init__(self, threshold: float) -> None:
         self.turns: list[float] = []
         self.breaks = 0
+        self.silence = 0.0
         self.heading: Approach | None = None
         self.first: float | None = None
         self.last: float | None = None
         self._threshold = threshold
         self._lowest = self._highest = 0.0
 
-    def lose(self) -> None:
-        """Take note that nobody sees the axis."""
+    def lose(self, seconds: float = 0.0) -> None:
+        """Take note that nobody sees the axis, or saw it for some seconds."""
         self.breaks += 1
+        self.silence += seconds
         self.heading = self.first = self.last = None
 
     def add(self, position: float) -> None:
@@ -89,9 +91,11 @@ class Programme:
         self.start = first.position - first.approach * first.travelled
         self._turns: list[Turn] = []
         self._turns_before: list[int] = []
+        self._corner_before: list[float] = []
         here, heading, beyond = self.start, first.approach, None
         for visit in self.visits:
             for corner in self._corners(here, visit):
+                self._corner_before[len(self._turns_before) :] = [here]
                 if (corner - here) * heading < 0:
                     self._turns.append(Turn(here, beyond))
                     heading = Approach(-heading)
@@ -128,3 +132,10 @@ class Programme:
     def begins_part(self, index: int) -> bool:
         """Tell whether a part of the test begins with a visit."""
         return index == 0 or self.visits[index - 1].part != self.visits[index].part
+
+    def since_beginning(self, index: int) -> tuple[int, Sequence[Turn]]:
+        """Return how many visits of its part come before one, and the turns to it from where the part begins."""
+        first = index
+        while not self.begins_part(first):
+            first -= 1
+        return index - first, (Turn(self._corner_before[first], None), *self.turns(first, index))

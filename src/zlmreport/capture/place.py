@@ -261,8 +261,8 @@ class Place:
             return max(jump, self._from_rest(here, index, turns, route))
         if not is_seen:
             jump += _ANY_TIME
-        elif programme.begins_part(index):  # which begins with a way of the program's own
-            jump += _TURN * min(len(turns), _TURNS_TO_BEGIN)
+        else:
+            jump = max(jump, self._begun_anew(index, turns) - log(candidates))
         if index == here:
             return max(jump, _REPEATED + (0.0 if is_seen else _ANY_TIME))
         if index < here:
@@ -275,6 +275,15 @@ class Place:
         detour = _DETOUR + _EACH_SKIPPED * unseen if went_back else -inf
         return max(jump, detour, self._by_route(guess, index, turns))
 
+    def _begun_anew(self, index: int, turns: Sequence[float]) -> float:
+        """Return how probable it is that a part began anew, by a way of its own, whose first rests went unseen."""
+        unseen, way = self._programme.since_beginning(index)
+        known = _BEGUN_ANEW + _TURN * min(len(turns), _TURNS_TO_BEGIN)
+        if not unseen:
+            return known
+        came_so = unseen < _NEAR and self._likeness(turns[-len(way) :], way) == _TURN * len(way)
+        return known + _SKIPPED + _EACH_SKIPPED * (unseen - 1) if came_so else -inf
+
     def _from_rest(self, here: int, index: int, turns: Sequence[float], route: Route) -> float:
         """Return how probable a first visit is, after which the operator was told to begin."""
         visits, unseen = self._programme.visits, index - here - 1
@@ -284,6 +293,8 @@ class Place:
         if here < 0 and self._left_the_start(turns, index, route):
             expected = len(self._programme.turns(-1, index))
             return skipped + _TURN * expected + (_WAY_TO_START if len(turns) > expected else 0.0)
+        if unseen and self._may_have_begun_unseen(here, index, route):
+            return _UNSEEN + _EACH_UNSEEN * unseen
         first = next(
             each
             for each in range(here + 1, len(visits))
@@ -292,6 +303,11 @@ class Place:
         if index > first:
             return -inf
         return skipped + _NOT_FIRST if unseen else 0.0
+
+    def _may_have_begun_unseen(self, here: int, index: int, route: Route) -> bool:
+        """Tell whether the program may have come so far while nobody saw it: most of that way, at least."""
+        needed = self._programme.seconds(here, index) - self._programme.seconds(here, here + 1)
+        return route.breaks > 0 and route.silence >= needed / 2
 
     def _left_the_start(self, turns: Sequence[float], index: int, route: Route) -> bool:
         """Tell whether the axis came from the start of the program, as the program does."""

@@ -115,7 +115,7 @@ def _made(job: Job, registry: Registry, options: Namespace) -> _Made:
         meant,
         positions=_array(active.positions),
         forward=_array(active.values),
-        reverse=_array(active.values),
+        reverse=_array(active.reverse or active.values),
     )
     return _Made(
         job, controller, curve, meant, decoded, files, forecast(curve, meant, decoded, before or None)

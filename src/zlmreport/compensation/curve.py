@@ -139,9 +139,8 @@ def table_of(  # noqa: PLR0913 - what, of which axis, on which grid, for whom
     elif is_equidistant:
         grid = np.asarray(np.linspace(first, last, len(curve.positions)), dtype=np.float64)
     old = axis.compensation_table
-    active = np.interp(grid, old.positions, old.values) if old else 0.0
     forward, reverse = (
-        read_only_floats(np.interp(grid, curve.positions, each) + active)
-        for each in (curve.forward, curve.reverse)
+        read_only_floats(np.interp(grid, curve.positions, each) + (old.at(grid, direction) if old else 0.0))
+        for each, direction in ((curve.forward, 1.0), (curve.reverse, -1.0))
     )
     return CompensationTable(axis, number, read_only_floats(grid), forward, reverse, place)

@@ -264,7 +264,7 @@ def axis_in_si(keys: AxisKeys) -> Axis:
         signal_period=to_si(keys.signal_period) if keys.signal_period else None,
         scale_element=to_si(keys.scale_element) if keys.scale_element else None,
         compensation_table=(
-            read_position_table(keys.compensation_table, position, deviation)
+            read_position_table(keys.compensation_table, position, deviation, ("forward", "reverse"))
             if isinstance(keys.compensation_table, Path)
             else None
         ),

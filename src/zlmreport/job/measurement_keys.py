@@ -129,7 +129,8 @@ class AxisKeys(JobPart):
         None,
         union_mode="left_to_right",
         description="CSV file of the compensation table that was active during the test: columns position "
-        "and deviation (actual - target), mm and micrometres (degrees and arc seconds); or none.",
+        "and deviation (actual - target), or forward and reverse, mm and micrometres (degrees and arc "
+        "seconds); or none.",
         examples=["x-compensation.csv"],
     )
     angular_errors: JobPath | None = Field(

@@ -40,20 +40,29 @@ class PositionTable:
         At these positions, SI.
     source
         The file that it was read from; None for one made in memory.
+    reverse
+        The values moving back, where they are others; None where one column stands for both directions.
     """
 
     positions: tuple[float, ...]
     values: tuple[float, ...]
     source: SourceFile | None = None
+    reverse: tuple[float, ...] | None = None
 
     @property
     def interval(self) -> float:
         """The median distance of neighbouring positions, m or rad."""
         return float(np.median(np.diff(self.positions)))
 
-    def at(self, position: FloatArray) -> FloatArray:
-        """Return the quantity anywhere: linear between the positions, its end values held beyond them."""
-        return np.interp(position, self.positions, self.values)
+    def at(self, position: FloatArray, direction: FloatArray | float = 1.0) -> FloatArray:
+        """Return the quantity anywhere: linear between the positions, its end values held beyond them.
+
+        The direction is +1 forward and −1 back; it counts where the two have values of their own.
+        """
+        forward = np.interp(position, self.positions, self.values)
+        if self.reverse is None:
+            return forward
+        return np.where(np.less(direction, 0), np.interp(position, self.positions, self.reverse), forward)
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -44,8 +44,12 @@ class _Cell:
     place: Place
 
 
-def read_position_table(path: Path, position: TableColumn, value: TableColumn) -> PositionTable:
+def read_position_table(
+    path: Path, position: TableColumn, value: TableColumn, directions: tuple[str, str] | None = None
+) -> PositionTable:
     """Read a table of two columns: a header that names them, then one position a row, rising.
+
+    With names of `directions`, two columns of these may stand in place of the value: forward and back.
 
     Tab, semicolon or comma parts the columns; a decimal comma is taken where no comma parts columns; lines
     that begin with ``#`` and empty lines are left out.
@@ -59,8 +63,12 @@ def read_position_table(path: Path, position: TableColumn, value: TableColumn) -
     """
     text = read_text(path)
     header, *rows = _rows(text) or [[]]
-    order = _order(text, header, (position, value))
-    units = [_unit(column, header[index]) for column, index in zip((position, value), order, strict=True)]
+    columns: tuple[TableColumn, ...] = (position, value)
+    names = {_name(cell) for cell in header}
+    if directions and names & set(directions) and value.name not in names:
+        columns = (position, *(replace(value, name=name) for name in directions))
+    order = _order(text, header, columns)
+    units = [_unit(column, header[index]) for column, index in zip(columns, order, strict=True)]
     problems: list[Problem] = []
     sign = _decimal_sign(rows)
     found = [list(_numbers(row, order, len(header), sign, problems)) for row in rows]
@@ -70,11 +78,11 @@ def read_position_table(path: Path, position: TableColumn, value: TableColumn) -
         problems.append(Problem(text.place(), "has less than two rows of numbers; a table has two at least"))
     if problems:
         raise InputError(problems)
-    positions, values = (
+    positions, values, *reverse = (
         tuple(unit.to_si(number) for number in column)
         for unit, column in zip(units, zip(*found, strict=True), strict=True)
     )
-    return PositionTable(positions, values, text.source)
+    return PositionTable(positions, values, text.source, *reverse)
 
 
 def _rows(text: TextFile) -> list[list[_Cell]]:
@@ -100,7 +108,7 @@ def _cells(text: TextFile, number: int, line: str, delimiter: str) -> Iterator[_
 
 def _order(text: TextFile, header: Sequence[_Cell], columns: Sequence[TableColumn]) -> list[int]:
     """Return the index of each column; the header has these and no others."""
-    names = [_split(cell.text)[0].casefold() for cell in header]
+    names = [_name(cell) for cell in header]
     wanted = [column.name for column in columns]
     if sorted(names) != sorted(wanted):
         example = ",".join(f"{column.name} ({column.unit.symbol})" for column in columns)
@@ -110,6 +118,10 @@ def _order(text: TextFile, header: Sequence[_Cell], columns: Sequence[TableColum
             f"the first row names the columns, as in {example}; found {found}",
         )
     return [names.index(name) for name in wanted]
+
+
+def _name(cell: _Cell) -> str:
+    return _split(cell.text)[0].casefold()
 
 
 def _split(heading: str) -> tuple[str, str | None]:
