@@ -101,7 +101,7 @@ def test_programs_that_do_not_go_as_planned_misfile_nothing(method: Method) -> N
 @pytest.mark.parametrize(
     ("method", "seed"),
     [
-        (Method.UNIDIRECTIONAL, 476),  # a run began anew, and its first target was passed: it was filed as the next
+        (Method.UNIDIRECTIONAL, 476),  # a run began anew past its first target, as the next
         (Method.PENDULUM, 1218),  # the program began in a silence, and was at its fourth visit after it
         (Method.PENDULUM, 1638),
         (Method.QUASI_PILGRIM, 1052),

@@ -102,9 +102,7 @@ class Machine:
                 yield from self._go(stops[beginning].position / MM)
                 yield from self._stand(self.random.choice([0.2, 5.0]))
                 at = beginning + 1
-        for reading in self._stand(2.0):  # still at its last visit
-            self.stood[-1] = (self.stood[-1][0], self.time, self.stood[-1][2])
-            yield reading
+        yield from self._stay(2.0)
 
     def _beginning(self, stops, visited, at: int) -> int:
         """Return the block before the first visit of the program, or of the run."""
@@ -115,8 +113,12 @@ class Machine:
 
     def _visit(self, visit: int, seconds: float) -> Iterator[LiveReading]:
         self.stood.append((self.time, self.time, visit))
+        yield from self._stay(seconds)
+
+    def _stay(self, seconds: float) -> Iterator[LiveReading]:
+        """Stand at the visit at which it is."""
         for reading in self._stand(seconds):
-            self.stood[-1] = (self.stood[-1][0], self.time, visit)
+            self.stood[-1] = (self.stood[-1][0], self.time, self.stood[-1][2])
             yield reading
 
     def _go(self, there: float) -> Iterator[LiveReading]:

@@ -134,7 +134,7 @@ class Programme:
         return index == 0 or self.visits[index - 1].part != self.visits[index].part
 
     def since_beginning(self, index: int) -> tuple[int, Sequence[Turn]]:
-        """Return how many visits of its part come before one, and the turns to it from where the part begins."""
+        """Return how many visits of its part come before one, and the turns from the part's beginning."""
         first = index
         while not self.begins_part(first):
             first -= 1

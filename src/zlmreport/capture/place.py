@@ -276,7 +276,7 @@ class Place:
         return max(jump, detour, self._by_route(guess, index, turns))
 
     def _begun_anew(self, index: int, turns: Sequence[float]) -> float:
-        """Return how probable it is that a part began anew, by a way of its own, whose first rests went unseen."""
+        """Return how probable it is that a part began anew, by its own way; its first rests may be unseen."""
         unseen, way = self._programme.since_beginning(index)
         known = _BEGUN_ANEW + _TURN * min(len(turns), _TURNS_TO_BEGIN)
         if not unseen:
