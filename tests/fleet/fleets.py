@@ -18,7 +18,7 @@ from zlmreport.fleet.issuing import Happened, What
 from zlmreport.fleet.ledger import Ledger
 from zlmreport.fleet.making import Failed, Made, Task
 from zlmreport.fleet.plan import Planned
-from zlmreport.fleet.records import Entry
+from zlmreport.fleet.records import Entry, Notice
 from zlmreport.job.fleet import FleetFile, load_fleet
 from zlmreport.plugins import Plugin, collect
 
@@ -81,7 +81,7 @@ class Witness:
 
     jobs: Sequence[Planned] = ()
     seen: list[Happened] = field(default_factory=list)
-    notices: list[str] = field(default_factory=list)
+    notices: list[Notice] = field(default_factory=list)
 
     def planned(self, jobs: Sequence[Planned]) -> None:
         self.jobs = jobs
@@ -89,8 +89,8 @@ class Witness:
     def happened(self, happened: Happened) -> None:
         self.seen.append(happened)
 
-    def noticed(self, text: str) -> None:
-        self.notices.append(text)
+    def noticed(self, notice: Notice) -> None:
+        self.notices.append(notice)
 
     @property
     def what(self) -> dict[str, What]:

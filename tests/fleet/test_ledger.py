@@ -16,7 +16,7 @@ from zlmreport.errors import AccessError, InputError
 from zlmreport.fleet.basis import Basis, KnownFile, Look
 from zlmreport.fleet.issuing import What
 from zlmreport.fleet.ledger import Ledger, Night, NumberTakenError
-from zlmreport.fleet.records import Entry, RecordedParameter, State
+from zlmreport.fleet.records import About, Entry, Notice, RecordedParameter, State
 
 NIGHTS = ("2026-11-20T02:00:00+00:00", "2026-11-21T02:00:00+00:00")
 BASIS = Basis(
@@ -166,7 +166,7 @@ def test_a_ledger_of_another_format_is_refused(address: str) -> None:
     with engine.begin() as connection:
         connection.execute(text("UPDATE ledger_format SET format = 7"))
     engine.dispose()
-    with pytest.raises(InputError, match="is a ledger of format 7, and this program writes format 2"):
+    with pytest.raises(InputError, match="is a ledger of format 7, and this program writes format 3"):
         Ledger.open(address, "north")
 
 
@@ -198,6 +198,8 @@ def test_a_ledger_of_the_first_format_is_brought_up_to_date(address: str) -> Non
             "nights DROP COLUMN beat",
             "entries DROP COLUMN seconds",
             "entries DROP COLUMN interval",
+            "nights DROP COLUMN notices",
+            "entries DROP COLUMN instrument",
         ):
             connection.execute(text(f"ALTER TABLE {column}"))
         connection.execute(text("UPDATE ledger_format SET format = 1"))
@@ -205,6 +207,23 @@ def test_a_ledger_of_the_first_format_is_brought_up_to_date(address: str) -> Non
     with night(address, NIGHTS[1]) as (ledger, at_work):
         assert list(ledger.entries()) == [ENTRY]
         at_work.beat(NIGHTS[1])
+
+
+def test_a_ledger_of_the_second_format_is_brought_up_to_date(address: str) -> None:
+    with night(address) as (_, at_work):
+        at_work.issue(ENTRY, FILES, BASIS)
+    engine = create_engine(address if "://" in address else f"sqlite:///{address}")
+    with engine.begin() as connection:
+        for column in ("nights DROP COLUMN notices", "entries DROP COLUMN instrument"):
+            connection.execute(text(f"ALTER TABLE {column}"))
+        connection.execute(text("UPDATE ledger_format SET format = 2"))
+    engine.dispose()
+    with night(address, NIGHTS[1]) as (ledger, at_work):
+        assert list(ledger.entries()) == [ENTRY]
+        at_work.notice([Notice(About.CLOCK, "set back")])
+        last = ledger.last_night()
+        assert last is not None
+        assert last.notices == (Notice(About.CLOCK, "set back"),)
 
 
 def test_a_copy_of_a_ledger_says_the_same(address: str, tmp_path: Path) -> None:

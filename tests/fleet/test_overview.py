@@ -15,7 +15,7 @@ import pytest
 from fleet.histories import entry, history, parameter, quarters
 from zlmreport.fleet.overview import overview
 from zlmreport.fleet.overview_cells import Names, with_unit
-from zlmreport.fleet.records import Entry, State
+from zlmreport.fleet.records import About, Entry, Notice, State
 from zlmreport.fleet.state import Night, state_of
 from zlmreport.language import Language
 from zlmreport.plugins import find_plugins
@@ -55,6 +55,13 @@ FAILURE = of_night(
         LATEST, job="y/2026.yaml", state=State.FAILED, measured="", message="y.csv:3:4: 'abc' is no number"
     ),
 )
+
+
+def test_what_concerns_the_whole_night_stands_first() -> None:
+    notices = (Notice(About.FOLDER, "the folder is empty"),)
+    state = state_of("Hall North", CALM, ["x"], Night(NIGHT, NIGHT, notices))
+    html = overview(state, Language.ENGLISH, Names(find_plugins().standards), ".")
+    assert "Folder of certificates the folder is empty" in text(section(html, "needs"))
 
 
 def test_a_fleet_without_trouble_says_so() -> None:

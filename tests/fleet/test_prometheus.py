@@ -12,7 +12,7 @@ from environments import ROOT
 from fleet.exposition import Family, parse
 from fleet.histories import entry, history, parameter, quarters
 from zlmreport.fleet.prometheus import metrics
-from zlmreport.fleet.records import Entry, State
+from zlmreport.fleet.records import About, Entry, Notice, State
 from zlmreport.fleet.state import Night, Rules, state_of
 
 NIGHT = Night(
@@ -62,6 +62,18 @@ def test_jobs_are_counted_by_their_state() -> None:
         for labels, count in told(entries)["zlmreport_fleet_jobs"].samples.items()
     }
     assert counts == {"made": 1, "unchanged": 1, "draft": 1, "failed": 2, "vanished": 0}
+
+
+def test_what_concerns_the_whole_night_is_one_and_all_else_zero() -> None:
+    noticed = Night(NIGHT.began, NIGHT.ended, (Notice(About.FOLDER, "the folder is empty"),))
+    samples = told(DRIFT, night=noticed)["zlmreport_fleet_notice"].samples
+    assert {dict(labels)["about"]: value for labels, value in samples.items()} == {
+        "jobs": 0,
+        "folder": 1,
+        "ledger": 0,
+        "clock": 0,
+        "stuck": 0,
+    }
 
 
 def test_a_parameter_is_told_in_metres() -> None:

@@ -13,7 +13,7 @@ from zlmreport.fleet import ledger, night
 from zlmreport.fleet.issuing import What
 from zlmreport.fleet.ledger import Ledger
 from zlmreport.fleet.night import MissingError
-from zlmreport.fleet.records import State
+from zlmreport.fleet.records import About, Notice, State
 from zlmreport.fleet.state import Night, Rules, state_of
 
 
@@ -63,6 +63,7 @@ def test_when_most_jobs_are_gone_nothing_is_done(fleet: Fleet) -> None:
         (fleet.folder / f"jobs/{stem}.yaml").unlink()
     with pytest.raises(MissingError, match="4 jobs are gone since the last night, and 1 are there"):
         fleet.spend()
+    assert noticed(fleet) == [About.JOBS]
     assert len(fleet.entries()) == 5
 
 
@@ -71,6 +72,7 @@ def test_an_empty_folder_of_certificates_is_not_filled_again(fleet: Fleet) -> No
     (fleet.folder / "certificates").mkdir()
     with pytest.raises(MissingError, match="the folder is empty, and 5 certificates were issued into it"):
         fleet.spend()
+    assert noticed(fleet) == [About.FOLDER]
     assert MissingError.exit_code == 4
 
 
@@ -78,13 +80,58 @@ def test_a_ledger_that_knows_nothing_of_the_certificates_is_refused(fleet: Fleet
     (fleet.folder / "ledger.db").unlink()
     with pytest.raises(MissingError, match="the ledger knows none of the certificates"):
         fleet.spend()
+    assert noticed(fleet) == [About.LEDGER]
+    assert (fleet.folder / "certificates/17/X/CAL-X.txt").exists()
 
 
 def test_a_clock_that_was_set_back_is_noticed(fleet: Fleet, monkeypatch: pytest.MonkeyPatch) -> None:
     on_a_day("2026-10-01", monkeypatch)
-    assert fleet.spend().notices == [
-        "the clock stands at 2026-10-01T02:00:00+00:00, before the last night: 2026-11-20T02:00:00+00:00"
+    text = "the clock stands at 2026-10-01T02:00:00+00:00, before the last night: 2026-11-20T02:00:00+00:00"
+    assert fleet.spend().notices == [Notice(About.CLOCK, text)]
+    assert noticed(fleet) == [About.CLOCK]
+    on_a_day("2026-10-02", monkeypatch)
+    assert fleet.spend().notices == []
+
+
+def noticed(fleet: Fleet) -> list[About]:
+    """Return what the ledger keeps of the last night, for the overview and for Prometheus."""
+    with Ledger.open(fleet.file.ledger, "Hall North") as ledger:
+        last = ledger.last_night()
+    assert last is not None
+    assert last.ended is not None
+    return [each.about for each in last.notices]
+
+
+def test_many_jobs_that_are_gone_at_once_are_told_as_one_thing_too(fleet: Fleet) -> None:
+    for stem in "klmno":
+        fleet.job(stem)
+    fleet.spend()
+    for stem in "klmn":
+        (fleet.folder / f"jobs/{stem}.yaml").unlink()
+    witness = fleet.spend()
+    assert [each.text for each in witness.notices] == [
+        "4 of 10 jobs are gone since the last night; look whether that is meant"
     ]
+    assert {witness.what[stem] for stem in "klmn"} == {What.VANISHED}
+    assert fleet.spend().notices == []
+
+
+def test_a_refusal_does_not_hide_that_the_night_before_was_interrupted(
+    fleet: Fleet, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(night, "_spend", lambda *_: (_ for _ in ()).throw(KeyboardInterrupt))
+    with pytest.raises(KeyboardInterrupt):
+        fleet.spend()
+    monkeypatch.undo()
+    without_processes(monkeypatch)
+    (fleet.folder / "certificates").rename(fleet.folder / "elsewhere")
+    with pytest.raises(MissingError):
+        fleet.spend()
+    with (
+        Ledger.open(fleet.file.ledger, "Hall North") as ledger,
+        ledger.night("2026-11-23T02:00:00+00:00", "fleet.yaml") as third,
+    ):
+        assert third.was_interrupted
 
 
 def test_an_axis_that_was_not_measured_again_is_told_once(

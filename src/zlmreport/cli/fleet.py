@@ -20,6 +20,7 @@ from zlmreport.errors import AccessError, InputError, Place
 from zlmreport.fleet.issuing import Happened, What
 from zlmreport.fleet.night import Order, foretell, spend
 from zlmreport.fleet.plan import Due, Planned
+from zlmreport.fleet.records import Notice
 from zlmreport.job.fleet import FleetFile, load_fleet
 from zlmreport.plugins import find_plugins
 from zlmreport.version import __version__
@@ -77,7 +78,7 @@ class _Watcher:
         self._logs = logs
         self._options = options
         self._begun = time.monotonic()
-        self._notices: list[str] = []
+        self._notices: list[Notice] = []
         self._progress = Progress(sys.stderr, 0)
 
     @property
@@ -85,13 +86,13 @@ class _Watcher:
         """What the shell is told."""
         return _FAILED if self._notices or any(self.counts[what] for what in _NOT_DONE) else 0
 
-    def noticed(self, text: str) -> None:
-        self._notices.append(text)
+    def noticed(self, notice: Notice) -> None:
+        self._notices.append(notice)
         self._progress.hide()
         for log in self._logs:
-            log.noticed(text)
+            log.noticed(notice)
         if self._options.quiet or self._options.json:
-            print(visible(f"{self._fleet.path}: {text}"), file=sys.stderr)
+            print(visible(f"{self._fleet.path}: {notice.text}"), file=sys.stderr)
 
     def planned(self, jobs: Sequence[Planned]) -> None:
         due = sum(each.due is not Due.NOTHING for each in jobs)

@@ -12,6 +12,7 @@ from typing import Any, TextIO
 
 from zlmreport.cli.terminal import problem_values, visible
 from zlmreport.fleet.issuing import Happened, What
+from zlmreport.fleet.records import Notice
 
 _WORD = 9
 _BAR, _USUAL_WIDTH = 30, 80
@@ -38,9 +39,9 @@ class TextLog:
         for problem in happened.problems:
             self._line(f"{'':{_WORD}}   {problem}")
 
-    def noticed(self, text: str) -> None:
+    def noticed(self, notice: Notice) -> None:
         """Write what concerns the whole night."""
-        self._line(text)
+        self._line(notice.text)
 
     def ended(self, counts: Counter[What], seconds: float, *, is_interrupted: bool = False) -> None:
         """Write what the night came to."""
@@ -67,9 +68,9 @@ class JsonLog:
         if happened.what is not What.UNCHANGED:
             self._line({"event": happened.what.value, **of_job(happened)})
 
-    def noticed(self, text: str) -> None:
+    def noticed(self, notice: Notice) -> None:
         """Write what concerns the whole night."""
-        self._line({"event": "noticed", "message": text})
+        self._line({"event": "noticed", "about": notice.about.value, "message": notice.text})
 
     def ended(self, counts: Counter[What], seconds: float, *, is_interrupted: bool = False) -> None:
         """Write what the night came to."""

@@ -11,7 +11,7 @@ from pathlib import Path
 from zlmreport.cli.terminal import shown_path
 from zlmreport.files import Document, write
 from zlmreport.fleet.basis import path_in
-from zlmreport.fleet.ledger import Ledger
+from zlmreport.fleet.ledger import Ledger, PastNight
 from zlmreport.fleet.overview import overview
 from zlmreport.fleet.overview_cells import Names
 from zlmreport.fleet.prometheus import metrics
@@ -42,10 +42,11 @@ def _state(fleet: FleetFile) -> FleetState:
     jobs = [path_in(fleet.path.parent, path) for path in job_files(fleet)]
     with Ledger.open(fleet.ledger, fleet.name, create=False) as ledger:
         night = ledger.last_night()
-        last = _night(*night) if night else None
+        last = _night(night) if night else None
         rules = Rules(fleet.keys.interval, partial(is_retired, fleet=fleet))
         return state_of(fleet.name, ledger.entries(), jobs, last, rules)
 
 
-def _night(began: str, ended: str | None) -> Night:
-    return Night(datetime.fromisoformat(began), datetime.fromisoformat(ended) if ended else None)
+def _night(past: PastNight) -> Night:
+    ended = datetime.fromisoformat(past.ended) if past.ended else None
+    return Night(datetime.fromisoformat(past.began), ended, past.notices)

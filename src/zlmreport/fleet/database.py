@@ -44,7 +44,7 @@ from sqlalchemy.pool import StaticPool
 from zlmreport.errors import AccessError, InputError, Place, ZlmreportError
 
 #: Of these tables; a program that knows another refuses the ledger.
-FORMAT = 2
+FORMAT = 3
 
 METADATA = MetaData()
 
@@ -61,6 +61,7 @@ NIGHTS = Table(
     Column("host", String, nullable=False),
     Column("process", Integer, nullable=False),
     Column("beat", String),
+    Column("notices", JSON),
 )
 
 #: What became of a job in a night in which something became of it; rows are only ever added.
@@ -82,6 +83,7 @@ ENTRIES = Table(
     Column("basis", JSON),
     Column("seconds", Double),
     Column("interval", Integer),
+    Column("instrument", String),
     Index("entries_of_jobs", "fleet", "job", "id"),
 )
 
@@ -251,27 +253,34 @@ def _made_durable(connection: Any, _record: Any) -> None:
         connection.execute(f"PRAGMA {pragma}")
 
 
-#: What makes tables of format 1 those of this format.
-_SINCE_1 = (
-    "ALTER TABLE nights ADD COLUMN beat VARCHAR",
-    "ALTER TABLE entries ADD COLUMN seconds DOUBLE PRECISION",
-    "ALTER TABLE entries ADD COLUMN interval INTEGER",
-)
+#: What makes tables of each older format those of the next.
+_SINCE = {
+    1: (
+        "ALTER TABLE nights ADD COLUMN beat VARCHAR",
+        "ALTER TABLE entries ADD COLUMN seconds DOUBLE PRECISION",
+        "ALTER TABLE entries ADD COLUMN interval INTEGER",
+    ),
+    2: (
+        "ALTER TABLE nights ADD COLUMN notices JSON",
+        "ALTER TABLE entries ADD COLUMN instrument VARCHAR",
+    ),
+}
 
 
 def _demand_format(connection: Connection, address: str) -> None:
     """Bring older tables up to date, and refuse those of a newer version; new ones get this one's stamp."""
-    found = connection.scalars(select(FORMATS.c.format)).all()
-    if list(found) == [1]:
-        for addition in _SINCE_1:
-            connection.execute(text(addition))
-        connection.execute(update(FORMATS).values(format=FORMAT))
-    elif not found:
+    found = connection.scalar(select(FORMATS.c.format))
+    if found is None:
         connection.execute(insert(FORMATS).values(format=FORMAT))
-    elif list(found) != [FORMAT]:
+    elif found in _SINCE:
+        for older in range(found, FORMAT):
+            for addition in _SINCE[older]:
+                connection.execute(text(addition))
+        connection.execute(update(FORMATS).values(format=FORMAT))
+    elif found != FORMAT:
         raise InputError.at(
             Place(shown(address)),
-            f"is a ledger of format {found[0]}, and this program writes format {FORMAT}; "
+            f"is a ledger of format {found}, and this program writes format {FORMAT}; "
             "use the version of zlmreport that wrote it",
         )
 

@@ -269,6 +269,7 @@ class Desk:
             parameters=made.parameters if made else (),
             seconds=made.seconds if made else None,
             interval=subject.interval,
+            instrument=subject.instrument,
         )
 
 

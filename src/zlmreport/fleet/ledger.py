@@ -30,7 +30,7 @@ from zlmreport.fleet.database import (
     locked,
     open_database,
 )
-from zlmreport.fleet.records import Entry, RecordedParameter, State, Subject
+from zlmreport.fleet.records import About, Entry, Notice, RecordedParameter, State, Subject
 
 #: A night that has given no sign of life for so long does nothing any more.
 STUCK = dt.timedelta(minutes=15)
@@ -105,6 +105,12 @@ class Night:
         with self.database.transaction() as connection:
             connection.execute(update(NIGHTS).where(NIGHTS.c.id == self.identity).values(beat=now))
 
+    def notice(self, notices: Sequence[Notice]) -> None:
+        """Note what concerns the whole night."""
+        kept = [[each.about.value, each.text] for each in notices]
+        with self.database.transaction() as connection:
+            connection.execute(update(NIGHTS).where(NIGHTS.c.id == self.identity).values(notices=kept))
+
     def end(self, ended: str) -> None:
         """Note that the night has come to its end."""
         with self.database.transaction() as connection:
@@ -130,6 +136,7 @@ class Night:
                 basis=basis.as_json() if basis else None,
                 seconds=entry.seconds,
                 interval=entry.interval,
+                instrument=entry.instrument,
             ),
         )
         if entry.parameters:
@@ -220,6 +227,23 @@ class Issued:
     files: tuple[KnownFile, ...]
 
 
+@dataclass(frozen=True, slots=True)
+class PastNight:
+    """A run of a fleet.
+
+    Attributes
+    ----------
+    began, ended
+        Date and time, ISO 8601 in UTC; one that is at work, or was interrupted, has not ended.
+    notices
+        What concerned all of it.
+    """
+
+    began: str
+    ended: str | None
+    notices: tuple[Notice, ...] = ()
+
+
 class Ledger:
     """The ledger of one fleet, open; it is left as a context manager, which closes the database."""
 
@@ -275,15 +299,15 @@ class Ledger:
         """Return the entries by which certificates were issued, one a number, oldest first."""
         return tuple(self._read(select(CERTIFICATES.c.entry)))
 
-    def last_night(self) -> tuple[str, str | None] | None:
-        """Return when the last night of the fleet began and ended, ISO 8601 in UTC; None before the first.
-
-        One that is at work, or was interrupted, has not ended.
-        """
+    def last_night(self) -> PastNight | None:
+        """Return the last night of the fleet; None before the first."""
         query = select(NIGHTS).where(NIGHTS.c.fleet == self._fleet).order_by(NIGHTS.c.id.desc()).limit(1)
         with self._database.transaction() as connection:
             night = connection.execute(query).one_or_none()
-        return (night.began, night.ended) if night else None
+        if night is None:
+            return None
+        notices = tuple(Notice(About(about), text) for about, text in night.notices or ())
+        return PastNight(night.began, night.ended, notices)
 
     def standings(self) -> Mapping[str, Standing]:
         """Return what the ledger knows of each job, by its path."""
@@ -303,7 +327,9 @@ class Ledger:
                     _files(row.files),
                     Basis.from_json(row.basis) if row.basis else None,
                     row.digest,
-                    Subject(row.number, row.machine, row.axis, row.measured, row.interval),
+                    Subject(
+                        row.number, row.machine, row.axis, row.measured, row.interval, row.instrument or ""
+                    ),
                 )
                 for row in connection.execute(query)
             }
@@ -434,6 +460,7 @@ def _entry(row: Row[Any], parameters: tuple[RecordedParameter, ...]) -> Entry:
         parameters=parameters,
         seconds=row.seconds,
         interval=row.interval,
+        instrument=row.instrument or "",
     )
 
 

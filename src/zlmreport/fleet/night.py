@@ -16,17 +16,17 @@ from zlmreport.errors import AccessError, Place, ZlmreportError
 from zlmreport.fleet.basis import Basis, KnownFile, program_versions
 from zlmreport.fleet.cluster import Cluster
 from zlmreport.fleet.issuing import Desk, Happened, What, tidy
-from zlmreport.fleet.ledger import Ledger, Night, Standing
+from zlmreport.fleet.ledger import Ledger, Night, PastNight, Standing
 from zlmreport.fleet.making import Failed, Limits, Task, defaults_digest
 from zlmreport.fleet.plan import Due, Evening, Planned, plan, reasons
 from zlmreport.fleet.pool import Pool
-from zlmreport.fleet.records import State, due_date
+from zlmreport.fleet.records import About, Notice, State, due_date
 from zlmreport.job.fleet import FleetFile, is_retired, job_files, number_of
 
 #: A job may take so many times as long as it ever took.
 _TIMES_LONGEST = 10
-#: So few may be gone without a word on mounts.
-_FEW = 3
+#: So few may be gone without a word on mounts, or, of a large fleet, such a part.
+_FEW, _PART = 3, 0.1
 _MADE = frozenset({Due.CERTIFICATE, Due.COMPARISON})
 
 
@@ -39,7 +39,7 @@ class Watch(Protocol):
     def happened(self, happened: Happened) -> None:
         """Take note of what happened to a job."""
 
-    def noticed(self, text: str) -> None:
+    def noticed(self, notice: Notice) -> None:
         """Take note of something that concerns the whole night, and is not as it should be."""
 
 
@@ -114,14 +114,34 @@ def spend(fleet: FleetFile, order: Order, watch: Watch) -> None:
         last = ledger.last_night()
         known = evening(fleet, jobs, ledger, plugins)
         gone = vanished(known)
-        _demand_what_was_there(known, gone)
+        missing = _missing(known, gone)
         with ledger.night(_now(), str(fleet.path)) as night:
-            if night.took_over:
-                watch.noticed(f"the night of {night.took_over} gave no sign of life; it was killed")
-            if last and night.began < last[0]:
-                watch.noticed(f"the clock stands at {night.began}, before the last night: {last[0]}")
-            _spend(known, order, watch, _Work(night, gone, last[0] if last else "", ends, ledger.longest()))
+            if missing:
+                night.notice([missing.notice])
+                if not night.was_interrupted:  # else the next night still has to tidy up
+                    night.end(_now())
+                raise MissingError.at(missing.place, missing.notice.text)
+            noticed = tuple(_notices(known, night, gone, last))
+            night.notice(noticed)
+            for notice in noticed:
+                watch.noticed(notice)
+            _spend(
+                known, order, watch, _Work(night, gone, last.began if last else "", ends, ledger.longest())
+            )
             night.end(_now())
+
+
+def _notices(known: Evening, night: Night, gone: Sequence[str], last: PastNight | None) -> Iterator[Notice]:
+    """Yield what concerns the whole night, and lets it go on."""
+    if night.took_over:
+        yield Notice(About.STUCK, f"the night of {night.took_over} gave no sign of life; it was killed")
+    if last and night.began < last.began:
+        text = f"the clock stands at {night.began}, before the last night: {last.began}"
+        yield Notice(About.CLOCK, text)
+    new, before = _newly_gone(known, gone), len(known.jobs) + len(gone)
+    if len(new) > _FEW and len(new) > _PART * before:
+        text = f"{len(new)} of {before} jobs are gone since the last night; look whether that is meant"
+        yield Notice(About.JOBS, text)
 
 
 @dataclass(frozen=True, slots=True)
@@ -214,16 +234,28 @@ def overdue(known: Evening, last: str, now: str) -> Iterator[Happened]:
             yield Happened(What.OVERDUE, job, standing.number, why)
 
 
-def _demand_what_was_there(known: Evening, gone: Sequence[str]) -> None:
-    """Refuse to work where a folder seems not to be mounted, or the ledger not to be this fleet's."""
+def _newly_gone(known: Evening, gone: Sequence[str]) -> Sequence[str]:
+    return [job for job in gone if known.standings[job].state is not State.VANISHED]
+
+
+@dataclass(frozen=True, slots=True)
+class _Missing:
+    """What is not there, where it was, and without which nothing is done."""
+
+    place: Place
+    notice: Notice
+
+
+def _missing(known: Evening, gone: Sequence[str]) -> _Missing | None:
+    """Return whether a folder seems not to be mounted, or the ledger not to be this fleet's."""
     fleet = known.fleet
-    new = [job for job in gone if known.standings[job].state is not State.VANISHED]
+    new = _newly_gone(known, gone)
     if len(new) > _FEW and len(new) > len(known.jobs):
         message = (
             f"{len(new)} jobs are gone since the last night, and {len(known.jobs)} are there; look whether "
             "their folder is mounted, or name those under retired that are gone on purpose"
         )
-        raise MissingError.at(Place(str(fleet.path)), message)
+        return _Missing(Place(str(fleet.path)), Notice(About.JOBS, message))
     own = [each for each in known.certificates.values() if each.fleet == fleet.name and each.files]
     is_empty = not fleet.output.is_dir() or not any(fleet.output.iterdir())
     if own and is_empty:
@@ -231,9 +263,9 @@ def _demand_what_was_there(known: Evening, gone: Sequence[str]) -> None:
             f"the folder is empty, and {len(own)} certificates were issued into it; look whether it is "
             "mounted. A file in it, whatever it is, lets the night make them again"
         )
-        raise MissingError.at(Place(str(fleet.output)), message)
+        return _Missing(Place(str(fleet.output)), Notice(About.FOLDER, message))
     if known.standings or is_empty:
-        return
+        return None
     stems = {path.name.partition(".")[0] for path in fleet.output.rglob("*") if path.is_file()}
     found = sum(_number(path, fleet) in stems for path in known.jobs)
     if found > _FEW and 2 * found > len(known.jobs):
@@ -242,7 +274,8 @@ def _demand_what_was_there(known: Evening, gone: Sequence[str]) -> None:
             f"{len(known.jobs)} jobs have theirs; put its backup back, or make it again: "
             f"zlmreport fleet rebuild {fleet.path}"
         )
-        raise MissingError.at(Place(str(fleet.ledger)), message)
+        return _Missing(Place(str(fleet.ledger)), Notice(About.LEDGER, message))
+    return None
 
 
 def _number(path: Path, fleet: FleetFile) -> str:

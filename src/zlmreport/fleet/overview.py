@@ -14,7 +14,7 @@ from itertools import groupby
 from zlmreport.fleet import overview_words as words
 from zlmreport.fleet.drifts import FALSE_SHARE, LEAST_DATES, Trend
 from zlmreport.fleet.overview_cells import Cells, Names, Period, small_graph
-from zlmreport.fleet.records import Entry, RecordedParameter, State
+from zlmreport.fleet.records import Entry, Notice, RecordedParameter, State
 from zlmreport.fleet.state import Failure, FleetState, Night, Term
 from zlmreport.fleet.trend import Calibration, Series, line_through
 from zlmreport.language import Language, Words
@@ -91,6 +91,7 @@ def _run(night: Night | None) -> Words:
 def _tiles(state: FleetState, cells: Cells) -> Iterator[TileContext]:
     drifting = {(each.series.machine, each.series.axis) for each in state.drifting}
     counted = (
+        (len(state.notices), words.NOTICED, "noticed"),
         (len(state.failures), words.FAILED, "failed"),
         (len(state.not_met), words.NOT_MET, "not-met"),
         (len(state.undecided), words.UNDECIDED, "undecided"),
@@ -124,6 +125,7 @@ class _Kind:
     columns: tuple[Words, ...]
 
 
+_NOTICED = _Kind("noticed", words.NOTICED, words.NOTICED_CAPTION, (words.ABOUT, words.MESSAGE))
 _FAILED = _Kind("failed", words.FAILED, words.FAILED_CAPTION, (words.JOB, words.MESSAGE, words.SINCE))
 _LIMIT_COLUMNS = (
     *(words.AXIS, words.PARAMETER, words.VALUE, words.LIMIT),
@@ -153,6 +155,8 @@ _DRAFTS = _Kind(
 
 def needs(state: FleetState, cells: Cells) -> Iterator[OverviewTableContext]:
     """Yield a table of each kind of thing that needs somebody; none where there is nothing of the kind."""
+    if state.notices:
+        yield _noticed(state.notices, cells)
     if state.failures:
         yield _failures(state.failures, cells)
     if state.not_met:
@@ -165,6 +169,17 @@ def needs(state: FleetState, cells: Cells) -> Iterator[OverviewTableContext]:
         yield _overdue(state.overdue, cells)
     if state.drafts:
         yield _drafts(state.drafts, cells)
+
+
+def _noticed(notices: Sequence[Notice], cells: Cells) -> OverviewTableContext:
+    groups = [
+        OverviewGroupContext(
+            OverviewCellContext(cells.say(words.ABOUTS[each.about])),
+            ((OverviewCellContext(each.text, style="message"),),),
+        )
+        for each in notices
+    ]
+    return _table(_NOTICED, groups, cells)
 
 
 def _failures(failures: Sequence[Failure], cells: Cells) -> OverviewTableContext:

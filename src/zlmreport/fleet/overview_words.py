@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from zlmreport.fleet.records import About
 from zlmreport.language import Words
 
 TITLE = Words(en="Fleet overview", de="Flottenübersicht")
@@ -36,6 +37,19 @@ NO_NIGHT = Words(
     en="The ledger is empty: the fleet has not run yet.",
     de="Noch ist nichts verzeichnet: Die Flotte ist noch nicht gelaufen.",
 )
+NOTICED = Words(en="The whole night", de="Der ganze Lauf")
+NOTICED_CAPTION = Words(
+    en="What concerns the last run as a whole",
+    de="Was den letzten Lauf als ganzen betrifft",
+)
+ABOUT = Words(en="About", de="Betrifft")
+ABOUTS = {
+    About.JOBS: Words(en="Jobs are missing", de="Aufträge fehlen"),
+    About.FOLDER: Words(en="Folder of certificates", de="Ordner der Kalibrierscheine"),
+    About.LEDGER: Words(en="Ledger", de="Verzeichnis"),
+    About.CLOCK: Words(en="Clock", de="Uhr"),
+    About.STUCK: Words(en="A run that hung", de="Ein Lauf, der hing"),
+}
 FAILED = Words(en="Failed", de="Fehlgeschlagen")
 FAILED_CAPTION = Words(
     en="Jobs of which no certificate could be made, or whose file is gone; the next run tries again",

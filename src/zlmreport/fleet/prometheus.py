@@ -12,6 +12,7 @@ from datetime import UTC, date, datetime
 from types import MappingProxyType
 
 from zlmreport.fleet.drifts import Trend
+from zlmreport.fleet.records import About
 from zlmreport.fleet.state import FleetState
 from zlmreport.quantities.units import ANGLES, ARCSECOND, LENGTHS, MICROMETRE, Unit
 
@@ -56,7 +57,10 @@ def _of_fleet(state: FleetState) -> Iterator[_Family]:
             lasted.samples.append((fleet, state.night.seconds))
     jobs = _Family("zlmreport_fleet_jobs", "Jobs of the fleet by their state after the last run.")
     jobs.samples = [({**fleet, "state": name}, float(count)) for name, count in state.counts.items()]
-    yield from (began, lasted, jobs)
+    notices = _Family("zlmreport_fleet_notice", "1 if the last run as a whole was not as it should be.")
+    noticed = {each.about for each in state.notices}
+    notices.samples = [({**fleet, "about": about.value}, float(about in noticed)) for about in About]
+    yield from (began, lasted, jobs, notices)
 
 
 def _of_axes(state: FleetState) -> Iterator[_Family]:

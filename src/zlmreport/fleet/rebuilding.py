@@ -116,6 +116,7 @@ def _take(job: Path, files: list[Path], fleet: FleetFile, registry: Registry, ni
         files=tuple(file.path for file in known),
         parameters=tuple(_parameters(_results(files))),
         interval=subject.interval,
+        instrument=subject.instrument,
     )
     night.issue(entry, known, None)
 

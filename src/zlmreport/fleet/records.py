@@ -13,7 +13,7 @@ from typing import Self
 from zlmreport.certificate.document import Certificate
 from zlmreport.job.job import Job
 from zlmreport.job.keys import JobKeys
-from zlmreport.job.measurement_keys import Machine
+from zlmreport.job.measurement_keys import Instrument, Machine
 from zlmreport.quantities.units import Unit
 
 
@@ -40,6 +40,29 @@ class State(StrEnum):
 
 
 _FAILURES = frozenset({State.FAILED, State.STOPPED, State.SET_ASIDE, State.VANISHED})
+
+
+class About(StrEnum):
+    """What a whole night is told about, and not one job of it."""
+
+    #: Many jobs are gone since the last night.
+    JOBS = "jobs"
+    #: The folder of certificates is empty, and was not.
+    FOLDER = "folder"
+    #: The ledger does not know the certificates that are there.
+    LEDGER = "ledger"
+    #: The clock stands before the last night.
+    CLOCK = "clock"
+    #: The night before gave no sign of life.
+    STUCK = "stuck"
+
+
+@dataclass(frozen=True, slots=True)
+class Notice:
+    """What concerns a whole night, and is not as it should be."""
+
+    about: About
+    text: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,6 +124,8 @@ class Entry:
         How long it took; None where nothing was made.
     interval
         Days after which the job itself says that the axis is to be measured again.
+    instrument
+        With which it was measured; empty if not known.
     """
 
     job: str
@@ -116,6 +141,7 @@ class Entry:
     parameters: tuple[RecordedParameter, ...] = ()
     seconds: float | None = None
     interval: int | None = None
+    instrument: str = ""
 
 
 def due_date(measured: str, interval: int | None) -> str:
@@ -172,6 +198,7 @@ class Subject:
     axis: str = ""
     measured: str = ""
     interval: int | None = None
+    instrument: str = ""
 
     @classmethod
     def of(cls, job: Job) -> Self:
@@ -179,8 +206,15 @@ class Subject:
         keys = job.keys
         day = keys.measurement.date
         measured = day.isoformat() if day else ""
-        machine = designation(keys.machine)
-        return cls(keys.certificate.number, machine, keys.axis.name, measured, keys.fleet.interval)
+        machine, instrument = designation(keys.machine), _instrument(keys.instrument)
+        number, interval = keys.certificate.number, keys.fleet.interval
+        return cls(number, machine, keys.axis.name, measured, interval, instrument)
+
+
+def _instrument(instrument: Instrument | None) -> str:
+    """Return what tells one instrument from another; a new certificate makes no new one of it."""
+    stated = (instrument.manufacturer, instrument.name, instrument.serial) if instrument else ()
+    return " ".join(part for part in stated if part)
 
 
 def parameters_of(certificate: Certificate) -> Iterator[RecordedParameter]:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from datetime import date, datetime
 
 from zlmreport.fleet.drifts import Trend, trends
-from zlmreport.fleet.records import Entry, State, due_date
+from zlmreport.fleet.records import Entry, Notice, State, due_date
 from zlmreport.fleet.trend import series_of, standing
 
 
@@ -21,10 +21,13 @@ class Night:
         With its offset from UTC.
     ended
         None for a run that was interrupted.
+    notices
+        What concerned all of it.
     """
 
     began: datetime
     ended: datetime | None
+    notices: tuple[Notice, ...] = ()
 
     @property
     def seconds(self) -> float | None:
@@ -92,6 +95,11 @@ class FleetState:
     certificates: tuple[Entry, ...]
     trends: tuple[Trend, ...]
     terms: tuple[Term, ...] = ()
+
+    @property
+    def notices(self) -> tuple[Notice, ...]:
+        """What concerned the whole of the last run."""
+        return self.night.notices if self.night else ()
 
     @property
     def overdue(self) -> tuple[Term, ...]:

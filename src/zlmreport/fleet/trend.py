@@ -79,13 +79,13 @@ def standing(entries: Iterable[Entry]) -> tuple[Entry, ...]:
     Parameters
     ----------
     entries
-        Of the ledger, in any order.
+        Of the ledger, in its order.
     """
     standing: dict[tuple[str, str], Entry] = {}
-    for entry in sorted(entries, key=lambda entry: entry.night):
+    for entry in entries:  # not by the night: its clock may have been set back
         if entry.state is State.MADE and entry.measured:
             standing[entry.job, entry.measured] = entry
-    return tuple(sorted(standing.values(), key=lambda entry: (entry.measured, entry.night, entry.number)))
+    return tuple(sorted(standing.values(), key=lambda entry: (entry.measured, entry.number)))
 
 
 def series_of(certificates: Iterable[Entry]) -> tuple[Series, ...]:
