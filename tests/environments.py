@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-import sysconfig
+import sys
 import venv
 from dataclasses import dataclass
 from pathlib import Path
@@ -23,21 +23,34 @@ class Distribution:
     wheel: Path
 
 
-def build(project: Path, folder: Path) -> Distribution:
+def build(project: Path, folder: Path) -> None:
     """Build a project's source distribution, and its wheel from that."""
     run(PYTHON, "-m", "build", "--no-isolation", "--outdir", folder, project, check=True)
+
+
+def built(folder: Path) -> Distribution:
+    """Return what was built into a folder."""
     (sdist,), (wheel,) = folder.glob("*.tar.gz"), folder.glob("*.whl")
     return Distribution(sdist, wheel)
 
 
-class Environment:
-    """A fresh virtual environment with a few wheels; the libraries they need come from the one of the tests.
+def install(folder: Path, *wheels: Path) -> None:
+    """Make a fresh virtual environment with a few wheels; libraries they need come from the one of the tests.
 
     That those libraries are the declared ones is a test of its own, so nothing has to be downloaded here.
     """
+    venv.create(folder, symlinks=True)
+    pip = (PYTHON, "-m", "pip", "--python", folder / "bin" / "python", "install", "--quiet")
+    run(*pip, "--no-compile", "--no-deps", "--no-index", *wheels, check=True)
+    (site,) = folder.glob("lib/python*/site-packages")
+    libraries = [f"{path}\n" for path in sys.path if Path(path).name == "site-packages"]
+    (site / "libraries.pth").write_text("".join(libraries), encoding="utf-8")
 
-    def __init__(self, folder: Path, *wheels: Path) -> None:
-        venv.create(folder, symlinks=True)
+
+class Environment:
+    """A virtual environment that has been made, and its commands."""
+
+    def __init__(self, folder: Path) -> None:
         self.bin = folder / "bin"
         self.python = self.bin / "python"
         self._environment = {
@@ -46,10 +59,6 @@ class Environment:
             if name not in {"PYTHONPATH", "VIRTUAL_ENV", "PYTHONHOME"}
         }
         self._environment["PATH"] = f"{self.bin}{os.pathsep}{os.environ['PATH']}"
-        pip = (PYTHON, "-m", "pip", "--python", self.python)
-        run(*pip, "install", "--quiet", "--no-deps", "--no-index", *wheels, check=True)
-        (site,) = folder.glob("lib/python*/site-packages")
-        (site / "libraries.pth").write_text(f"{sysconfig.get_path('purelib')}\n", encoding="utf-8")
 
     def run(self, *command: str | Path, folder: Path) -> CompletedProcess[str]:
         """Run a command that is found here first."""

@@ -9,7 +9,7 @@ import pytest
 from documents.examples import run_block
 from documents.pages import DOCS, blocks
 from documents.shell import shell as opened
-from environments import Distribution, Environment
+from environments import Distribution, Environment, install
 
 #: Warnings are errors in the project's commands; pip's own are its own.
 _PIP_MAY_WARN = """python() {
@@ -19,8 +19,10 @@ _PIP_MAY_WARN = """python() {
 
 @pytest.fixture
 def reader(tmp_path_factory: pytest.TempPathFactory, zlmreport_distribution: Distribution) -> Environment:
-    """The environment of somebody who has installed zlmreport and nothing else."""
-    return Environment(tmp_path_factory.mktemp("reader"), zlmreport_distribution.wheel)
+    """The environment of somebody who has installed zlmreport and nothing else, and will install more."""
+    folder = tmp_path_factory.mktemp("reader")
+    install(folder, zlmreport_distribution.wheel)
+    return Environment(folder)
 
 
 def test_the_guide_leads_to_a_certificate(

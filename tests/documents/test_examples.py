@@ -13,7 +13,8 @@ import pytest
 from documents.examples import EXECUTED, commands, compare, matches, patched, run_page
 from documents.pages import ROOT, Block, blocks, name
 from documents.shell import VARIABLES
-from documents.warm import warm_command
+from documents.warm import warm_command, warm_server
+from processes import PATIENCE, started
 
 
 @pytest.fixture(scope="module")
@@ -26,6 +27,14 @@ def command() -> Iterator[Path]:
 @pytest.mark.parametrize("page", EXECUTED, ids=name)
 def test_the_examples_of_a_page_work(page: Path, command: Path, tmp_path: Path) -> None:
     run_page(page, tmp_path, compare, command)
+
+
+def test_the_warm_command_ends_with_whoever_started_it_and_takes_along_what_runs(tmp_path: Path) -> None:
+    with warm_server(tmp_path) as server, started(tmp_path / "zlmreport", "emulate", "umd1") as emulated:
+        emulated.lines(1)
+        server.stdin.close()
+        assert server.wait(PATIENCE) == 0
+        assert emulated.process.wait(PATIENCE) != 0
 
 
 @pytest.mark.parametrize("page", EXECUTED, ids=name)

@@ -7,7 +7,9 @@ that process, passes signals on, and ends as the command ends.
 
 from __future__ import annotations
 
+import atexit
 import contextlib
+import gc
 import importlib
 import json
 import os
@@ -17,8 +19,11 @@ import shlex
 import signal
 import socket
 import struct
+import subprocess
 import sys
+import threading
 import time
+import traceback
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -38,6 +43,8 @@ if status < 0:
     os.kill(os.getpid(), -status)
 sys.exit(status)
 """
+#: Ends when the process that holds its other end does, however that is.
+_LIFELINE = 0
 
 
 def write_command(folder: Path, address: Path) -> None:
@@ -50,20 +57,22 @@ def write_command(folder: Path, address: Path) -> None:
     command.chmod(0o755)
 
 
-def serve(address: str) -> None:
-    """Import the project, say so, and answer commands until killed."""
-    for package in ("zlmreport", "zlmreport_plugins"):
+def serve(address: str, *packages: str) -> None:
+    """Import packages, say so, and answer commands until whoever started it is gone: stdin ends with it."""
+    for package in packages:
         for module in pkgutil.walk_packages(importlib.import_module(package).__path__, f"{package}."):
             if not module.name.endswith(".__main__"):
                 with contextlib.suppress(ImportError):  # of an extra
                     importlib.import_module(module.name)
+    gc.collect()
+    gc.freeze()  # a collection in a fork would copy every page of what is loaded here
     signal.signal(signal.SIGCHLD, signal.SIG_IGN)
     with socket.socket(socket.AF_UNIX) as server:
         server.bind(address)
         server.listen(100)
         sys.stdout.write("ready\n")
         sys.stdout.flush()
-        while True:
+        while server in select.select([server, _LIFELINE], [], [])[0]:
             caller, _ = server.accept()
             if os.fork():
                 caller.close()
@@ -75,7 +84,7 @@ def serve(address: str) -> None:
 
 
 def _answer(caller: socket.socket) -> None:
-    """Do what a caller asks in a process of its own; tell how it ended; end it when the caller is gone."""
+    """Do what a caller asks in a process of its own; tell how it ended; end it with its caller."""
     head, streams, _, _ = socket.recv_fds(caller, 8, 3)
     asked = b""
     while len(asked) < int.from_bytes(head, "big"):
@@ -87,8 +96,8 @@ def _answer(caller: socket.socket) -> None:
     for stream in streams:
         os.close(stream)
     ended = os.pidfd_open(child)
-    while ended not in (ready := select.select([caller, ended], [], [])[0]):
-        signals = caller.recv(1) if ready else b""
+    while ended not in (ready := select.select([caller, ended, _LIFELINE], [], [])[0]):
+        signals = b"" if _LIFELINE in ready else caller.recv(1)
         os.kill(child, signals[0] if signals else signal.SIGKILL)
         if not signals:
             break
@@ -110,22 +119,40 @@ def _command(streams: list[int], arguments: list[str], folder: str, variables: d
     os.environ.update(variables)
     time.tzset()
     sys.argv = ["zlmreport", *arguments]
-    from zlmreport.cli import main
+    status = 1
+    try:
+        from zlmreport.cli import main
 
-    sys.exit(main())
+        status = main()
+    except Exception:  # noqa: BLE001  # shown, as Python would
+        traceback.print_exc()
+    finally:  # the interpreter's own end would take all apart that is loaded: a second
+        threading._shutdown()  # type: ignore[attr-defined]
+        atexit._run_exitfuncs()
+        sys.stdout.flush()
+        sys.stderr.flush()
+        os._exit(status)
 
 
 @contextlib.contextmanager
 def warm_command(folder: Path, **settings: Any) -> Iterator[Path]:
     """Yield a folder with the command."""
+    with warm_server(folder, "zlmreport", "zlmreport_plugins", **settings):
+        yield folder
+
+
+@contextlib.contextmanager
+def warm_server(folder: Path, *packages: str, **settings: Any) -> Iterator[Any]:
+    """Yield the process behind the command that is written into a folder."""
     import processes
 
     address = folder / "s"
     write_command(folder, address)
-    with processes.started(processes.PYTHON, __file__, address, **settings) as server:
+    command = (processes.PYTHON, __file__, address, *packages)
+    with processes.started(*command, stdin=subprocess.PIPE, **settings) as server:
         server.until("ready")
-        yield folder
+        yield server.process
 
 
 if __name__ == "__main__":
-    serve(sys.argv[1])
+    serve(*sys.argv[1:])
