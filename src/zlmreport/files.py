@@ -79,6 +79,15 @@ def rewrite(path: Path, content: bytes, check: Callable[[bytes], None]) -> None:
         raise unwritable(path, error) from error
 
 
+def cache_folder(environment: Mapping[str, str] = os.environ) -> Path | None:
+    """Return the folder of this program among those that the user's system keeps for what can be made again.
+
+    None where the user has no such folder.
+    """
+    folders = (Path(environment.get("XDG_CACHE_HOME", "")), Path(environment.get("HOME", ""), ".cache"))
+    return next((each / "zlmreport" for each in folders if each.is_absolute()), None)
+
+
 @contextlib.contextmanager
 def beside(contents: Mapping[Path, bytes], hidden: Callable[[Path], Path]) -> Iterator[Mapping[Path, Path]]:
     """Write files under hidden names, and push them to the disk; what gets no name within is removed.

@@ -54,8 +54,9 @@ def job(tmp_path: Path) -> Path:
 
 
 @pytest.fixture
-def address(job: Path) -> Iterator[str]:
+def address(job: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[str]:
     """Return what the command prints: where the page of the job is."""
+    monkeypatch.setenv("XDG_CACHE_HOME", str(job.with_name("cache")))
     with started(*ZLMREPORT, "workbench", job, "--no-browser") as workbench:
         found = _ADDRESS.search(workbench.lines(1)[0])
         assert found

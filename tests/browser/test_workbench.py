@@ -72,6 +72,137 @@ def test_the_hidden_effect_is_found_by_clicks_alone(address: str, job: Path, win
     assert "screw-pitch" not in job.read_text(encoding="utf-8").partition("model:")[2]
 
 
+def test_the_page_asks_for_the_pitch_that_nobody_stated(address: str, job: Path, window: Window) -> None:
+    text = job.read_text(encoding="utf-8")
+    job.write_text(text.replace(", screw_pitch: 10", ""), encoding="utf-8")
+    page = window(address)
+    diagnosed(page, "unexplained")
+    expect(page.get_by_text("I can test directional-pitch, screw-pitch as well.")).to_be_visible()
+    expect(page.locator(".candidates .likely")).to_have_count(0)
+    page.get_by_label("Screw pitch").fill("10")
+    page.get_by_label("Screw pitch").press("Enter")
+    diagnosed(page, "missing")
+    expect(page.locator(".candidates .likely")).to_contain_text("screw-pitch")
+    assert job.read_text(encoding="utf-8") == text
+
+
+def test_verdict_error_and_fall_are_in_sight_wherever_one_reads(address: str, window: Window) -> None:
+    page = window(address, viewport={"width": 1440, "height": 900})
+    diagnosed(page, "missing")
+    for y in (0, 300):
+        page.evaluate(f"scrollTo(0, {y})")
+        for part in ("#part-verdict .numbers", "#part-fall tr.floor"):
+            box = page.locator(part).bounding_box()
+            assert box
+            assert 0 <= box["y"] < box["y"] + box["height"] <= 900
+
+
+def test_a_step_that_is_pointed_at_is_seen_before_and_after(address: str, window: Window) -> None:
+    page = window(address)
+    diagnosed(page, "missing")
+    expect(page.locator(".ghost")).to_have_count(0)
+    page.get_by_role("button", name="+ backlash").focus()
+    expect(page.locator(".plot").first.locator(".curve.ghost")).to_have_count(2)
+    expect(page.locator(".plot").nth(1).locator(".mark.ghost")).to_have_count(2)
+    expect(page.get_by_text("after this step: backlash")).to_be_visible()
+    page.get_by_role("button", name="+ backlash").blur()
+    expect(page.locator(".ghost")).to_have_count(0)
+
+
+def test_steps_are_taken_back_and_again_by_keys_with_the_diagnosis_at_once(
+    address: str, job: Path, window: Window
+) -> None:
+    page = window(address)
+    diagnosed(page, "missing")
+    text = job.read_text(encoding="utf-8")
+    page.get_by_role("button", name="Add screw-pitch to the model").click()
+    diagnosed(page, "adequate")
+    asked: list[str] = []
+    page.on("response", lambda answer: "/api/diagnosis" in answer.url and asked.append(answer.text()))
+    page.keyboard.press("Control+z")
+    diagnosed(page, "missing")
+    assert job.read_text(encoding="utf-8") == text
+    page.keyboard.press("Control+y")
+    diagnosed(page, "adequate")
+    assert len(asked) == 2
+    assert all('"diagnosis"' in each for each in asked)
+
+
+def test_the_deviation_is_rescaled_where_one_looks_closer(address: str, window: Window) -> None:
+    page = window(address)
+    diagnosed(page, "missing")
+    plot = page.locator(".plot").first
+
+    def scale() -> list[str]:
+        return plot.locator("text.tick").all_text_contents()
+
+    whole = scale()
+    box = plot.bounding_box()
+    assert box
+    page.mouse.move(box["x"] + 100, box["y"] + 100)
+    page.mouse.down()
+    page.mouse.move(box["x"] + 250, box["y"] + 105)
+    page.mouse.up()
+    closer = scale()
+    assert closer != whole
+    heights = [float(each.replace("−", "-")) for each in closer if float(each.replace("−", "-")) < 50]
+    assert max(heights) <= 6  # at the lower end of the axis nothing deviates more
+    plot.focus()
+    page.mouse.wheel(0, -200)
+    assert scale() != closer
+    page.get_by_role("button", name="Whole axis", exact=True).click()
+    assert scale() == whole
+
+
+def test_what_is_seen_can_be_saved_and_read_as_a_table(address: str, window: Window) -> None:
+    page = window(address)
+    diagnosed(page, "missing")
+    page.get_by_text("Save …").click()
+    saved = {}
+    for kind, index in (("PNG", 0), ("SVG", 1), ("CSV", 0)):
+        with page.expect_download() as download:
+            page.get_by_role("button", name=kind).nth(index).click()
+        saved[download.value.suggested_filename] = Path(download.value.path()).read_bytes()
+    assert saved["deviations.png"].startswith(b"\x89PNG")
+    assert b"<svg" in saved["residuals.svg"]
+    assert b"class=" not in saved["residuals.svg"]
+    names, *rows = saved["readings.csv"].decode().splitlines()
+    assert names.startswith("Position (mm),Time (min),")
+    assert len(rows) == 210
+    page.get_by_role("button", name="downwards ↓").click()
+    page.get_by_text("The readings in sight as a table").click()
+    expect(page.locator(".table tbody tr")).to_have_count(105)
+
+
+def test_readings_in_a_box_are_set_aside_together(address: str, job: Path, window: Window) -> None:
+    page = window(address)
+    diagnosed(page, "missing")
+    page.get_by_role("button", name="Choose readings").click()
+    box = page.locator(".plot").nth(1).bounding_box()
+    assert box
+    page.mouse.move(box["x"] + 52, box["y"] + 10)
+    page.mouse.down()
+    page.mouse.move(box["x"] + 80, box["y"] + box["height"] - 36)
+    page.mouse.up()
+    expect(page.get_by_text("10 readings chosen")).to_be_visible()
+    page.get_by_label("Reason, as the certificate will state it").fill("Chips on the scale.")
+    page.get_by_role("button", name="Set these readings aside").click()
+    expect(page.get_by_role("button", name="Undo: reading set aside: 10 readings")).to_be_visible()
+    assert job.read_text(encoding="utf-8").count("Chips on the scale.") == 10
+
+
+def test_the_page_goes_on_by_itself_when_the_readings_are_back(
+    address: str, job: Path, window: Window
+) -> None:
+    page = window(address)
+    expect(page.locator(".plot .mark").first).to_be_visible()
+    readings = job.with_name("x-axis.csv")
+    readings.rename(readings.with_suffix(".away"))
+    expect(page.get_by_role("alert")).to_contain_text("x-axis.csv")
+    readings.with_suffix(".away").rename(readings)
+    expect(page.get_by_role("alert")).to_contain_text("changed outside of this page")
+
+
 def test_a_reading_is_found_set_aside_and_brought_back_with_the_keyboard(
     address: str, job: Path, window: Window
 ) -> None:

@@ -118,7 +118,7 @@ LAYOUTS = {
 @pytest.mark.parametrize(("before", "after"), LAYOUTS.values(), ids=LAYOUTS)
 def test_a_reading_is_set_aside_in_any_layout(tmp_path: Path, before: str, after: str) -> None:
     path = job(tmp_path, HEAD + before + TAIL)
-    exclude(path, load(path, registry()), registry(), EXCLUSION).write()
+    exclude(path, load(path, registry()), registry(), [EXCLUSION]).write()
     assert path.read_text(encoding="utf-8") == HEAD + after + TAIL
     assert load(path, registry()).keys.measurement.excluded == [EXCLUSION]
 
@@ -127,7 +127,7 @@ def test_a_reading_comes_back_and_the_others_stay_aside(tmp_path: Path) -> None:
     path = job(tmp_path, HEAD + MEASUREMENT + TAIL)
     other = EXCLUSION.model_copy(update={"run": 4})
     for each in (EXCLUSION, other):
-        exclude(path, load(path, registry()), registry(), each).write()
+        exclude(path, load(path, registry()), registry(), [each]).write()
     include(path, load(path, registry()), registry(), 0).write()
     assert load(path, registry()).keys.measurement.excluded == [other]
 
@@ -135,7 +135,7 @@ def test_a_reading_comes_back_and_the_others_stay_aside(tmp_path: Path) -> None:
 def test_the_list_of_a_file_that_is_extended_is_written_into_the_job(tmp_path: Path) -> None:
     (tmp_path / "base.yaml").write_text(f"{MEASUREMENT}  excluded: [{WRITTEN}]\n", encoding="utf-8")
     path = job(tmp_path, f"{HEAD}extends: base.yaml\n{TAIL}")
-    edit = exclude(path, load(path, registry()), registry(), EXCLUSION.model_copy(update={"run": 4}))
+    edit = exclude(path, load(path, registry()), registry(), [EXCLUSION.model_copy(update={"run": 4})])
     edit.write()
     assert [each.run for each in load(path, registry()).keys.measurement.excluded] == [3, 4]
     assert edit.inherited_from.endswith("base.yaml")

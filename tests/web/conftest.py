@@ -20,6 +20,12 @@ from zlmreport.web.guard import Door
 PORT = 8420
 
 
+@pytest.fixture(autouse=True)
+def cache_of_its_own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Remember nothing of other tests, and nothing in the folder of whoever runs them."""
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+
+
 @pytest.fixture
 def job(tmp_path: Path) -> Path:
     """Return the job of an axis whose model lacks the error of its screw."""

@@ -88,13 +88,13 @@ def test_a_parameter_that_there_is_not_is_refused(browser: TestClient, before: d
 def test_a_reading_is_set_aside_for_a_reason_and_comes_back(
     job: Path, browser: TestClient, before: dict[str, Any]
 ) -> None:
-    after = click(browser, before, action="exclude", reading=12, reason="Air hose")
+    after = click(browser, before, action="exclude", readings=[12], reason="Air hose")
     (excluded,) = load(job, registry()).keys.measurement.excluded
     assert excluded.reason == "Air hose"
     assert len(after["graphs"]["readings"]["place"]) == len(before["graphs"]["readings"]["place"]) - 1
     assert 12 not in after["graphs"]["readings"]["place"]
     assert after["excluded"][0]["reason"] == "Air hose"
-    back = click(browser, after, action="include", reading=0)
+    back = click(browser, after, action="include", listed=0)
     assert back["excluded"] == []
     assert back["graphs"] == before["graphs"]
 
@@ -103,14 +103,33 @@ def test_a_reading_is_set_aside_for_a_reason_and_comes_back(
 def test_no_reading_is_set_aside_without_a_reason(
     browser: TestClient, before: dict[str, Any], reason: str
 ) -> None:
-    assert "for a reason" in refused(browser, before, action="exclude", reading=12, reason=reason)
+    assert "for a reason" in refused(browser, before, action="exclude", readings=[12], reason=reason)
 
 
-@pytest.mark.parametrize(("action", "reading"), [("exclude", 210), ("exclude", -1), ("include", 0)])
+@pytest.mark.parametrize(
+    "wanted",
+    [
+        {"action": "exclude", "readings": [210]},
+        {"action": "exclude", "readings": [12, -1]},
+        {"action": "exclude", "readings": []},
+        {"action": "include", "listed": 0},
+    ],
+)
 def test_a_reading_that_there_is_not_is_refused(
-    browser: TestClient, before: dict[str, Any], action: str, reading: int
+    browser: TestClient, before: dict[str, Any], wanted: dict[str, Any]
 ) -> None:
-    refused(browser, before, action=action, reading=reading, reason="because")
+    refused(browser, before, reason="because", **wanted)
+
+
+def test_readings_in_a_box_are_set_aside_together_and_undone_together(
+    job: Path, browser: TestClient, before: dict[str, Any]
+) -> None:
+    text = job.read_text(encoding="utf-8")
+    after = click(browser, before, action="exclude", readings=[12, 13, 14], reason="Air hose")
+    assert [each.reason for each in load(job, registry()).keys.measurement.excluded] == ["Air hose"] * 3
+    assert after["undo"] == "reading set aside: 3 readings"
+    click(browser, after, action="undo")
+    assert job.read_text(encoding="utf-8") == text
 
 
 def test_undo_puts_back_what_was(job: Path, browser: TestClient, before: dict[str, Any]) -> None:
@@ -123,6 +142,30 @@ def test_undo_puts_back_what_was(job: Path, browser: TestClient, before: dict[st
     start = click(browser, back, action="undo")
     assert start["undo"] is None
     assert job.read_text(encoding="utf-8") == text
+
+
+def test_what_was_undone_is_done_again_until_something_else_is_done(
+    job: Path, browser: TestClient, before: dict[str, Any]
+) -> None:
+    once = click(browser, before, action="add", effect="screw-pitch")
+    twice = click(browser, once, action="remove", effect="offset")
+    text = job.read_text(encoding="utf-8")
+    assert (before["redo"], once["redo"]) == (None, None)
+    back = click(browser, twice, action="undo")
+    start = click(browser, back, action="undo")
+    assert start["redo"] == "screw-pitch added"
+    again = click(browser, start, action="redo")
+    assert (again["undo"], again["redo"]) == ("screw-pitch added", "offset removed")
+    whole = click(browser, again, action="redo")
+    assert whole["redo"] is None
+    assert job.read_text(encoding="utf-8") == text
+    back = click(browser, whole, action="undo")
+    assert back["redo"] == "offset removed"
+    other = click(browser, back, action="remove", effect="backlash")
+    assert other["redo"] is None
+    assert (
+        browser.post("/api/change", json={"based_on": other["digest"], "action": "redo"}).status_code == 409
+    )
 
 
 def test_what_somebody_else_wrote_is_not_undone(
@@ -164,3 +207,37 @@ def test_what_no_page_sends_is_refused(browser: TestClient, body: Any) -> None:
 
 def test_an_action_that_there_is_not_is_refused(browser: TestClient, before: dict[str, Any]) -> None:
     assert "there is no action 'delete'" in refused(browser, before, action="delete")
+
+
+@pytest.fixture
+def without_pitch(job: Path, browser: TestClient) -> dict[str, Any]:
+    """Return the job as the page shows it when nobody has stated the pitch of the screw."""
+    text = job.read_text(encoding="utf-8")
+    job.write_text(text.replace(", screw_pitch: 10", ""), encoding="utf-8")
+    found: dict[str, Any] = browser.get("/api/job").json()
+    return found
+
+
+def test_a_job_that_states_its_pitch_is_not_asked_for_it(before: dict[str, Any]) -> None:
+    assert [each["key"] for each in before["asked"]] == ["signal_period"]
+
+
+def test_the_pitch_is_asked_for_and_written_into_the_job(
+    job: Path, browser: TestClient, without_pitch: dict[str, Any]
+) -> None:
+    pitch = without_pitch["asked"][0]
+    assert pitch | {"key": "screw_pitch", "name": "Screw pitch", "unit": "mm"} == pitch
+    assert "screw-pitch" in pitch["effects"]
+    after = click(browser, without_pitch, action="state", parameter="screw_pitch", value=10)
+    assert "travel: [0, 600], screw_pitch: 10}" in job.read_text(encoding="utf-8")
+    assert "screw-pitch" in [each["effect"] for each in after["others"]]
+    assert after["undo"] == "axis.screw_pitch stated"
+
+
+@pytest.mark.parametrize(
+    ("parameter", "value"), [("screw_pitch", 0), ("screw_pitch", None), ("travel", 10), ("__class__", 1)]
+)
+def test_nothing_but_a_length_that_is_asked_for_is_written(
+    browser: TestClient, without_pitch: dict[str, Any], parameter: str, value: float | None
+) -> None:
+    refused(browser, without_pitch, action="state", parameter=parameter, value=value)

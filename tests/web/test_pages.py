@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -16,6 +17,7 @@ from web.jobs import EXAMPLE, registry
 from zlmreport import pipeline
 from zlmreport.job.loading import load
 from zlmreport.language import Language, same
+from zlmreport.model.faults import Fault, FaultKind
 from zlmreport.model.residuals import Failure, ResidualTest
 from zlmreport.model.study import Study
 from zlmreport.testing.designs import full_designs
@@ -123,6 +125,58 @@ def test_a_diagnosis_is_made_beside_and_says_how_long_it_has_been_under_way(brow
     assert second["axis"] == "position"
 
 
+def test_a_diagnosis_that_was_made_is_there_at_once_also_for_a_copy_and_after_a_restart(
+    workbench: Workbench, browser: TestClient, tmp_path: Path
+) -> None:
+    awaited(lambda: browser.get("/api/diagnosis").json().get("diagnosis"))
+    copy = tmp_path / "copy"
+    copy.mkdir()
+    for name in ("job.yaml", "x-axis.csv"):
+        shutil.copy(workbench.bench.path.with_name(name), copy)
+    again = Workbench.of(copy / "job.yaml", registry())
+    assert again.diagnoses.of(again.bench.loaded().content).keys() == {"diagnosis"}
+    (copy / "x-axis.csv").write_text((copy / "x-axis.csv").read_text("utf-8") + "# later\n", "utf-8")
+    assert again.diagnoses.of(again.bench.loaded().content).keys() == {"seconds"}
+    again.diagnoses.end()
+
+
+@pytest.mark.parametrize("step", ["3", "screw-pitch"])
+def test_a_step_is_shown_before_and_after(browser: TestClient, step: str) -> None:
+    found = browser.get("/api/step", params={"of": step}).json()
+    before, after = (np.std(found[name]["residual"]) for name in ("before", "after"))
+    assert after < before
+
+
+def test_a_step_that_there_is_not_is_said(browser: TestClient) -> None:
+    assert (
+        "no plugin provides effect '99'"
+        in browser.get("/api/step", params={"of": "99"}).json()["problems"][0]
+    )
+
+
+@pytest.mark.parametrize("name", ["x-axis.csv", "job.yaml"])
+def test_the_page_goes_on_when_a_file_that_vanished_is_back(
+    job: Path, browser: TestClient, name: str
+) -> None:
+    path = job.with_name(name)
+    whole = browser.get("/api/job").json()
+    path.rename(path.with_suffix(".away"))
+    broken = browser.get("/api/job")
+    assert broken.status_code == 422
+    path.with_suffix(".away").rename(path)
+    assert browser.get("/api/stamp").json()["stamp"] != broken.json()["stamp"]
+    assert browser.get("/api/job").json() == whole
+
+
+def test_the_page_goes_on_when_a_file_that_the_job_names_anew_appears(job: Path, browser: TestClient) -> None:
+    job.write_text(job.read_text("utf-8").replace("x-axis.csv", "later.csv"), "utf-8")
+    broken = browser.get("/api/job").json()
+    assert "later.csv" in broken["problems"][0]
+    shutil.copy(job.with_name("x-axis.csv"), job.with_name("later.csv"))
+    assert browser.get("/api/stamp").json()["stamp"] != broken["stamp"]
+    assert browser.get("/api/job").status_code == 200
+
+
 def test_a_job_that_has_become_wrong_is_said_with_its_place(job: Path, browser: TestClient) -> None:
     job.write_text(job.read_text(encoding="utf-8").replace("backlash", "backlsh"), encoding="utf-8")
     answer = browser.get("/api/job")
@@ -161,3 +215,13 @@ def test_readings_that_were_set_aside_by_the_diagnosis_are_pointed_at(study: Stu
     flagged = replace(diagnosis, failures=(off,), outliers=np.array([7, 9]))
     found = diagnosed(flagged, study, registry().effects, Language.ENGLISH)
     assert found["failures"][0]["readings"] == [7, 9]
+
+
+def test_a_fault_of_the_data_names_the_readings_of_its_run(study: Study) -> None:
+    fault = Fault(FaultKind.SWAPPED_DIRECTION, 3, 1.0, same("run 3 looks swapped"), same("correct the file"))
+    diagnosis = replace(study.diagnosis(registry().effects), faults=(fault,))
+    (found,) = diagnosed(diagnosis, study, registry().effects, Language.ENGLISH)["faults"]
+    assert (found["statement"], found["remedy"]) == ("run 3 looks swapped", "correct the file")
+    runs = study.measurements.run[found["readings"]]
+    assert len(runs) == 2 * 21
+    assert set(runs.tolist()) == {3}

@@ -49,8 +49,9 @@ function table(texts, found) {
 function drawn(texts, found) {
   const { sketch } = found;
   const quiet = () => {};
-  const plot = new Plot({ label: texts.look, hint: "", number: written, marked: (index) => plot.ring(index === null ? [] : [index], true), pinned: quiet, zoomed: quiet });
+  const plot = new Plot({ label: texts.look, hint: "", number: written, marked: (index) => plot.ring(index === null ? [] : [index], true), pinned: quiet, zoomed: quiet, boxed: quiet });
   plot.show({
+    hidden: new Set(),
     x: sketch.x, y: sketch.y, direction: sketch.direction, fitted: sketch.x.map(() => true), curves: sketch.curves, noise: null, labels: null, range: sketch.range,
     xTitle: sketch.unit ? `${sketch.title} (${sketch.unit})` : sketch.title, yTitle: sketch.deviation_unit, alternative: `${found.look} ${sketch.words}`,
   });

@@ -1,42 +1,52 @@
 // The two graphs and what is said of the reading that is pointed at: one reading is marked in both.
 
-import { fill, h } from "./dom.js";
-import { Plot } from "./plot.js";
+import { fill, h, said } from "./dom.js";
+import { Plot, passes } from "./plot.js";
+import { saveCsv, savePng, saveSvg } from "./saving.js";
 
 const ARROWS = new Map([[-1, "↓"], [1, "↑"]]);
 const GOLDEN = 0.618034;
+const SERIES = [["up", "upwards"], ["down", "downwards"], ["model-up", "modelUp"], ["model-down", "modelDown"]];
+const MODES = [["zoom", "modeZoom"], ["move", "modeMove"], ["select", "modeSelect"]];
+const SHADES = 6;
+const ROWS = 500;
 
 export class Graphs {
-  /** `texts` are the words of the page, `number` writes numbers, `exclude` sets a reading aside for a reason. */
+  /** `texts` are the words of the page, `number` writes numbers, `exclude` sets readings aside for a reason. */
   constructor(texts, number, exclude) {
     Object.assign(this, { texts, number, exclude });
     this.over = "position";
-    this.range = null;
+    this.shade = "direction";
+    this.ranges = new Map();
+    this.spans = new Map();
+    this.hidden = new Set();
     this.marked = null;
     this.pinned = null;
+    this.boxed = [];
     this.shown = [];
-    const told = {
-      number,
-      hint: "hint",
-      marked: (index) => this.#mark(index),
-      pinned: (index) => this.#pin(index),
-      zoomed: (range) => this.#zoom(range),
-    };
-    this.above = new Plot({ ...told, label: texts.measured });
-    this.below = new Plot({ ...told, label: texts.residuals });
+    this.step = null;
+    this.above = this.#plot("above", texts.measured);
+    this.below = this.#plot("below", texts.residuals);
     this.choice = h("select", { id: "over", change: () => this.#switch(this.choice.value) });
+    this.colour = h("select", { id: "colour", change: () => { this.shade = this.colour.value; this.#draw(); } });
     this.whole = h("button", { type: "button", class: "quiet", hidden: true, "data-key": "whole", click: () => this.#zoom(null) }, texts.reset);
     this.reading = h("div", { class: "reading", role: "status" });
+    this.table = h("details", { class: "table", toggle: () => this.#list() }, h("summary", {}, texts.asTable), h("div", { class: "wide", tabindex: "0", role: "region", "aria-label": texts.asTable }));
+    this.caption = h("p", { class: "caption", hidden: true });
     this.element = h("section", { class: "graphs", "aria-labelledby": "measured" },
       h("div", { class: "heading" }, h("h2", { id: "measured" }, texts.measured), this.#legend(), this.whole),
+      this.caption,
       this.above.element,
       h("div", { class: "heading" },
         h("h2", {}, texts.residuals),
         h("label", { for: "over" }, texts.over), this.choice,
+        h("label", { for: "colour" }, texts.colour), this.colour,
         h("ul", { class: "legend" }, h("li", { class: "of-noise" }, texts.noise))),
       this.below.element,
+      h("div", { class: "heading tools" }, this.#modes(), this.#save()),
       h("p", { id: "hint", class: "unseen" }, texts.point),
       this.reading,
+      this.table,
     );
   }
 
@@ -46,70 +56,152 @@ export class Graphs {
     this.pinned = graphs.readings.place.indexOf(pinned);
     if (this.pinned < 0) this.pinned = null;
     this.marked = null;
+    this.boxed = [];
+    this.step = null;
     delete this.reading.dataset.form;
     this.graphs = graphs;
     this.axes = new Map(graphs.axes.map((axis) => [axis.key, axis]));
     if (!this.axes.has(this.over)) this.over = "position";
+    if (!this.axes.has(this.shade)) this.shade = "direction";
     fill(this.choice, graphs.axes.map((axis) => h("option", { value: axis.key, selected: axis.key === this.over }, axis.title)));
+    fill(this.colour, [["direction", this.texts.direction], ...graphs.axes.filter(({ key }) => key !== "direction").map(({ key, title }) => [key, title])]
+      .map(([key, title]) => h("option", { value: key, selected: key === this.shade }, title)));
     this.places = new Map(graphs.readings.place.map((place, index) => [place, index]));
     this.shown = [];
     this.#draw();
     this.#say();
   }
 
+  /** Show what a step of the model does: `before` and `after` it, each a model and residuals; null for neither. */
+  compare(step, name = "") {
+    this.step = step;
+    this.caption.hidden = step === null;
+    fill(this.caption, step && [h("span", { class: "of-before" }, this.texts.before), " ", h("span", { class: "of-after" }, said(this.texts.after, { step: name }))]);
+    this.#draw();
+  }
+
   /** Mark the readings that show something, over what shows it best. */
   point(axis, places) {
     this.pinned = null;
-    this.range = null;
+    this.ranges.clear();
+    this.spans.clear();
     if (this.axes.has(axis)) this.#switch(axis);
-    this.shown = (places.length ? places : []).map((place) => this.places.get(place)).filter((index) => index !== undefined);
+    this.shown = this.#indices(places);
     this.#draw();
     this.element.scrollIntoView({ block: "nearest", behavior: "smooth" });
     this.below.element.focus({ preventScroll: true });
     this.#say();
   }
 
+  /** Ring readings by their places, without leaving where one is. */
+  ring(places) {
+    this.shown = this.#indices(places);
+    this.#rings();
+  }
+
+  #indices(places) {
+    return places.map((place) => this.places.get(place)).filter((index) => index !== undefined);
+  }
+
+  #plot(name, label) {
+    return new Plot({
+      label,
+      number: this.number,
+      hint: "hint",
+      marked: (index) => this.#mark(index),
+      pinned: (index) => this.#pin(index),
+      boxed: (indices) => this.#box(indices),
+      zoomed: (look) => this.#zoom(look, name),
+    });
+  }
+
   #legend() {
+    return h("ul", { class: "legend" }, SERIES.map(([look, name]) => h("li", {},
+      h("button", { type: "button", class: `of-${look}`, "aria-pressed": "true", click: (event) => this.#toggle(look, event.currentTarget) }, this.texts[name]))));
+  }
+
+  #toggle(look, button) {
+    if (!this.hidden.delete(look)) this.hidden.add(look);
+    button.setAttribute("aria-pressed", String(!this.hidden.has(look)));
+    this.#draw();
+  }
+
+  #modes() {
+    const buttons = MODES.map(([mode, name]) => h("button", { type: "button", "aria-pressed": String(mode === "zoom"), click: () => {
+      for (const plot of [this.above, this.below]) plot.mode = mode;
+      for (const each of buttons) each.setAttribute("aria-pressed", String(each.value === mode));
+    }, value: mode }, this.texts[name]));
+    return h("div", { class: "modes", role: "group", "aria-label": this.texts.mode }, buttons);
+  }
+
+  #save() {
     const { texts } = this;
-    return h("ul", { class: "legend" }, [["up", texts.upwards], ["down", texts.downwards], ["model-up", texts.modelUp], ["model-down", texts.modelDown]]
-      .map(([look, name]) => h("li", { class: `of-${look}` }, name)));
+    const button = (label, work) => h("button", { type: "button", click: work }, label);
+    return h("details", { class: "save" }, h("summary", {}, texts.save), h("div", {},
+      [[this.above, texts.measured, "deviations"], [this.below, texts.residuals, "residuals"]].map(([plot, title, name]) => h("p", {},
+        `${title}: `, button("PNG", () => savePng(plot, name)), " ", button("SVG", () => saveSvg(plot, name)))),
+      h("p", {}, `${texts.inSight}: `, button("CSV", () => saveCsv(this.#rows(this.above.within()), "readings")))));
   }
 
   #draw() {
-    const { graphs } = this;
+    const { graphs, step } = this;
     const { readings } = graphs;
     const position = this.axes.get("position");
-    const alike = { direction: readings.direction, fitted: readings.fitted, alternative: graphs.alternative };
+    const alike = { direction: readings.direction, fitted: readings.fitted, alternative: graphs.alternative, hidden: this.hidden, shades: this.#shades() };
     this.above.show({
-      ...alike, x: position.values, y: readings.deviation, curves: graphs.model, noise: null, range: this.range,
+      ...alike, x: position.values, y: readings.deviation, curves: step ? step.after.model : graphs.model, noise: null,
+      ghost: step && { curves: step.before.model, y: readings.deviation },
+      range: this.ranges.get("position") ?? null, span: this.spans.get("above") ?? null,
       xTitle: titled(position), yTitle: `${graphs.deviation} (${graphs.unit})`,
     });
     const axis = this.axes.get(this.over);
-    const labels = this.over === "direction" ? ARROWS : null;
+    const x = spread(axis, readings.place);
+    const residual = step ? step.after.residual : readings.residual;
+    this.passes = this.over === "time" ? passes(x, residual, readings.run, readings.direction) : [];
     this.below.show({
-      ...alike, x: spread(axis, readings.place), y: readings.residual, curves: [], noise: graphs.noise, labels,
-      range: this.over === "position" ? this.range : null,
+      ...alike, x, y: residual, curves: [], noise: graphs.noise, labels: this.over === "direction" ? ARROWS : null,
+      ghost: step && { curves: [], y: step.before.residual }, lines: this.passes,
+      range: this.ranges.get(this.over) ?? null, span: this.spans.get("below") ?? null,
       xTitle: titled(axis), yTitle: `${graphs.residual} (${graphs.unit})`,
     });
-    this.whole.hidden = this.range === null;
+    this.whole.hidden = this.ranges.size + this.spans.size === 0;
     this.#rings();
+    this.#list();
+  }
+
+  /** Return the class of colour of each reading: a sixth of the range of what was chosen; null for directions. */
+  #shades() {
+    if (this.shade === "direction") return null;
+    const { values } = this.axes.get(this.shade);
+    const [low, high] = [Math.min(...values.filter((value) => value !== null)), Math.max(...values)];
+    return values.map((value) => (value === null ? 0 : Math.min(SHADES - 1, Math.floor((SHADES * (value - low)) / (high - low || 1)))));
   }
 
   #rings() {
     const one = this.marked ?? this.pinned;
-    const rings = one === null ? this.shown : [one, ...this.shown.filter((index) => index !== one)];
+    const rest = [...this.boxed, ...this.shown];
+    const rings = one === null ? rest : [one, ...rest.filter((index) => index !== one)];
     for (const plot of [this.above, this.below]) plot.ring(rings, one !== null);
   }
 
   #switch(axis) {
     this.over = axis;
     this.choice.value = axis;
+    this.spans.delete("below");
     this.#draw();
   }
 
-  #zoom(range) {
-    if (range !== null && this.over !== "position") return;
-    this.range = range;
+  #zoom(look, name = "") {
+    const axis = name === "below" ? this.over : "position";
+    if (look === null) {
+      this.ranges.clear();
+      this.spans.clear();
+    } else {
+      if (look.x) this.ranges.set(axis, look.x);
+      else this.ranges.delete(axis);
+      if (look.y) this.spans.set(name, look.y);
+      else this.spans.clear();
+    }
     this.#draw();
   }
 
@@ -123,24 +215,37 @@ export class Graphs {
 
   #pin(index) {
     this.pinned = index;
+    this.boxed = [];
     this.shown = [];
     this.#rings();
     this.#say();
   }
 
-  /** Say which reading is marked; keep the form of the chosen one while others are pointed at. */
+  #box(indices) {
+    this.pinned = null;
+    this.boxed = indices;
+    this.shown = [];
+    this.#rings();
+    this.#say();
+  }
+
+  /** Say which reading is marked; keep the form of the chosen ones while others are pointed at. */
   #say() {
     const index = this.marked ?? this.pinned;
-    if (index === null) {
+    const chosen = this.pinned === null ? this.boxed : [this.pinned];
+    if (index === null && chosen.length === 0) {
       delete this.reading.dataset.form;
       fill(this.reading, h("p", { class: "hint" }, `${this.texts.point} ${this.texts.zoom}`));
       return;
     }
-    const form = index === this.pinned && this.exclude ? this.#form(index) : null;
-    if (form && this.reading.dataset.form === String(index)) return;
-    if (form) this.reading.dataset.form = index;
+    const key = chosen.join(" ");
+    const form = this.exclude && chosen.length > 0 && (index === null || index === this.pinned) ? this.#form(chosen) : null;
+    if (form && this.reading.dataset.form === key) return;
+    if (form) this.reading.dataset.form = key;
     else delete this.reading.dataset.form;
-    fill(this.reading, h("dl", {}, this.#facts(index).map(([name, value]) => h("div", {}, h("dt", {}, name), h("dd", {}, value)))), form);
+    fill(this.reading, index === null
+      ? h("p", {}, said(this.texts.chosen, { count: chosen.length }))
+      : h("dl", {}, this.#facts(index).map(([name, value]) => h("div", {}, h("dt", {}, name), h("dd", {}, value)))), form);
   }
 
   #facts(index) {
@@ -149,6 +254,7 @@ export class Graphs {
     const value = (axis) => `${number(axis.values[index])} ${axis.unit}`.trim();
     const deviation = (amount) => `${number(Math.round(100 * amount) / 100)} ${graphs.unit}`;
     const [position, ...others] = graphs.axes.filter((axis) => axis.key !== "direction" && axis.values[index] !== null);
+    const pass = this.passes.find(({ run, direction }) => run === readings.run[index] && direction === readings.direction[index]);
     return [
       [texts.target, `${value(position)} ${ARROWS.get(readings.direction[index])}`],
       [texts.run, number(readings.run[index])],
@@ -156,20 +262,44 @@ export class Graphs {
       [texts.modelValue, deviation(readings.deviation[index] - readings.residual[index])],
       [texts.residual, deviation(readings.residual[index])],
       ...others.filter((axis) => axis.key !== "run").map((axis) => [axis.title, value(axis)]),
+      ...(pass ? [[texts.slope, `${number(Number(pass.slope.toPrecision(3)))} ${graphs.unit}${this.axes.get("time").unit && `/${this.axes.get("time").unit}`}`]] : []),
       ...(readings.fitted[index] ? [] : [["", texts.flagged]]),
     ];
   }
 
-  #form(index) {
+  #form(chosen) {
     const { texts, graphs } = this;
     const reason = h("input", { id: "reason", required: true, maxlength: 200, autocomplete: "off" });
     return h("form", {
       class: "aside",
       submit: (event) => {
         event.preventDefault();
-        this.exclude(graphs.readings.place[index], reason.value.trim());
+        this.exclude(chosen.map((index) => graphs.readings.place[index]), reason.value.trim());
       },
-    }, h("label", { for: "reason" }, texts.reason), reason, h("button", { type: "submit", "data-key": "exclude" }, texts.setAside));
+    }, h("label", { for: "reason" }, texts.reason), reason, h("button", { type: "submit", "data-key": "exclude" }, chosen.length > 1 ? texts.setAllAside : texts.setAside));
+  }
+
+  /** Return a row of names and those of readings, by their indices. */
+  #rows(indices) {
+    const { texts, graphs } = this;
+    const { readings } = graphs;
+    const axes = graphs.axes.filter(({ key }) => key !== "direction" && key !== "run");
+    return [
+      [...axes.map(titled), texts.direction, texts.run, `${texts.deviation} (${graphs.unit})`, `${texts.modelValue} (${graphs.unit})`, `${texts.residual} (${graphs.unit})`],
+      ...indices.map((index) => [
+        ...axes.map((axis) => axis.values[index]), readings.direction[index] > 0 ? "+" : "-", readings.run[index],
+        readings.deviation[index], Number((readings.deviation[index] - readings.residual[index]).toFixed(6)), readings.residual[index]]),
+    ];
+  }
+
+  /** Write the readings in sight as a table, while it is open. */
+  #list() {
+    if (!this.table.open || !this.above.x) return;
+    const [names, ...rows] = this.#rows(this.above.within());
+    fill(this.table.lastElementChild, h("table", {},
+      h("thead", {}, h("tr", {}, names.map((name) => h("th", { scope: "col", class: "number" }, name)))),
+      h("tbody", {}, rows.slice(0, ROWS).map((row) => h("tr", {}, row.map((value) => h("td", { class: "number" }, typeof value === "number" ? this.number(value) : value ?? "")))))),
+      rows.length > ROWS && h("p", { class: "hint" }, said(this.texts.more, { count: rows.length - ROWS })));
   }
 }
 

@@ -3,10 +3,11 @@
 import { h, s, said, symbol } from "./dom.js";
 
 const SIGNS = { adequate: "✓", missing: "?", unexplained: "!" };
+const LIKELY = 0.5;
 const DOUBTS = { doubtful: "doubtful", implausible: "implausible" };
 
-/** The verdict in words, with the error of the model; while a diagnosis is under way, for how long. */
-export function verdict(texts, job, diagnosis, number) {
+/** The verdict in words, with the error of the model and what is asked for; while a diagnosis is under way, for how long. */
+export function verdict(texts, job, diagnosis, number, actions) {
   const numbers = h("dl", { class: "numbers" }, job.error.map((each) => h("div", {}, h("dt", {}, each.name), h("dd", {}, each.value))));
   if (!diagnosis?.diagnosis) {
     const problems = diagnosis?.problems;
@@ -24,6 +25,36 @@ export function verdict(texts, job, diagnosis, number) {
     h("h2", {}, texts.verdict),
     h("p", { class: `verdict ${found.verdict}` }, h("span", { class: "sign", "aria-hidden": "true" }, SIGNS[found.verdict]), h("span", {}, found.statement)),
     numbers,
+    lacking(job, found).map((each) => asked(texts, each, actions)),
+  ];
+}
+
+/** Return what is asked for: all where no effect is likely, else what would let a rival of the likely one be tried. */
+function lacking(job, found) {
+  if (found.verdict === "adequate") return [];
+  const isLikely = found.verdict === "missing" && found.candidates.some((each) => each.share >= LIKELY);
+  return job.asked.filter((each) => !isLikely || each.effects.some((effect) => found.notExcluded.includes(effect)));
+}
+
+function asked(texts, each, actions) {
+  const field = `ask-${each.key}`;
+  return h("form", { class: "ask", submit: (event) => { event.preventDefault(); actions.state(each.key, event.target.elements.value.valueAsNumber); } },
+    h("p", {}, said(texts.ask, { effects: each.effects.join(", ") })),
+    h("label", { for: field }, each.name),
+    h("input", { id: field, name: "value", type: "number", step: "any", min: Number.MIN_VALUE, required: true, "data-key": field, "aria-describedby": `${field}-unit` }),
+    h("span", { id: `${field}-unit` }, each.unit),
+    h("button", { type: "submit", "data-key": `state-${each.key}` }, texts.state));
+}
+
+/** What looks wrong in the data, each fault ringing its readings. */
+export function faults(texts, found, point) {
+  if (found.faults.length === 0) return [];
+  return [
+    h("h2", {}, texts.faults),
+    h("ul", { class: "failures" }, found.faults.map((each, index) => h("li", {},
+      h("button", { type: "button", class: "line", "data-key": `fault-${index}`, click: () => point("run", each.readings) },
+        h("span", {}, sentence(each.statement), ". "), h("span", { class: "where" }, `${texts.remedy}: ${each.remedy}`),
+        each.readings.length > 0 && h("span", { class: "unseen" }, ` – ${texts.show}`))))),
   ];
 }
 
@@ -46,7 +77,7 @@ export function candidates(texts, found, actions) {
   const rest = found.candidates.slice(serious.length);
   return [
     h("h2", {}, texts.candidates),
-    h("ol", { class: "candidates" }, grouped(serious).map((group) => h("li", { class: group.length > 1 ? "equal" : false },
+    h("ol", { class: "candidates" }, grouped(serious).map((group) => h("li", { class: look(group) },
       group.map((each) => candidate(texts, each, actions)),
       group[0].equals.length > 0 && h("p", { class: "equals" }, group.length > 1 ? texts.alike : `${texts.equals}: ${group[0].equals.join(", ")}.`),
       group[0].tell && h("p", { class: "tell" }, h("strong", {}, `${texts.tell}: `), group[0].tell)))),
@@ -56,8 +87,15 @@ export function candidates(texts, found, actions) {
   ];
 }
 
+/** Return how a group of candidates is framed: strongly only what is likelier than not and can be. */
+function look(group) {
+  if (group.every((each) => !each.plausible)) return "impossible";
+  return group.reduce((sum, each) => sum + each.share, 0) >= LIKELY ? "likely" : false;
+}
+
 function candidate(texts, each, actions) {
-  return h("article", { class: "candidate" },
+  const preview = () => actions.preview(each.argument, each.effect);
+  return h("article", { class: "candidate", pointerenter: preview, focusin: preview, pointerleave: () => actions.preview(null), focusout: () => actions.preview(null) },
     h("div", { class: "heading" }, h("h3", {}, about(each.effect)), h("span", { class: "quiet" }, each.title), add(texts, each, actions)),
     h("div", { class: "gauge" }, h("span", {}, texts.probability), bar(each.share, "probability"), h("strong", {}, each.probability)),
     h("p", { class: "predicted" }, `${texts.errorAfter}: `, each.rmsBefore, " → ", h("strong", {}, each.rmsAfter), h("span", { class: "quiet" }, ` · ${each.p}`)),
@@ -100,18 +138,23 @@ function fixing(texts, effect, own, actions) {
     : button(texts.fix, said(texts.fixParameter, { parameter }), `fix-${parameter}`, () => actions.fix(effect, own.name, own.number));
 }
 
-/** The fall chart: the error after each effect, down to the noise floor. */
-export function fall(texts, job) {
+/** The fall chart: the error after each effect, down to the noise floor; a row shows its step in the graphs. */
+export function fall(texts, job, actions) {
   const { rows, floor, unit } = job.fall;
-  const row = (name, share, rms, leftOut, look) => h("tr", { class: look },
+  const seen = (step, name) => (step > 0 ? { pointerenter: () => actions.preview(String(step), name), pointerleave: () => actions.preview(null) } : {});
+  const row = (name, share, rms, leftOut, look, step = 0) => h("tr", { class: look, ...seen(step, name) },
     h("th", { scope: "row" }, name), h("td", { class: "bar" }, bar(share, look ?? "fallen", floor?.share)), h("td", { class: "number" }, rms), h("td", { class: "number" }, leftOut));
   return [
     h("h2", {}, texts.fall),
     h("table", { class: "fall" },
       h("thead", {}, h("tr", {}, h("th", { scope: "col" }, texts.effect), h("td", {}), h("th", { scope: "col", class: "number" }, `${texts.error} (${unit})`), h("th", { scope: "col", class: "number" }, `${texts.leftOut} (${unit})`))),
-      h("tbody", {}, rows.map((each) => row(each.effect ? `+ ${each.effect}` : texts.withoutModel, each.share, each.rms, each.left_out)),
+      h("tbody", {}, rows.map((each, step) => row(each.effect ? stepButton(each.effect, step, actions) : texts.withoutModel, each.share, each.rms, each.left_out, undefined, step)),
         floor && row(texts.noiseFloor, floor.share, floor.rms, "", "floor"))),
   ];
+}
+
+function stepButton(effect, step, actions) {
+  return h("button", { type: "button", class: "plain", "data-key": `step-${effect}`, focus: () => actions.preview(String(step), effect), blur: () => actions.preview(null) }, `+ ${effect}`);
 }
 
 /** The parameters of the standards: now, and as forecast after compensation. */
@@ -193,7 +236,7 @@ function about(effect) {
 }
 
 function add(texts, each, actions) {
-  return button(texts.add, said(texts.addEffect, { effect: each.effect }), `add-${each.effect}`, () => actions.add(each.argument), "strong");
+  return button(texts.add, said(texts.addEffect, { effect: each.effect }), `add-${each.effect}`, () => actions.add(each.argument), "add");
 }
 
 function button(label, name, key, click, look) {

@@ -1,7 +1,8 @@
-// A graph of single readings with curves and bands: drawn as SVG, pointed at by mouse, finger or keys.
-// Directions differ by shape, line and colour; the look stands in the style sheet.
+// A graph of single readings with curves and bands, drawn as SVG. Directions differ by shape, line and colour;
+// the look stands in the style sheet. What is done with mouse, finger and keys stands in pointing.js.
 
 import { fill, h, s } from "./dom.js";
+import { pointing } from "./pointing.js";
 import { extent, scale, ticks } from "./scale.js";
 
 const MARGIN = { left: 50, right: 14, top: 8, bottom: 34 };
@@ -10,32 +11,33 @@ const MOST_RINGS = 600;
 const WIDTH_OF_TICK = 84;
 const HEIGHT_OF_TICK = 38;
 const MANY = 2000;
-const SHORTEST_DRAG = 6;
 let count = 0;
 
 export class Plot {
-  /** `marked` is told which reading is pointed at (or null), `pinned` which is chosen, `zoomed` the range. */
-  constructor({ label, hint, number, marked, pinned, zoomed }) {
+  /** `told` holds what is called: `marked` and `pinned` with a reading, `zoomed` with ranges, `boxed` with readings. */
+  constructor({ label, hint, number, ...told }) {
     this.number = number;
-    this.told = { marked, pinned, zoomed };
+    this.told = told;
+    this.mode = "zoom";
     this.identifier = `plot-${(count += 1)}`;
     this.svg = s("svg", { "aria-hidden": "true", focusable: "false" });
     this.text = h("p", { class: "unseen", id: `${this.identifier}-text` });
     this.element = h("div", {
       class: "plot", tabindex: "0", role: "application", "aria-label": label,
-      "aria-describedby": `${this.identifier}-text ${hint}`,
-      pointermove: (event) => this.#moved(event), pointerleave: () => this.#left(),
-      pointerdown: (event) => this.#pressed(event), pointerup: (event) => this.#released(event),
-      dblclick: () => zoomed(null), keydown: (event) => this.#typed(event),
+      "aria-describedby": `${this.identifier}-text ${hint}`, ...pointing(this),
     }, this.svg, this.text);
     this.rings = [];
     this.at = null;
     new ResizeObserver(() => this.#draw()).observe(this.element);
   }
 
-  /** Show readings (`x`, `y`, `direction`, `fitted` arrays), curves, bands, and the level of the noise. */
+  /**
+   * Show readings (`x`, `y`, `direction`, `fitted` arrays), curves, bands, and the level of the noise; what was
+   * before (`ghost`: curves and `y`), lines, classes of colour; `range` and `span` are what is in sight.
+   */
   show(data) {
     this.data = data;
+    this.rings = []; // those of other readings
     this.text.textContent = data.alternative;
     this.#draw();
   }
@@ -47,29 +49,85 @@ export class Plot {
     this.#drawRings();
   }
 
+  /** Return the whole range of an axis, `x` or `y`, with the room that it is drawn with. */
+  whole(axis) {
+    const { data } = this;
+    return axis === "x" ? extent(data.x, data.labels ? 0.35 : 0.015) : extent(this.#heights(-Infinity, Infinity), 0.06);
+  }
+
+  /** Return which readings are in sight, within a box of values if there is one. */
+  within(box = { x: [this.x.low, this.x.high], y: [this.y.low, this.y.high] }) {
+    const { x, y } = this.data;
+    const inside = (value, [low, high]) => value !== null && value >= low && value <= high;
+    return [...x.keys()].filter((index) => this.#isShown(index) && inside(x[index], box.x) && inside(y[index], box.y));
+  }
+
+  /** Return the reading nearest to a place on the screen; null where none is near. */
+  nearest({ x, y }) {
+    let best = null;
+    let distance = REACH ** 2;
+    for (let index = 0; index < this.data.x.length; index += 1) {
+      if (this.data.x[index] === null || !this.#isShown(index)) continue;
+      const far = (this.x(this.data.x[index]) - x) ** 2 + (this.y(this.data.y[index]) - y) ** 2;
+      if (far < distance) [best, distance] = [index, far];
+    }
+    return best;
+  }
+
+  /** Show the box that is being drawn, from one corner on the screen to the other; none for none. */
+  select(from, to) {
+    const at = from ? { x: Math.min(from.x, to.x), y: Math.min(from.y, to.y), width: Math.abs(from.x - to.x), height: Math.abs(from.y - to.y) } : { width: 0, height: 0 };
+    for (const [name, value] of Object.entries(at)) this.selection.setAttribute(name, value);
+  }
+
+  #isShown(index) {
+    return !this.data.hidden.has(this.data.direction[index] > 0 ? "up" : "down");
+  }
+
+  /** Return all heights that are drawn between two places of the axis. */
+  #heights(low, high) {
+    const { data } = this;
+    const found = data.noise ? [data.noise, -data.noise] : [];
+    for (let index = 0; index < data.x.length; index += 1) {
+      if (data.x[index] >= low && data.x[index] <= high && this.#isShown(index)) {
+        found.push(data.y[index]);
+        if (data.ghost) found.push(data.ghost.y[index]);
+      }
+    }
+    for (const curve of this.#curvesShown()) {
+      for (let index = 0; index < curve.x.length; index += 1) {
+        if (curve.x[index] >= low && curve.x[index] <= high) found.push(curve.y[index], curve.low ? curve.low[index] : curve.y[index], curve.high ? curve.high[index] : curve.y[index]);
+      }
+    }
+    return found;
+  }
+
+  #curvesShown() {
+    return this.data.curves.filter((curve) => !this.data.hidden.has(curve.direction > 0 ? "model-up" : "model-down"));
+  }
+
   #draw() {
     const width = this.element.clientWidth;
     const height = this.element.clientHeight;
     if (!this.data || width < 80 || height < 60) return;
     const { data } = this;
     this.svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
-    const all = [data.y, ...data.curves.flatMap((each) => [each.y, each.low ?? [], each.high ?? []])].flat();
-    const [low, high] = extent(data.noise ? [...all, data.noise, -data.noise] : all, 0.06);
-    const [first, last] = data.range ?? extent(data.x, data.labels ? 0.35 : 0.015);
+    const [first, last] = data.range ?? this.whole("x");
+    const [low, high] = data.span ?? extent(data.range ? this.#heights(first, last) : this.#heights(-Infinity, Infinity), 0.06);
     this.x = scale(first, last, MARGIN.left, width - MARGIN.right);
     this.y = scale(low, high, height - MARGIN.bottom, MARGIN.top);
     const inside = { x: MARGIN.left, y: MARGIN.top, width: width - MARGIN.left - MARGIN.right, height: height - MARGIN.top - MARGIN.bottom };
     this.ringed = s("g", { class: "rings" });
-    this.selection = s("rect", { class: "selection", y: MARGIN.top, height: inside.height, x: 0, width: 0 });
+    this.selection = s("rect", { class: "selection", x: 0, y: 0, width: 0, height: 0 });
     fill(this.svg,
       s("clipPath", { id: this.identifier }, s("rect", inside)),
-      this.#axes(inside, width, height),
-      s("g", { "clip-path": `url(#${this.identifier})` }, this.#levels(inside), this.#curves(), this.#points(), this.selection, this.ringed),
+      this.#axes(inside, height),
+      s("g", { "clip-path": `url(#${this.identifier})` }, this.#levels(inside), this.#ghost(), this.#curves(this.#curvesShown(), ""), this.#points(data.y, ""), this.#lines(), this.ringed, this.selection),
     );
     this.#drawRings();
   }
 
-  #axes(inside, width, height) {
+  #axes(inside, height) {
     const { data, x, y } = this;
     const bottom = inside.y + inside.height;
     const across = data.labels
@@ -101,29 +159,45 @@ export class Plot {
     ];
   }
 
-  #curves() {
-    return this.data.curves.map((curve) => {
+  /** What was there before a step, behind what is there after it. */
+  #ghost() {
+    const { ghost } = this.data;
+    return ghost ? [this.#curves(ghost.curves, " ghost"), ghost.y !== this.data.y && this.#points(ghost.y, " ghost")] : [];
+  }
+
+  #curves(curves, look) {
+    return curves.map((curve) => {
       const side = curve.direction > 0 ? "up" : "down";
       const line = (values) => curve.x.map((value, index) => `${this.x(value).toFixed(1)},${this.y(values[index]).toFixed(1)}`);
       return [
-        curve.low && s("path", { class: `band ${side}`, d: `M${[...line(curve.low), ...line(curve.high).reverse()].join("L")}Z` }),
-        s("path", { class: `curve ${side}`, d: `M${line(curve.y).join("L")}` }),
+        curve.low && !look && s("path", { class: `band ${side}`, d: `M${[...line(curve.low), ...line(curve.high).reverse()].join("L")}Z` }),
+        s("path", { class: `curve ${side}${look}`, d: `M${line(curve.y).join("L")}` }),
       ];
     });
   }
 
-  #points() {
+  #points(heights, look) {
     const { data } = this;
-    const paths = { up: [], down: [], "up flagged": [], "down flagged": [] };
+    const paths = new Map();
     const many = data.x.length > MANY;
     const size = many ? 2 : 4.2;
     for (let index = 0; index < data.x.length; index += 1) {
       const value = data.x[index];
-      if (value === null || value < this.x.low || value > this.x.high) continue;
+      if (value === null || value < this.x.low || value > this.x.high || !this.#isShown(index)) continue;
       const up = data.direction[index] > 0;
-      paths[`${up ? "up" : "down"}${data.fitted[index] ? "" : " flagged"}`].push(triangle(this.x(value), this.y(data.y[index]), up ? size : -size));
+      const flagged = data.fitted[index] ? "" : " flagged";
+      const shade = look || flagged || !data.shades ? "" : ` shade-${data.shades[index]}`;
+      const name = `mark ${up ? "up" : "down"}${flagged}${shade}${many ? " many" : ""}${look}`;
+      if (!paths.has(name)) paths.set(name, []);
+      paths.get(name).push(triangle(this.x(value), this.y(heights[index]), up ? size : -size));
     }
-    return Object.entries(paths).map(([look, marks]) => marks.length > 0 && s("path", { class: `mark ${look}${many ? " many" : ""}`, d: marks.join("") }));
+    return [...paths].map(([name, marks]) => s("path", { class: name, d: marks.join("") }));
+  }
+
+  /** Lines through passes: each from one place of the axis to another. */
+  #lines() {
+    return (this.data.lines ?? []).filter(({ direction }) => !this.data.hidden.has(direction > 0 ? "up" : "down"))
+      .map(({ from, to, direction }) => s("line", { class: `pass ${direction > 0 ? "up" : "down"}`, x1: this.x(from[0]), y1: this.y(from[1]), x2: this.x(to[0]), y2: this.y(to[1]) }));
   }
 
   #drawRings() {
@@ -135,108 +209,27 @@ export class Plot {
       shown.map((index) => s("circle", { class: "ring", cx: this.x(data.x[index]), cy: this.y(data.y[index]), r: 7 })),
     );
   }
+}
 
-  #nearest(event) {
-    const box = this.element.getBoundingClientRect();
-    const [x, y] = [event.clientX - box.left, event.clientY - box.top];
-    let best = null;
-    let distance = REACH ** 2;
-    for (let index = 0; index < this.data.x.length; index += 1) {
-      if (this.data.x[index] === null) continue;
-      const far = (this.x(this.data.x[index]) - x) ** 2 + (this.y(this.data.y[index]) - y) ** 2;
-      if (far < distance) [best, distance] = [index, far];
-    }
-    return best;
-  }
-
-  #moved(event) {
-    if (!this.data) return;
-    if (this.from !== undefined) {
-      this.#select(event);
-      return;
-    }
-    this.at = this.#nearest(event);
-    this.told.marked(this.at);
-  }
-
-  #left() {
-    if (this.from === undefined) this.told.marked(null);
-  }
-
-  #pressed(event) {
-    if (event.button !== 0 || !this.data) return;
-    this.element.setPointerCapture(event.pointerId);
-    this.from = event.clientX - this.element.getBoundingClientRect().left;
-    this.to = this.from;
-  }
-
-  #select(event) {
-    this.to = event.clientX - this.element.getBoundingClientRect().left;
-    const [left, right] = [this.from, this.to].sort((one, other) => one - other);
-    this.selection.setAttribute("x", left);
-    this.selection.setAttribute("width", right - left);
-  }
-
-  #released(event) {
-    if (this.from === undefined) return;
-    const [left, right] = [this.from, this.to].sort((one, other) => one - other);
-    this.from = undefined;
-    this.selection.setAttribute("width", 0);
-    if (right - left < SHORTEST_DRAG) {
-      this.at = this.#nearest(event);
-      this.told.pinned(this.at);
-    } else if (!this.data.labels) {
-      this.told.zoomed([Math.max(this.x.low, this.x.value(left)), Math.min(this.x.high, this.x.value(right))]);
-    }
-  }
-
-  #typed(event) {
-    if (!this.data) return;
-    const steps = { ArrowRight: 1, ArrowLeft: -1, PageDown: 10, PageUp: -10 };
-    if (event.key in steps) this.#step(steps[event.key]);
-    else if (event.key === "ArrowUp" || event.key === "ArrowDown") this.#otherAtSamePlace(event.key === "ArrowUp");
-    else if (event.key === "Home") this.#go(this.#order()[0]);
-    else if (event.key === "End") this.#go(this.#order().at(-1));
-    else if (event.key === "Enter" || event.key === " ") this.told.pinned(this.at);
-    else if (event.key === "Escape") {
-      this.at = null;
-      this.told.pinned(null);
-    } else if (event.key === "+" || event.key === "-") this.#closer(event.key === "+" ? 0.5 : 2);
-    else return;
-    event.preventDefault();
-  }
-
-  #order() {
-    const { data } = this;
-    return [...data.x.keys()].filter((index) => data.x[index] !== null).sort((one, other) => data.x[one] - data.x[other] || data.y[one] - data.y[other]);
-  }
-
-  #step(by) {
-    const order = this.#order();
-    const now = this.at === null ? -Math.sign(by) : order.indexOf(this.at);
-    this.#go(order[Math.max(0, Math.min(order.length - 1, this.at === null && by < 0 ? order.length - 1 : now + by))]);
-  }
-
-  #otherAtSamePlace(higher) {
-    if (this.at === null) return;
-    const { x, y } = this.data;
-    const beyond = [...x.keys()].filter((index) => x[index] === x[this.at] && (higher ? y[index] > y[this.at] : y[index] < y[this.at]));
-    if (beyond.length) this.#go(beyond.reduce((best, index) => (Math.abs(y[index] - y[this.at]) < Math.abs(y[best] - y[this.at]) ? index : best)));
-  }
-
-  #go(index) {
-    this.at = index;
-    this.told.marked(index);
-  }
-
-  #closer(factor) {
-    if (this.data.labels) return;
-    const middle = this.at === null ? (this.x.low + this.x.high) / 2 : this.data.x[this.at];
-    const half = ((this.x.high - this.x.low) / 2) * factor;
-    const [first, last] = extent(this.data.x, 0.015);
-    const range = [Math.max(first, middle - half), Math.min(last, middle + half)];
-    this.told.zoomed(range[0] <= first && range[1] >= last ? null : range);
-  }
+/** Return straight lines through the readings of each pass (`run` and direction) over an axis, with their slopes. */
+export function passes(x, y, run, direction) {
+  const groups = new Map();
+  x.forEach((value, index) => {
+    if (value === null) return;
+    const name = `${run[index]} ${direction[index]}`;
+    if (!groups.has(name)) groups.set(name, []);
+    groups.get(name).push(index);
+  });
+  return [...groups.values()].filter((group) => group.length > 2).flatMap((group) => {
+    const mean = (values) => group.reduce((sum, index) => sum + values[index], 0) / group.length;
+    const [middle, level] = [mean(x), mean(y)];
+    const spread = group.reduce((sum, index) => sum + (x[index] - middle) ** 2, 0);
+    if (!(spread > 0)) return [];
+    const slope = group.reduce((sum, index) => sum + (x[index] - middle) * (y[index] - level), 0) / spread;
+    const [first, last] = extent(group.map((index) => x[index]));
+    const at = (value) => [value, level + slope * (value - middle)];
+    return [{ run: run[group[0]], direction: direction[group[0]], slope, from: at(first), to: at(last) }];
+  });
 }
 
 /** Return a triangle about a place, upwards for a positive size. */

@@ -15,9 +15,9 @@ export class Refusal extends Error {
 /** Nobody answers. */
 export class Silence extends Error {}
 
-/** Return what stands at an address. */
-export async function get(path) {
-  return answered(path, {});
+/** Return what stands at an address, asked with values. */
+export async function get(path, values = {}) {
+  return answered(path, {}, values);
 }
 
 /** Send a click, with the digest of the job that it was made on. */
@@ -25,15 +25,11 @@ export async function post(path, body) {
   return answered(path, { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify(body) });
 }
 
-/** Return an address in the language of the page. */
-export function addressed(path) {
-  return language ? `${path}?lang=${encodeURIComponent(language)}` : path;
-}
-
-async function answered(path, options) {
+async function answered(path, options, values = {}) {
+  const query = new URLSearchParams(language ? { ...values, lang: language } : values).toString();
   let response;
   try {
-    response = await fetch(addressed(path), options);
+    response = await fetch(query ? `${path}?${query}` : path, options);
   } catch {
     throw new Silence();
   }

@@ -19,24 +19,27 @@ class Page {
       remove: (effect) => this.#change({ action: "remove", effect }),
       fix: (effect, parameter, value) => this.#change({ action: "fix", effect, parameter, value }),
       free: (effect, parameter) => this.#change({ action: "free", effect, parameter }),
-      include: (reading) => this.#change({ action: "include", reading }),
+      include: (listed) => this.#change({ action: "include", listed }),
+      state: (parameter, value) => this.#change({ action: "state", parameter, value }),
+      preview: (step, name) => this.#preview(step, name),
       certificate: () => this.#make(),
     };
-    this.graphs = new Graphs(texts, this.number, (reading, reason) => this.#change({ action: "exclude", reading, reason }));
+    this.graphs = new Graphs(texts, this.number, (readings, reason) => this.#change({ action: "exclude", readings, reason }));
     this.notice = h("div", { class: "notice", role: "alert", hidden: true });
     this.header = h("header", {}, h("p", { role: "status" }, texts.working));
-    this.parts = Object.fromEntries(["verdict", "failures", "candidates", "hidden", "certificate", "fall", "effects", "standards", "excluded", "steps"]
+    this.parts = Object.fromEntries(["verdict", "fall", "faults", "failures", "candidates", "hidden", "certificate", "effects", "standards", "excluded", "steps"]
       .map((name) => [name, h("section", { class: "panel", id: `part-${name}` })]));
-    const { verdict, failures, candidates, hidden, certificate, fall, effects, standards, excluded, steps } = this.parts;
+    const { verdict, fall, faults, failures, candidates, hidden, certificate, effects, standards, excluded, steps } = this.parts;
     document.body.replaceChildren(this.header, this.notice, h("main", {},
-      h("div", { class: "bench" }, h("div", {}, this.graphs.element, fall), h("div", { class: "findings" }, verdict, failures, candidates, hidden, certificate)),
-      h("div", { class: "results" }, effects, standards, h("div", {}, excluded, steps))));
+      h("div", { class: "bench" }, h("div", { class: "always" }, verdict, fall), h("div", { class: "seen" }, this.graphs.element, effects), h("div", { class: "findings" }, faults, failures, candidates, hidden, certificate)),
+      h("div", { class: "results" }, standards, h("div", {}, excluded, steps))));
   }
 
   /** Show the job as it is, and go on looking whether it still is. */
   async begin() {
     await this.#load();
     setInterval(() => this.#look(), LOOK);
+    addEventListener("keydown", (event) => this.#typed(event));
   }
 
   async #load() {
@@ -53,10 +56,13 @@ class Page {
     this.job = job;
     this.stamp = job.stamp;
     this.diagnosis = null;
+    this.previews = new Map();
+    this.previewed = null;
     this.graphs.show(job.graphs);
+    this.graphs.compare(null);
     const { texts, parts } = this;
     fill(this.header, ...this.#heading(job));
-    fill(parts.fall, panels.fall(texts, job));
+    fill(parts.fall, panels.fall(texts, job, this.actions));
     fill(parts.effects, panels.effects(texts, job, this.actions));
     fill(parts.standards, panels.standards(texts, job));
     fill(parts.excluded, panels.excluded(texts, job, this.actions));
@@ -72,16 +78,19 @@ class Page {
       h("h1", {}, job.number, h("span", {}, job.subject)),
       h("code", {}, job.file),
       h("span", { class: "busy", "aria-hidden": "true" }, texts.working),
-      h("button", { type: "button", "data-key": "undo", disabled: job.undo === null, click: () => this.#change({ action: "undo" }) },
-        job.undo === null ? texts.undo : said(texts.undoOf, { step: job.undo })),
+      [["undo", texts.undo, texts.undoOf], ["redo", texts.redo, texts.redoOf]].map(([action, name, of]) =>
+        h("button", { type: "button", "data-key": action, disabled: job[action] === null, click: () => this.#change({ action }) },
+          job[action] === null ? name : said(of, { step: job[action] }))),
       h("a", { href: `?lang=${document.documentElement.lang === "de" ? "en" : "de"}`, hreflang: document.documentElement.lang === "de" ? "en" : "de", lang: document.documentElement.lang === "de" ? "en" : "de" }, texts.language),
     ];
   }
 
   #showDiagnosis() {
     const { texts, parts, job, diagnosis } = this;
-    fill(parts.verdict, panels.verdict(texts, job, diagnosis, this.number));
+    fill(parts.verdict, panels.verdict(texts, job, diagnosis, this.number, this.actions));
     const found = diagnosis?.diagnosis;
+    fill(parts.faults, found ? panels.faults(texts, found, (axis, places) => this.graphs.point(axis, places)) : []);
+    if (found?.faults.length) this.graphs.ring(found.faults.flatMap((each) => each.readings));
     fill(parts.failures, found ? panels.failures(texts, found, (axis, places) => this.graphs.point(axis, places)) : []);
     fill(parts.candidates, found ? panels.candidates(texts, found, this.actions) : []);
     fill(parts.hidden, found ? panels.hidden(texts, found) : []);
@@ -137,6 +146,35 @@ class Page {
     } catch (error) {
       this.#tell(error);
     }
+  }
+
+  /** Show before and after a step that is pointed at, as soon as it is known and if it still is; null for none. */
+  async #preview(step, name) {
+    this.previewed = step;
+    const { previews } = this;
+    if (step === null) {
+      this.graphs.compare(null);
+      return;
+    }
+    if (!previews.has(step)) previews.set(step, get("/api/step", { of: step }));
+    try {
+      const found = await previews.get(step);
+      if (this.previewed === step && this.previews === previews) this.graphs.compare(found, name);
+    } catch (error) {
+      if (!(error instanceof Refusal || error instanceof Silence)) throw error;
+    }
+  }
+
+  /** Undo and redo by the keys that people know, but not while they write. */
+  #typed(event) {
+    if (!(event.ctrlKey || event.metaKey) || event.target.closest("input, select")) return;
+    const key = event.key.toLowerCase();
+    let action = null;
+    if (key === "z") action = event.shiftKey ? "redo" : "undo";
+    else if (key === "y") action = "redo";
+    if (action === null) return;
+    event.preventDefault();
+    if (this.job?.[action]) this.#change({ action });
   }
 
   /** Do one thing after the other: a click while another is under way is not lost. */

@@ -62,9 +62,23 @@ GRAPH_TEXTS: Mapping[str, Words] = MappingProxyType(
         "modelDown": Words(en="model ↓ with U", de="Modell ↓ mit U"),
         "noise": Words(en="± 2σ of single readings", de="± 2σ einzelner Messwerte"),
         "zoom": Words(
-            en="Drag to look closer; double-click for the whole axis.",
-            de="Ziehen vergrößert; Doppelklick zeigt wieder die ganze Achse.",
+            en="Drag to look closer, with Shift to move; double-click for the whole axis.",
+            de="Ziehen vergrößert, mit Umschalt verschiebt es; Doppelklick zeigt wieder die ganze Achse.",
         ),
+        "direction": _DIRECTION,
+        "colour": Words(en="coloured by", de="Farbe nach"),
+        "mode": Words(en="What dragging does", de="Was Ziehen bewirkt"),
+        "modeZoom": Words(en="Look closer", de="Vergrößern"),
+        "modeMove": Words(en="Move", de="Verschieben"),
+        "modeSelect": Words(en="Choose readings", de="Messwerte wählen"),
+        "save": Words(en="Save …", de="Sichern …"),
+        "inSight": Words(en="Readings in sight", de="Sichtbare Messwerte"),
+        "asTable": Words(en="The readings in sight as a table", de="Die sichtbaren Messwerte als Tabelle"),
+        "more": Words(
+            en="{count} more: look closer to see them.", de="{count} weitere: zum Ansehen vergrößern."
+        ),
+        "chosen": Words(en="{count} readings chosen", de="{count} Messwerte gewählt"),
+        "slope": Words(en="Slope of its pass", de="Steigung des Durchgangs"),
     }
 )
 _IN_TIME = {ResidualTest.TIME_ORDER, ResidualTest.PERIOD_IN_TIME}

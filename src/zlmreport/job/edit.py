@@ -193,9 +193,7 @@ def edit_list(
     AccessError
         If the file cannot be read.
     """
-    content = _content(path)
-    digest = job.files[0].sha256
-    _refuse_changed(content, digest, Place(str(path)))
+    content = content_of(path, job)
     where, listed = change.where, listed_items(job, change.where)
     nodes = [
         *(
@@ -210,16 +208,24 @@ def edit_list(
     is_own = own_list(Written.of(text), where) is not None
     try:
         edited = mark + (_edited(text, change) if is_own else with_list(text, where, nodes)).encode()
-        after = _loaded(path, registry, edited)
+        after = loaded(path, registry, edited)
     except UneditableError:
         after = None
-    if after is None or not is_meant(after) or not _is_alike_elsewhere(job, after, where):
+    is_alike = (
+        after is not None
+        and is_meant(after)
+        and after.axis == job.axis
+        and (where == EFFECTS or meaning(after.effects) == meaning(job.effects))
+        and alike_elsewhere(job, after, where.group, where.key)
+    )
+    if after is None or not is_alike:
         written = ", ".join(as_text(node) for node in nodes)
         raise InputError.at(
             job.place_of(str(where)),
             f"cannot be changed here without changing more; write it by hand: {where.key}: [{written}]",
         )
-    return Edit(path, digest, edited, after, "" if is_own or not listed else listed[0].place.file)
+    inherited = "" if is_own or not listed else listed[0].place.file
+    return Edit(path, job.files[0].sha256, edited, after, inherited)
 
 
 def listed_items(job: Job, where: ListKey) -> tuple[Node, ...]:
@@ -241,11 +247,14 @@ def _edited(text: str, change: ListChange) -> str:
     return text
 
 
-def _content(path: Path) -> bytes:
+def content_of(path: Path, job: Job) -> bytes:
+    """Return what a job file holds; refuse one that is no longer what was loaded."""
     try:
-        return path.read_bytes()
+        content = path.read_bytes()
     except OSError as error:
         raise unreadable(path, error) from error
+    _refuse_changed(content, job.files[0].sha256, Place(str(path)))
+    return content
 
 
 def _refuse_changed(content: bytes, digest: str, place: Place) -> None:
@@ -255,31 +264,30 @@ def _refuse_changed(content: bytes, digest: str, place: Place) -> None:
         )
 
 
-def _loaded(path: Path, registry: Installed, content: bytes) -> Job | None:
+def loaded(path: Path, registry: Installed, content: bytes) -> Job | None:
+    """Return the job that a file would be with another content; None for one that makes no sense."""
     try:
         return load(path, registry, content=content)
     except InputError:
         return None
 
 
-def _is_alike_elsewhere(before: Job, after: Job, where: ListKey) -> bool:
-    """Return whether two jobs mean the same but for a list."""
+def alike_elsewhere(before: Job, after: Job, group: str, key: str) -> bool:
+    """Return whether two jobs mean the same but for a key; effects and axis are for the caller to hold."""
     return (
-        _without(before.keys, where) == _without(after.keys, where)
-        and (where == EFFECTS or meaning(after.effects) == meaning(before.effects))
+        _without(before.keys, group, key) == _without(after.keys, group, key)
         and after.source.options == before.source.options
         and after.standards == before.standards
-        and after.axis == before.axis
         and [each.options for each in after.extensions] == [each.options for each in before.extensions]
     )
 
 
-def _without(keys: JobKeys, where: ListKey) -> dict[str, Any]:
-    """Return what a job says but for a list."""
+def _without(keys: JobKeys, group: str, key: str) -> dict[str, Any]:
+    """Return what a job says but for a key."""
     stated = keys.model_dump()
-    group = {**(stated[where.group] or {})}
-    group.pop(where.key, None)
-    return {**stated, where.group: group}
+    kept = {**(stated[group] or {})}
+    kept.pop(key, None)
+    return {**stated, group: kept}
 
 
 def meaning(choices: Sequence[EffectChoice]) -> list[tuple[object, ...]]:

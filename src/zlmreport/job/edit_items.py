@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from types import MappingProxyType
@@ -94,8 +94,8 @@ def _number(value: float) -> str:
 EXCLUDED = ListKey("measurement", "excluded")
 
 
-def exclude(path: Path, job: Job, registry: Installed, exclusion: ExclusionKeys) -> Edit:
-    """Return the change of a job that sets a reading aside.
+def exclude(path: Path, job: Job, registry: Installed, exclusions: Sequence[ExclusionKeys]) -> Edit:
+    """Return the change of a job that sets readings aside.
 
     Raises
     ------
@@ -105,8 +105,8 @@ def exclude(path: Path, job: Job, registry: Installed, exclusion: ExclusionKeys)
     AccessError
         If the file cannot be read.
     """
-    wanted = [*job.keys.measurement.excluded, exclusion]
-    change = ListChange(EXCLUDED, added=[_exclusion_node(exclusion)])
+    wanted = [*job.keys.measurement.excluded, *exclusions]
+    change = ListChange(EXCLUDED, added=[_exclusion_node(each) for each in exclusions])
     return edit_list(path, job, registry, change, lambda after: after.keys.measurement.excluded == wanted)
 
 

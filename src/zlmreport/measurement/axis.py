@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
+from typing import Any
 
 import numpy as np
 
@@ -115,6 +116,11 @@ class Axis:
     def deviation_unit(self) -> Unit:
         """The unit in which deviations are read and printed."""
         return MICROMETRE if self.kind is AxisKind.LINEAR else ARCSECOND
+
+    def with_length(self, key: str, length: float) -> Axis:
+        """Return the axis with one of its lengths stated, by the name of the attribute; m or rad."""
+        lengths: dict[str, Any] = {key: length}
+        return replace(self, **lengths)
 
     def typed(self, position: float) -> float:
         """Return a position (m or rad) in mm or degrees as it was typed.

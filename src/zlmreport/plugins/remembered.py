@@ -17,7 +17,7 @@ from importlib.metadata import EntryPoint
 from pathlib import Path
 
 from zlmreport.errors import AccessError
-from zlmreport.files import Document, write
+from zlmreport.files import Document, cache_folder, write
 from zlmreport.plugins.candidate import Candidate, Key
 from zlmreport.version import __version__
 
@@ -41,12 +41,8 @@ class Memory:
     @classmethod
     def of_user(cls, environment: Mapping[str, str] = os.environ) -> Memory:
         """Return the memory in the folder that the user's system keeps for such files."""
-        folders = (
-            Path(environment.get("XDG_CACHE_HOME", "")),
-            Path(environment.get("HOME", ""), ".cache"),
-        )
-        folder = next((each for each in folders if each.is_absolute()), None)
-        return cls(folder / "zlmreport" / _FILE if folder else None)
+        folder = cache_folder(environment)
+        return cls(folder / _FILE if folder else None)
 
     def recall(self, point: EntryPoint) -> Collection[Key] | None:
         """Return what a plugin offered; None if that is not known of this very installation."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
 from zlmreport.language import Language, Words
@@ -112,6 +112,8 @@ class DiagnosisRows:
         Where it fails, the clearest first.
     candidates
         What it may lack, best first.
+    implausible
+        Where only impossible ones are left, these.
     hidden
         Effects that the plan of the test hides beside this model.
     not_tested
@@ -126,6 +128,7 @@ class DiagnosisRows:
     error: ErrorRows
     failures: tuple[FailureRow, ...]
     candidates: tuple[CandidateRow, ...]
+    implausible: tuple[CandidateRow, ...]
     hidden: tuple[HiddenRow, ...]
     not_tested: tuple[HiddenRow, ...]
     not_excluded: tuple[str, ...]
@@ -148,14 +151,19 @@ class DiagnosisRows:
         """
         axis = diagnosis.fit.design.axis
         serious = serious_candidates(diagnosis)
+
+        def rows(candidates: Iterable[Candidate]) -> tuple[CandidateRow, ...]:
+            return tuple(
+                _candidate(each, diagnosis, language, titles or {}, is_serious=each in serious)
+                for each in candidates
+            )
+
         return cls(
             statement=verdict_statement(diagnosis).in_language(language),
             error=ErrorRows.of(diagnosis.error, axis, language),
             failures=tuple(failure_row(each, language) for each in diagnosis.failures),
-            candidates=tuple(
-                _candidate(each, diagnosis, language, titles or {}, is_serious=each in serious)
-                for each in diagnosis.candidates
-            ),
+            candidates=rows(diagnosis.candidates),
+            implausible=rows(diagnosis.implausible),
             hidden=tuple(_hidden(diagnosis, language)),
             not_tested=_not_tested(diagnosis, language),
             not_excluded=tuple(diagnosis.not_excluded),

@@ -29,8 +29,9 @@ from zlmreport.web.changes import ConflictError, NothingToUndoError, Request, ch
 from zlmreport.web.diagnoses import Diagnoses
 from zlmreport.web.effect_page import effect_page
 from zlmreport.web.guard import HOST, Door, Guard
+from zlmreport.web.remembered import Answers
 from zlmreport.web.texts import texts
-from zlmreport.web.view import view
+from zlmreport.web.view import before_and_after, view
 
 _TITLE = Words(en="Workbench", de="Werkbank")
 _NO_SCRIPT = Words(
@@ -60,7 +61,8 @@ class Workbench:
         """Return the answers for a job; raise what is wrong with it as `Bench.loaded` does."""
         bench = Bench(job, registry)
         bench.loaded()
-        return cls(bench, Diagnoses(job, plugins), Certificates(job, plugins))
+        diagnoses = Diagnoses(job, Answers.of_user(registry.effects), plugins)
+        return cls(bench, diagnoses, Certificates(job, plugins))
 
     def app(self, door: Door) -> Guard:
         """Return the application behind its guard."""
@@ -72,6 +74,7 @@ class Workbench:
             Route("/api/texts", self.texts),
             Route("/api/stamp", self.stamp),
             Route("/api/job", self.job),
+            Route("/api/step", self.step),
             Route("/api/diagnosis", self.diagnosis),
             Route("/api/effects/{effect}", self.effect),
             Route("/api/change", self.change, methods=["POST"]),
@@ -116,11 +119,20 @@ class Workbench:
         """Answer with the job as values."""
         return await self._answered(request, lambda: self._view(request))
 
+    async def step(self, request: HttpRequest) -> Response:
+        """Answer with the graphs before and after a step of the model, or an effect that it may lack."""
+
+        def found() -> dict[str, Any]:
+            wanted = request.query_params.get("of", "")[:500]
+            return before_and_after(self.bench, self.bench.loaded(), wanted, self._language(request))
+
+        return await self._answered(request, found)
+
     async def diagnosis(self, request: HttpRequest) -> Response:
         """Answer with the diagnosis of the job, or with the seconds for which it has been under way."""
 
         def found() -> dict[str, Any]:
-            answer = self.diagnoses.of(self.bench.loaded().stamp)
+            answer = self.diagnoses.of(self.bench.loaded().content)
             if "diagnosis" in answer:
                 return {**answer, "diagnosis": answer["diagnosis"][self._language(request).value]}
             return answer

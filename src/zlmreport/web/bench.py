@@ -11,14 +11,16 @@ from threading import RLock
 
 from zlmreport import pipeline
 from zlmreport.certificate.results import Evaluated
+from zlmreport.errors import Place, ZlmreportError
 from zlmreport.job.choices import EffectChoice
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
 from zlmreport.measurement.measurement_set import MeasurementSet
-from zlmreport.model.axis_model import AxisModel
-from zlmreport.model.study import Fitted, Study
+from zlmreport.model.axis_model import AxisModel, chosen_terms
+from zlmreport.model.study import Fitted, Study, addition
 from zlmreport.plugins import Registry
 
+_PLACE = Place("workbench")
 #: Fits that are kept: more than anybody tries in an hour, and few enough for any memory.
 _KEPT_FITS = 64
 
@@ -57,6 +59,12 @@ class Loaded:
     def digest(self) -> str:
         """SHA-256 of the job file: what a change says that it was made from."""
         return self.job.files[0].sha256
+
+    @property
+    def content(self) -> str:
+        """Names what stands in all files behind it, wherever and whenever they were written."""
+        files = (*self.job.files, *self.measurements.provenance.files)
+        return hashlib.sha256(" ".join(each.sha256 for each in files).encode()).hexdigest()
 
 
 @dataclass(slots=True)
@@ -106,9 +114,14 @@ class Bench:
             if self._loaded is not None and self._loaded.stamp == self.stamp():
                 return self._loaded
             self._loaded = None
-            self._watched = ()
-            job = load(self.path, self.registry)
-            found = self.tried(job)
+            try:
+                job = load(self.path, self.registry)
+                found = self.tried(job)
+            except ZlmreportError as error:
+                # Which of them will be mended nobody knows: those of before, and those that are named.
+                named = (Path(each.place.file) for each in error.problems)
+                self._watched = tuple(dict.fromkeys((*self._watched, *named)))
+                raise
             files = (*job.files, *found.measurements.provenance.files)
             self._watched = tuple(dict.fromkeys(each.path for each in files if each.path is not None))
             self._loaded = replace(found, stamp=self.stamp())
@@ -132,6 +145,23 @@ class Bench:
                 )
                 for count in range(len(terms) + 1)
             )
+
+    def with_effect(self, loaded: Loaded, text: str) -> Fitted:
+        """Return the fit of the model with an effect that a person names, in place of what that contains.
+
+        Raises
+        ------
+        InputError
+            If there is no such effect, or it cannot be fitted to these readings.
+        """
+        with self.lock:
+            job, installed = loaded.job, self.registry.effects
+            named, removed = addition(text, job, self.registry, installed, _PLACE)
+            kept = (each for each in job.effects if each.identifier not in removed)
+            effects = (*kept, named.choice)
+            by_identifier = {each.identifier: each for each in installed}
+            terms = chosen_terms(effects, by_identifier.__getitem__, job.axis.kind)
+            return self._fitted(loaded.basis, replace(loaded.study, model=AxisModel(terms)), effects)
 
     def _read(self, job: Job) -> _Readings:
         """Return the readings with their evaluations: as before, if only the model has changed."""

@@ -16,13 +16,16 @@ from pydantic import BaseModel, ConfigDict, StringConstraints, ValidationError
 
 from zlmreport.errors import InputError, Place, Problem
 from zlmreport.job.edit import Edit, edit_effects
+from zlmreport.job.edit_axis import edit_axis
 from zlmreport.job.edit_items import ParameterChoice, edit_parameter, exclude, include
 from zlmreport.job.loading import load
 from zlmreport.job.measurement_keys import ExclusionKeys
 from zlmreport.language import Words
+from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.model.study import Fitted, addition, refuse_useless
+from zlmreport.web.asked import asked
 from zlmreport.web.bench import Bench, Loaded
-from zlmreport.web.journal import UNDO, Journal, entry, undoable
+from zlmreport.web.journal import REDO, UNDO, Entry, Journal, entry, redoable, undoable
 
 _PLACE = Place("workbench")
 _KEY = "model.effects"
@@ -52,7 +55,7 @@ class ConflictError(Exception):
 
 
 class NothingToUndoError(Exception):
-    """The job is not as the last change left it; `words` says so to people."""
+    """The job is not as the last change or undo left it; `words` says so to people."""
 
     words = _NOTHING_TO_UNDO
 
@@ -69,11 +72,13 @@ class Request(BaseModel):
     effect
         Of add and remove, fix and free: an effect; of add as in a job, with its keys.
     parameter
-        Of fix and free.
+        Of fix and free; of state a key of the axis that the page asks for.
     value
-        Of fix: in the unit of the page.
-    reading
-        Of exclude the place of the reading in the measurement set; of include in the job's list.
+        Of fix and state: in the unit of the page.
+    readings
+        Of exclude the places of readings in the measurement set.
+    listed
+        Of include the place of the reading in the job's list.
     reason
         Of exclude.
     """
@@ -85,7 +90,8 @@ class Request(BaseModel):
     effect: ShortText = ""
     parameter: ShortText = ""
     value: float | None = None
-    reading: int = -1
+    readings: tuple[int, ...] = ()
+    listed: int = -1
     reason: ShortText = ""
 
 
@@ -160,42 +166,68 @@ def _with_parameter(bench: Bench, loaded: Loaded, request: Request, value: float
 
 
 def _exclude(bench: Bench, loaded: Loaded, request: Request) -> _Step:
-    measurements, reading = loaded.measurements, request.reading
-    if not 0 <= reading < len(measurements.deviation):
-        raise InputError.at(_PLACE, f"there is no reading {reading}")
-    target = measurements.target_positions[measurements.target[reading]]
-    values = {
-        "target": round(measurements.axis.position_unit.from_si(float(target)), _DECIMALS),
-        "direction": "+" if measurements.approach[reading] > 0 else "-",
-        "run": int(measurements.run[reading]),
-        "reason": request.reason,
-    }
+    measurements = loaded.measurements
+    wrong = [each for each in request.readings if not 0 <= each < len(measurements.deviation)]
+    if wrong or not request.readings:
+        raise InputError.at(_PLACE, f"there is no reading {wrong[0]}" if wrong else "choose a reading first")
     try:
-        exclusion = ExclusionKeys.model_validate(values)
+        exclusions = [_exclusion(measurements, each, request.reason) for each in request.readings]
     except ValidationError as error:
         raise InputError.at(
             _PLACE, "a reading is set aside for a reason: one line that others can read"
         ) from error
-    edit = exclude(bench.path, loaded.job, bench.registry, exclusion)
+    edit = exclude(bench.path, loaded.job, bench.registry, exclusions)
     _tried(bench, loaded, edit)
-    return _Step(edit, _named(exclusion))
+    return _Step(edit, _named(exclusions[0]) if len(exclusions) == 1 else f"{len(exclusions)} readings")
+
+
+def _exclusion(measurements: MeasurementSet, reading: int, reason: str) -> ExclusionKeys:
+    """Return a reading of a measurement set as a job sets it aside."""
+    target = measurements.target_positions[measurements.target[reading]]
+    return ExclusionKeys.model_validate(
+        {
+            "target": round(measurements.axis.position_unit.from_si(float(target)), _DECIMALS),
+            "direction": "+" if measurements.approach[reading] > 0 else "-",
+            "run": int(measurements.run[reading]),
+            "reason": reason,
+        }
+    )
 
 
 def _include(bench: Bench, loaded: Loaded, request: Request) -> _Step:
     listed = loaded.job.keys.measurement.excluded
-    if not 0 <= request.reading < len(listed):
+    if not 0 <= request.listed < len(listed):
         raise InputError.at(_PLACE, "this reading is not set aside")
-    edit = include(bench.path, loaded.job, bench.registry, request.reading)
+    edit = include(bench.path, loaded.job, bench.registry, request.listed)
     _tried(bench, loaded, edit)
-    return _Step(edit, _named(listed[request.reading]))
+    return _Step(edit, _named(listed[request.listed]))
+
+
+def _state(bench: Bench, loaded: Loaded, request: Request) -> _Step:
+    if request.value is None or not math.isfinite(request.value) or request.value <= 0:
+        raise InputError.at(_PLACE, "write the length as a number above zero, such as 10")
+    if request.parameter not in {each.key for each in asked(loaded, bench.registry.effects)}:
+        raise InputError.at(_PLACE, f"the job is not asked for {request.parameter[:60]!r}")
+    edit = edit_axis(bench.path, loaded.job, bench.registry, request.parameter, request.value)
+    _tried(bench, loaded, edit)
+    return _Step(edit, f"axis.{request.parameter}")
 
 
 def _undo(bench: Bench, loaded: Loaded, _: Request) -> _Step:
-    last = undoable(Journal.beside(bench.path).entries(), loaded.digest)
+    return _put_back(bench, loaded, undoable(Journal.beside(bench.path).entries(), loaded.digest))
+
+
+def _redo(bench: Bench, loaded: Loaded, _: Request) -> _Step:
+    return _put_back(bench, loaded, redoable(Journal.beside(bench.path).entries(), loaded.digest))
+
+
+def _put_back(bench: Bench, loaded: Loaded, last: Entry | None) -> _Step:
+    """Return the change that puts back what a line of the record replaced."""
     if last is None:
         raise NothingToUndoError
     job = load(bench.path, bench.registry, content=last.content)
-    return _Step(Edit(bench.path, loaded.digest, last.content, job), f"{last.action} {last.subject}")
+    subject = last.subject if last.action in {UNDO, REDO} else f"{last.action} {last.subject}"
+    return _Step(Edit(bench.path, loaded.digest, last.content, job), subject)
 
 
 def _tried(bench: Bench, loaded: Loaded, edit: Edit) -> Fitted:
@@ -225,6 +257,8 @@ ACTIONS: Mapping[str, Callable[[Bench, Loaded, Request], _Step]] = MappingProxyT
         "free": _free,
         "exclude": _exclude,
         "include": _include,
+        "state": _state,
         UNDO: _undo,
+        REDO: _redo,
     }
 )

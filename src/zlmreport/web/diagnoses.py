@@ -2,7 +2,8 @@
 
 A diagnosis keeps a processor busy for a second, or for minutes on thousands of readings. Apart, it slows no
 page down, and is ended when the job has changed or nobody waits for it. A line of standard input asks for a
-diagnosis of the job as it is on the disk; a line of JSON answers.
+diagnosis of the job as it is on the disk; a line of JSON answers. What was answered once is remembered by the
+content of the files: taking a step back asks nothing anew.
 """
 
 from __future__ import annotations
@@ -22,6 +23,7 @@ from zlmreport.errors import ZlmreportError
 from zlmreport.language import Language
 from zlmreport.plugins import Registry, find_plugins
 from zlmreport.web.bench import Bench
+from zlmreport.web.remembered import Answers
 from zlmreport.web.view import diagnosed
 
 _COMMAND = (sys.executable, "-m", "zlmreport.web.diagnoses")
@@ -35,11 +37,14 @@ class Diagnoses:
     ----------
     path
         The job file.
+    answers
+        Diagnoses that were made before.
     plugins
         Files that are plugins, from the command line.
     """
 
     path: Path
+    answers: Answers
     plugins: Sequence[Path] = ()
     _worker: subprocess.Popen[str] | None = None
     _asked: str = ""
@@ -47,15 +52,19 @@ class Diagnoses:
     _answer: dict[str, Any] | None = None
     _lock: Lock = field(default_factory=Lock)
 
-    def of(self, stamp: str) -> dict[str, Any]:
-        """Return the diagnosis of a state of the job, or for how many seconds it has been under way."""
+    def of(self, content: str) -> dict[str, Any]:
+        """Return the diagnosis of a job of this content, or for how many seconds it has been under way."""
         with self._lock:
-            if self._asked != stamp:
-                self._ask(stamp)
-            if self._answer is not None and self._answer["stamp"] != stamp:
-                self._ask(stamp)  # the job changed while its files were read
+            known = self.answers.recall(content)
+            if known is not None:
+                return {"diagnosis": known}
+            if self._asked != content:
+                self._ask(content)
+            if self._answer is not None and self._answer.get("content", content) != content:
+                self._ask(content)  # the job changed while its files were read
             if self._answer is None:
                 return {"seconds": round(time.monotonic() - self._began, 1)}
+            self._asked = ""  # what failed may do better when it is asked for again
             return self._answer
 
     def end(self) -> None:
@@ -68,32 +77,34 @@ class Diagnoses:
         with self._lock:
             self._running()
 
-    def _ask(self, stamp: str) -> None:
+    def _ask(self, content: str) -> None:
         if self._asked and self._answer is None:
             self._end()
         worker = self._running()
-        self._asked, self._answer, self._began = stamp, None, time.monotonic()
+        self._asked, self._answer, self._began = content, None, time.monotonic()
         assert worker.stdin is not None  # noqa: S101 - opened as a pipe
         try:
             worker.stdin.write("\n")
             worker.stdin.flush()
         except BrokenPipeError:
             self._end()
-            self._answer = {"stamp": stamp, "problems": ["the diagnosis ended unexpectedly"]}
+            self._answer = {"problems": ["the diagnosis ended unexpectedly"]}
             return
-        Thread(target=self._listen, args=(worker, stamp), daemon=True).start()
+        Thread(target=self._listen, args=(worker, content), daemon=True).start()
 
-    def _listen(self, worker: subprocess.Popen[str], stamp: str) -> None:
+    def _listen(self, worker: subprocess.Popen[str], content: str) -> None:
         assert worker.stdout is not None  # noqa: S101 - opened as a pipe
         line = worker.stdout.readline()
         with self._lock:
-            if worker is not self._worker or stamp != self._asked:
+            if worker is not self._worker or content != self._asked:
                 return
             if line:
                 self._answer = json.loads(line)
+                if "diagnosis" in self._answer:
+                    self.answers.keep(self._answer["content"], self._answer["diagnosis"])
             else:
                 self._end()
-                self._answer = {"stamp": stamp, "problems": ["the diagnosis ended unexpectedly"]}
+                self._answer = {"problems": ["the diagnosis ended unexpectedly"]}
 
     def _running(self) -> subprocess.Popen[str]:
         if self._worker is None:
@@ -129,14 +140,14 @@ def main() -> None:
 
 
 def answer(bench: Bench, registry: Registry) -> dict[str, Any]:
-    """Return the diagnosis of the job in all languages, and of which state of the job it is."""
+    """Return the diagnosis of the job in all languages, and of which content of its files it is."""
     try:
         loaded = bench.loaded()
         diagnosis = loaded.study.diagnosis(registry.effects)
     except ZlmreportError as error:
-        return {"stamp": bench.stamp(), "problems": [str(each) for each in error.problems]}
+        return {"problems": [str(each) for each in error.problems]}
     return {
-        "stamp": loaded.stamp,
+        "content": loaded.content,
         "diagnosis": {
             language.value: diagnosed(diagnosis, loaded.study, registry.effects, language)
             for language in Language

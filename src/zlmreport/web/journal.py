@@ -1,7 +1,7 @@
 """What was clicked, line by line in a file beside the job: for people who ask, and for undo.
 
-A line is never altered. An undo is a line of its own, and puts back the bytes that were replaced; it is
-offered only while the job is still as the last change left it.
+A line is never altered. An undo is a line of its own, and puts back the bytes that were replaced; so does
+what takes an undo back. Either is offered only while the job is still as the last line left it.
 """
 
 from __future__ import annotations
@@ -20,6 +20,7 @@ from zlmreport.files import unreadable, unwritable
 SUFFIX = ".history.jsonl"
 SCHEMA = "zlmreport/workbench-history/1"
 UNDO = "undo"
+REDO = "redo"
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,9 +32,11 @@ class Entry:
     at
         When, ISO 8601 with the offset of the local time.
     action
-        What was done: ``add``, ``remove``, ``fix``, ``free``, ``exclude``, ``include`` or ``undo``.
+        What was done: ``add``, ``remove``, ``fix``, ``free``, ``exclude``, ``include``, ``state``, ``undo``
+        or ``redo``.
     subject
-        To what: an effect, a parameter, a reading as ``target direction run``; of an undo what it undoes.
+        To what: an effect, a parameter, a key of the job, a reading as ``target direction run``; of an undo
+        or redo the step that it is about, ``add backlash``.
     before, after
         SHA-256 of the job file.
     rms_before, rms_after
@@ -113,13 +116,31 @@ def entry(action: str, subject: str, contents: tuple[bytes, bytes], errors: tupl
 
 def undoable(entries: Sequence[Entry], digest: str) -> Entry | None:
     """Return the change that an undo would take back; None if the job is not as that change left it."""
-    standing: list[Entry] = []
-    for each in entries:
-        if each.action != UNDO:
-            standing.append(each)
-        elif standing:
-            standing.pop()
+    standing, _ = _stacks(entries)
     return standing[-1] if standing and standing[-1].after == digest else None
+
+
+def redoable(entries: Sequence[Entry], digest: str) -> Entry | None:
+    """Return the undo that a redo would take back; None if the job is not as that undo left it."""
+    _, taken_back = _stacks(entries)
+    return taken_back[-1] if taken_back and taken_back[-1].after == digest else None
+
+
+def _stacks(entries: Sequence[Entry]) -> tuple[list[Entry], list[Entry]]:
+    """Return the changes that stand, and the undos since the last change: the last of each can be undone."""
+    standing: list[Entry] = []
+    taken_back: list[Entry] = []
+    for each in entries:
+        if each.action == UNDO and standing:
+            standing.pop()
+            taken_back.append(each)
+        elif each.action == REDO and taken_back:
+            taken_back.pop()
+            standing.append(each)
+        elif each.action not in {UNDO, REDO}:
+            standing.append(each)
+            taken_back = []
+    return standing, taken_back
 
 
 def _entry(line: str) -> Entry | None:

@@ -28,6 +28,17 @@ TEXTS: Mapping[str, Words] = MappingProxyType(
         "changes": Words(en="Steps so far", de="Bisherige Schritte"),
         "noChanges": Words(en="None on this page yet.", de="Auf dieser Seite noch keine."),
         "undo": Words(en="Undo", de="Zurücknehmen"),
+        "redo": Words(en="Redo", de="Wiederholen"),
+        "redoOf": Words(en="Redo: {step}", de="Wiederholen: {step}"),
+        "ask": Words(
+            en="Tell me this length, and I can test {effects} as well.",
+            de="Nennen Sie mir diese Länge, und ich kann auch {effects} prüfen.",
+        ),
+        "state": Words(en="Save into the job", de="In den Auftrag schreiben"),
+        "faults": Words(en="The data look wrong", de="Die Daten sehen falsch aus"),
+        "remedy": Words(en="Remedy", de="Abhilfe"),
+        "before": Words(en="before this step", de="vor diesem Schritt"),
+        "after": Words(en="after this step: {step}", de="nach diesem Schritt: {step}"),
         "undoOf": Words(en="Undo: {step}", de="Zurücknehmen: {step}"),
         "add": Words(en="Add", de="Hinzufügen"),
         "addEffect": Words(en="Add {effect} to the model", de="{effect} zum Modell hinzufügen"),
@@ -56,6 +67,7 @@ TEXTS: Mapping[str, Words] = MappingProxyType(
         "seconds": Words(en="{seconds} s", de="{seconds} s"),
         "working": Words(en="Working …", de="Einen Moment …"),
         "setAside": Words(en="Set this reading aside", de="Diesen Messwert beiseite legen"),
+        "setAllAside": Words(en="Set these readings aside", de="Diese Messwerte beiseite legen"),
         "reason": Words(
             en="Reason, as the certificate will state it", de="Grund, wie ihn der Kalibrierschein nennt"
         ),

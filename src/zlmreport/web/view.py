@@ -10,10 +10,12 @@ from zlmreport.job.job import Job
 from zlmreport.language import Language, Words, same
 from zlmreport.model.diagnosis import Diagnosis
 from zlmreport.model.effect import Effect
+from zlmreport.model.faults import Fault
 from zlmreport.model.study import Study
 from zlmreport.presenting.diagnosis import CandidateRow, DiagnosisRows
+from zlmreport.web.asked import asked
 from zlmreport.web.bench import Bench, Loaded
-from zlmreport.web.journal import UNDO, Entry, Journal, undoable
+from zlmreport.web.journal import REDO, UNDO, Entry, Journal, redoable, undoable
 from zlmreport.web.panels import Panels, error_values, parameter_values
 
 _READING = Words(en="{target} {arrow}, run {run}", de="{target} {arrow}, Durchlauf {run}")
@@ -26,7 +28,9 @@ _STEPS = {
     "free": Words(en="{subject} freed", de="{subject} freigegeben"),
     "exclude": Words(en="reading set aside: {subject}", de="Messwert beiseite gelegt: {subject}"),
     "include": Words(en="reading brought back: {subject}", de="Messwert zurückgeholt: {subject}"),
+    "state": Words(en="{subject} stated", de="{subject} angegeben"),
     "undo": Words(en="taken back: {subject}", de="zurückgenommen: {subject}"),
+    "redo": Words(en="done again: {subject}", de="wiederholt: {subject}"),
 }
 #: Steps that are shown; the file beside the job holds all of them.
 _SHOWN = 30
@@ -47,7 +51,7 @@ def view(bench: Bench, loaded: Loaded, language: Language) -> dict[str, Any]:
     history = bench.history(loaded)
     panels = Panels(loaded, bench.registry, history, language)
     entries = Journal.beside(bench.path).entries()
-    last = undoable(entries, loaded.digest)
+    steps = undoable(entries, loaded.digest), redoable(entries, loaded.digest)
     return {
         "stamp": loaded.stamp,
         "digest": loaded.digest,
@@ -63,22 +67,64 @@ def view(bench: Bench, loaded: Loaded, language: Language) -> dict[str, Any]:
         "moving": panels.moving(),
         "excluded": panels.excluded(),
         "steps": [step(each, language) for each in reversed(entries[-_SHOWN:])],
-        "undo": None if last is None else step(last, language)["text"],
+        "asked": [
+            {
+                "key": each.key,
+                "name": each.name.in_language(language),
+                "unit": each.unit,
+                "effects": list(each.effects),
+            }
+            for each in asked(loaded, bench.registry.effects)
+        ],
+        **{
+            name: None if entry is None else _done(entry).in_language(language)
+            for name, entry in zip((UNDO, REDO), steps, strict=True)
+        },
+    }
+
+
+def before_and_after(bench: Bench, loaded: Loaded, step: str, language: Language) -> dict[str, Any]:
+    """Return what the graphs draw before and after a step of the model.
+
+    Parameters
+    ----------
+    bench, loaded
+        The job.
+    step
+        The number of an effect of the model, from 1; or an effect that is not in it, as a job names it.
+    language
+        Of the page.
+
+    Raises
+    ------
+    InputError
+        If there is no such effect, or it cannot be fitted.
+    """
+    history = bench.history(loaded)
+    if step.isdecimal() and 0 < int(step) < len(history):
+        fits = history[int(step) - 1], history[int(step)]
+    else:
+        fits = history[-1], bench.with_effect(loaded, step)
+    drawn = (graphs(loaded.study, each, language) for each in fits)
+    return {
+        name: {"model": each["model"], "residual": each["readings"]["residual"]}
+        for name, each in zip(("before", "after"), drawn, strict=True)
     }
 
 
 def step(entry: Entry, language: Language) -> dict[str, str]:
     """Return a step as people read it: when, and what."""
-    action, _, subject = (
-        entry.subject.partition(" ") if entry.action == UNDO else (entry.action, "", entry.subject)
-    )
-    words = _done(action, subject)
-    if entry.action == UNDO:
-        words = _STEPS[UNDO].given(subject=words)
+    words = _done(entry)
+    if entry.action in {UNDO, REDO}:
+        words = _STEPS[entry.action].given(subject=words)
     return {"at": entry.at[11:19], "text": words.in_language(language)}
 
 
-def _done(action: str, subject: str) -> Words:
+def _done(entry: Entry) -> Words:
+    """Return what a step did; of one that took another back or brought it back, what that did."""
+    action, subject = entry.action, entry.subject
+    if action in {UNDO, REDO}:
+        action, _, subject = subject.partition(" ")
     parts = subject.split(" ")
     if action in {"exclude", "include"} and len(parts) == len(("target", "direction", "run")):
         target, direction, run = parts
@@ -104,7 +150,8 @@ def diagnosed(
         "verdict": diagnosis.verdict.value,
         "statement": rows.statement,
         "failures": [failure_values(each, diagnosis, study) for each in rows.failures],
-        "candidates": [_candidate(each, rows) for each in rows.candidates],
+        "faults": [_fault(each, study, language) for each in diagnosis.faults],
+        "candidates": [_candidate(each, rows) for each in (*rows.candidates, *rows.implausible)],
         "serious": sum(each.is_serious for each in rows.candidates),
         "hidden": [
             {"effects": list(each.effects), "reason": each.reason}
@@ -115,6 +162,17 @@ def diagnosed(
     }
 
 
+def _fault(fault: Fault, study: Study, language: Language) -> dict[str, Any]:
+    """Return what looks wrong in the data, with the places of the readings of its run."""
+    observed = study.observed
+    of_run = observed.design.run == (-1 if fault.run is None else fault.run)
+    return {
+        "statement": fault.statement.in_language(language),
+        "remedy": fault.remedy.in_language(language),
+        "readings": observed.reading[of_run].tolist(),
+    }
+
+
 def _candidate(row: CandidateRow, diagnosed: DiagnosisRows) -> dict[str, Any]:
     return {
         "effect": row.effect,
@@ -122,6 +180,7 @@ def _candidate(row: CandidateRow, diagnosed: DiagnosisRows) -> dict[str, Any]:
         "argument": row.argument,
         "probability": f"{row.probability} %",
         "share": row.candidate.probability,
+        "plausible": row.candidate.is_plausible,
         "p": row.p,
         "rmsBefore": diagnosed.error.rms,
         "rmsAfter": row.error.rms,
