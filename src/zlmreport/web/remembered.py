@@ -15,7 +15,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-import zlmreport
+from zlmreport import version
 from zlmreport.errors import AccessError
 from zlmreport.files import Document, cache_folder, write
 from zlmreport.model.effect import Effect
@@ -72,7 +72,7 @@ class Answers:
 
 def _program(effects: Iterable[Effect]) -> str:
     """Return what tells this program and its effects, as they stand in their files, from any other."""
-    package = Path(zlmreport.__file__).parent
+    package = Path(version.__file__).parent
     modules = (sys.modules.get(type(each).__module__) for each in effects)
     homes = {Path(found) for each in modules if (found := getattr(each, "__file__", None))}
     stats = [(str(path), path.stat()) for path in sorted({*package.rglob("*.py"), *homes})]
