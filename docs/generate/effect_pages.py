@@ -58,6 +58,8 @@ def _section(effect: Effect) -> Iterator[str]:
     yield _doc(effect)
     yield f"**Look.** {effect.look.in_language(_EN)}"
     yield table(("Parameter", "Printed", "Meaning", "Plausible", "Found"), _parameters(effect))
+    if any((each.smallest, each.largest) != (None, None) for each in (*effect.linear, *effect.searched)):
+        yield f"Plausible ranges: {effect.ranges_from.in_language(_EN)}."
     keys = keys_in(effect.options)
     if keys:
         yield "Its key in a job:"

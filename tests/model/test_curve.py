@@ -10,7 +10,7 @@ import pytest
 from model.axis_tests import AXIS, EFFECTS, linear_test, model_of, noise
 from zlmreport.measurement.approach import Approach
 from zlmreport.model.axis_model import AxisModel, Term
-from zlmreport.model.curve import curve_positions
+from zlmreport.model.curve import curve_positions, effect_positions
 from zlmreport.model.design import at_positions
 from zlmreport.model.fit import Fit, fit
 from zlmreport.quantities.arrays import FloatArray
@@ -64,3 +64,13 @@ def test_smooth_curve_has_even_positions() -> None:
 
 def _values(fitted: Fit, positions: FloatArray) -> FloatArray:
     return fitted.value_at(at_positions(fitted.design, positions, Approach.POSITIVE))
+
+
+def test_effect_alone_is_drawn_as_finely_as_in_a_model() -> None:
+    design = linear_test(15, 2)
+    interpolation, theta = EFFECTS["encoder-interpolation"], np.array([20e-6])
+    positions = effect_positions(interpolation, theta, design, Approach.POSITIVE, design.span)
+    drawn = interpolation.columns(at_positions(design, positions, Approach.POSITIVE), theta).sum(axis=1)
+    turn = np.linspace(0, 2 * np.pi, 1000)
+    true = np.sin(turn) + np.cos(turn) + np.sin(2 * turn) + np.cos(2 * turn)
+    assert np.ptp(drawn) == pytest.approx(np.ptp(true), rel=0.03)

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from model.axis_tests import INSTALLED, linear_test, model_of, noise, observations
+from model.axis_tests import INSTALLED, hidden, linear_test, model_of, noise, observations
 from zlmreport.model.design import Design
 from zlmreport.model.diagnosis import Verdict, diagnose
 from zlmreport.model.faults import FaultKind, recorded_faults, run_faults
@@ -31,7 +31,7 @@ def _kinds(design: Design, deviation: FloatArray) -> list[tuple[FaultKind, int |
 
 
 def _slip(design: Design, deviation: FloatArray) -> list[tuple[FaultKind, int | None]]:
-    return [(each.kind, each.run) for each in run_faults(fit(_MODEL, design, deviation), 0.0)]
+    return [(each.kind, each.run) for each in run_faults(fit(_MODEL, design, deviation))]
 
 
 def test_sound_readings_have_no_fault() -> None:
@@ -130,3 +130,18 @@ def test_growth_that_a_lagging_sensor_explains_as_well_does_not_stand_alone() ->
 
 def _swapped() -> Design:
     return replace(_DESIGN, direction=np.where(_THIRD, -_DESIGN.direction, _DESIGN.direction))
+
+
+def test_effect_of_reversed_shape_is_no_slip_of_a_run() -> None:
+    """A slope that follows the air the wrong way round: runs differ, and no turned sign is to blame."""
+    design = linear_test(11, 3)
+    shape = hidden(design, "air-index", size=4.0, model=_MODEL)
+    found = diagnose(_MODEL, observations(design, noise(design) - shape), INSTALLED)
+    assert found.verdict is Verdict.UNEXPLAINED
+    assert found.faults == ()
+
+
+def test_effect_of_reversed_shape_is_no_lagging_sensor() -> None:
+    shape = hidden(_DESIGN, "air-index", model=_MODEL)
+    found = diagnose(_MODEL, observations(_DESIGN, noise(_DESIGN, seed=0) - shape), INSTALLED)
+    assert found.faults == ()

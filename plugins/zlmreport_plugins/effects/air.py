@@ -51,6 +51,10 @@ class AirIndex(Effect):
         ),
     )
     shape = Shape.TIME
+    ranges_from = Words(
+        en="by its definition: 0 where the air is corrected wholly, 1 where it is not corrected",
+        de="nach seiner Definition: 0, wo die Luft ganz korrigiert ist, 1, wo sie nicht korrigiert ist",
+    )
     look = Words(
         en="The residuals fan out over the position, and the slope follows the air.",
         de="Die Residuen fächern über der Position auf, und die Steigung folgt der Luft.",
@@ -94,6 +98,10 @@ class DeadPath(Effect):
         ),
     )
     shape = Shape.TIME
+    ranges_from = Words(
+        en="no length is negative; 2000 mm is chosen wide",
+        de="keine Länge ist negativ; 2000 mm sind weit gewählt",
+    )
     look = Words(
         en="The residuals follow the air, at all positions alike.",
         de="Die Residuen folgen der Luft, an allen Positionen gleich.",

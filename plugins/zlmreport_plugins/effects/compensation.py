@@ -49,6 +49,10 @@ class CompensationSign(Effect):
         ),
     )
     shape = Shape.POSITION
+    ranges_from = Words(
+        en="2, 1 and −1 are what can happen; beyond −3 to 3 nothing of the kind does",
+        de="2, 1 und −1 kommen vor; jenseits von −3 bis 3 nichts dergleichen",
+    )
     look = Words(
         en="The residuals look like the compensation table.",
         de="Die Residuen sehen aus wie die Kompensationstabelle.",
@@ -98,6 +102,10 @@ class CompensationShift(Effect):
         ),
     )
     shape = Shape.POSITION
+    ranges_from = Words(
+        en="1 is what happens; beyond −3 to 3 nothing of the kind does",
+        de="1 kommt vor; jenseits von −3 bis 3 nichts dergleichen",
+    )
     look = Words(
         en="The residuals look like the slope of the compensation table.",
         de="Die Residuen sehen aus wie die Steigung der Kompensationstabelle.",

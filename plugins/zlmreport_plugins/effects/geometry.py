@@ -189,6 +189,11 @@ class CosineError(Effect):
         ),
     )
     shape = Shape.POSITION
+    ranges_from = Words(
+        en="its sign by geometry: an inclined beam reads too short; the limit, 32 mrad, is chosen wide",
+        de="ihr Vorzeichen nach der Geometrie: ein geneigter Strahl misst zu kurz; die Grenze, 32 mrad, ist "
+        "weit gewählt",
+    )
     look = Words(
         en="The residuals fall in proportion to the position.",
         de="Die Residuen fallen im Verhältnis zur Position.",

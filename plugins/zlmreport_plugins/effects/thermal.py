@@ -29,6 +29,11 @@ _SHORTEST, _LONGEST = 0.05, 1.5
 _CONSTANTS = 12
 _SCALE_LOG = "axis_temperature"
 _SCREW_LOG = "screw_temperature"
+_OF_MATERIALS = Words(
+    en="from no expansion (glass ceramic) to that of aluminium alloys, some 25 µm/(m·K); steel has 10 to 12",
+    de="von keiner Ausdehnung (Glaskeramik) bis zu der von Aluminiumlegierungen, etwa 25 µm/(m·K); Stahl "
+    "hat 10 bis 12",
+)
 
 
 def time_constants(design: Design) -> FloatArray:
@@ -65,6 +70,7 @@ class ScaleExpansion(Effect):
         ),
     )
     shape = Shape.TIME
+    ranges_from = _OF_MATERIALS
     look = Words(
         en="The residuals fan out over the position, and the slope follows the temperature of the scale.",
         de="Die Residuen fächern über der Position auf, und die Steigung folgt der Temperatur des Maßstabs.",
@@ -114,6 +120,7 @@ class ScrewExpansion(Effect):
         ),
     )
     shape = Shape.TIME
+    ranges_from = _OF_MATERIALS
     look = Words(
         en="The residuals fan out from one end of the travel as the screw warms up.",
         de="Die Residuen fächern von einem Ende des Verfahrwegs her auf, während die Spindel warm wird.",

@@ -7,12 +7,14 @@ can show, it runs through the least and the largest value of each stretch, and s
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
+
 import numpy as np
 
 from zlmreport.measurement.approach import Approach
 from zlmreport.model.axis_model import Term
 from zlmreport.model.design import Design, at_positions
-from zlmreport.model.effect import Dimension
+from zlmreport.model.effect import Dimension, Effect
 from zlmreport.model.fit import Fit
 from zlmreport.quantities.arrays import FloatArray
 
@@ -38,8 +40,41 @@ def curve_positions(fitted: Fit, approach: Approach) -> FloatArray:
         A direction in which it was measured.
     """
     design = fitted.design
-    first, last = design.span
     pairs = list(zip(fitted.model.terms, fitted.solution.thetas, strict=True))
+    return _positions(
+        pairs, design, design.span, lambda places: fitted.value_at(at_positions(design, places, approach))
+    )
+
+
+def effect_positions(
+    effect: Effect, theta: FloatArray, design: Design, approach: Approach, span: tuple[float, float]
+) -> FloatArray:
+    """Return the positions of the curve of one effect alone, all its linear parameters one, shape (M,).
+
+    Parameters
+    ----------
+    effect, theta
+        The effect and its searched parameters.
+    design, approach
+        A test, and a direction in which it was measured.
+    span
+        The part of the travel that is drawn, m or rad.
+    """
+    return _positions(
+        [(Term(effect), theta)],
+        design,
+        span,
+        lambda places: effect.columns(at_positions(design, places, approach), theta).sum(axis=1),
+    )
+
+
+def _positions(
+    pairs: Sequence[tuple[Term, FloatArray]],
+    design: Design,
+    span: tuple[float, float],
+    value: Callable[[FloatArray], FloatArray],
+) -> FloatArray:
+    first, last = span
     shortest = min((_scale(term, theta) for term, theta in pairs), default=np.inf)
     joints = [place for term, theta in pairs for place in _joints(term, theta, design)]
     wanted = _PER_PERIOD * (last - first) / shortest
@@ -48,23 +83,25 @@ def curve_positions(fitted: Fit, approach: Approach) -> FloatArray:
     elif wanted <= _MOST:
         found = np.linspace(first, last, int(np.ceil(wanted)) + 1)
     else:
-        found = _extremes(fitted, approach, shortest)
+        found = _extremes(value, span, shortest)
     if not joints:
         return np.asarray(found, dtype=np.float64)
     beside = np.add.outer(np.array(joints), np.array([-_BESIDE, _BESIDE]) * (last - first)).ravel()
     return np.unique(np.clip(np.concatenate([found, beside]), first, last))
 
 
-def _extremes(fitted: Fit, approach: Approach, period: float) -> FloatArray:
-    """Return where the model is least and largest in each stretch, and the ends of the travel."""
-    first, last = fitted.design.span
+def _extremes(
+    value: Callable[[FloatArray], FloatArray], span: tuple[float, float], period: float
+) -> FloatArray:
+    """Return where a curve is least and largest in each stretch, and the ends of the travel."""
+    first, last = span
     edges = np.linspace(first, last, _STRETCHES + 1)
     length = edges[1] - edges[0]
     # Probes of a stretch cover whole periods at uneven phases: a row that beats with the wave misses it.
     phases = (np.arange(_PROBES) * _GOLDEN) % 1.0
     reach = min(length, max(1.0, np.floor(length / period)) * period)
     probes = np.sort(edges[:-1, np.newaxis] + reach * phases, axis=1)
-    values = fitted.value_at(at_positions(fitted.design, probes.ravel(), approach)).reshape(probes.shape)
+    values = value(probes.ravel()).reshape(probes.shape)
     rows = np.arange(_STRETCHES)
     chosen = [probes[rows, values.argmin(axis=1)], probes[rows, values.argmax(axis=1)]]
     return np.unique(np.concatenate([[first, last], *chosen]))

@@ -294,9 +294,10 @@ def diagnose(
 def _faults(observed: Observations, first: Step, effects: Sequence[Effect]) -> tuple[Fault, ...]:
     """Return what looks wrong in the data; a run that two signs betray is named once."""
     recorded = recorded_faults(observed.design, observed.deviation)
-    by_runs = run_faults(first.fit, first.ranking.most)
-    best = add(first.fit, first.best) if first.best else None
-    lagging = lagging_sensors(first.fit, best, effects) if first.something_is_missing else ()
+    foremost = (*((first.best,) if first.best else ()), *first.ranking.impossible[:1])
+    rivals = [add(first.fit, each) for each in foremost] if first.something_is_missing else []
+    by_runs = run_faults(first.fit, rivals, first.ranking.shape_evidence)
+    lagging = lagging_sensors(first.fit, rivals, effects) if first.something_is_missing else ()
     known = {(each.kind, each.run): each for each in recorded}
     found = [
         replace(known.pop((each.kind, each.run)), explains=each.explains)

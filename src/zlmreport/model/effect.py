@@ -55,6 +55,13 @@ _SHORT_TRAVEL = Words(
 )
 
 
+#: What an effect says of its plausible ranges that names no source.
+CHOSEN_RANGES = Words(
+    en="chosen wide by its author, to catch what no machine does; no standard states them",
+    de="vom Verfasser weit gewählt, um zu fangen, was keine Maschine tut; keine Norm nennt sie",
+)
+
+
 class Dimension(Enum):
     """What kind of quantity a parameter is; its printed unit follows from it and the kind of axis."""
 
@@ -180,6 +187,8 @@ class Effect(Protocol):
         What it looks like in the residuals.
     confusions
         What it is taken for, nearest first.
+    ranges_from
+        Where the plausible ranges of its parameters come from.
     contains
         Effects whose columns are always among its own: they cannot stand beside it in a model.
     options
@@ -197,6 +206,7 @@ class Effect(Protocol):
     shape: Shape
     look: Words
     confusions: tuple[Confusion, ...] = ()
+    ranges_from: Words = CHOSEN_RANGES
     contains: tuple[str, ...] = ()
     options: type[Options] = Options
     settings: Options = Options()

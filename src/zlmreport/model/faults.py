@@ -7,7 +7,7 @@ more than any effect explains, is said. What the rows themselves show is sure, w
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 
@@ -101,20 +101,27 @@ def recorded_faults(design: Design, deviation: FloatArray) -> tuple[Fault, ...]:
     )
 
 
-def run_faults(fitted: Fit, most: float) -> tuple[Fault, ...]:
+def run_faults(fitted: Fit, rivals: Sequence[Fit] = (), shape_evidence: float = -np.inf) -> tuple[Fault, ...]:
     """Return slips of single runs that explain what the repeats differ by.
+
+    An effect that changes with time makes runs differ as well: a slip must leave less within the repeats than
+    any effect does, also one that is physically impossible, and surpass every shape without a name.
 
     Parameters
     ----------
     fitted
         The model.
-    most
-        Evidence of the best effect.
+    rivals
+        The same with each of the best effects.
+    shape_evidence
+        Evidence of the best shape without a name.
     """
     design, deviation = fitted.design, fitted.deviation
     runs = np.unique(design.run)
     if len(runs) < _FEWEST_RUNS:
         return ()
+    spread = repeats(design, deviation).squares
+    by_effects = min((*map(_within, rivals), spread))
     tried = [
         (kind, run, left, whole, count)
         for run in runs.tolist()
@@ -124,35 +131,42 @@ def run_faults(fitted: Fit, most: float) -> tuple[Fault, ...]:
     for kind, run, left, whole, count in tried:
         if not left < _MOST_OF_IT * whole:
             continue
-        evidence = count * float(np.log(whole / max(left, _EXACT * whole))) - 2 * float(np.log(len(tried)))
-        if evidence > _STRONG:
-            ahead = evidence - max(most, 0.0)
+        least = max(left / whole, _EXACT)
+        evidence = -count * float(np.log(least)) - 2 * float(np.log(len(tried)))
+        by_rivals = -count * float(np.log(max(by_effects / spread, _EXACT)))
+        ahead = evidence - max(by_rivals, shape_evidence, 0.0)
+        if evidence > _STRONG and ahead > 0:
             statement, remedy = _OF_RUNS[kind]
             fault = Fault(kind, run, _probability(ahead), statement.given(run=run), remedy, ahead > _FARTHER)
             found.append((evidence, fault))
     return tuple(fault for _, fault in sorted(found, key=lambda each: -each[0])[:1])
 
 
-def lagging_sensors(fitted: Fit, best: Fit | None, effects: Iterable[Effect]) -> tuple[Fault, ...]:
+def _within(fitted: Fit) -> float:
+    """Return the sum of squares that a model leaves within the repeats."""
+    return repeats(fitted.design, fitted.residual).squares
+
+
+def lagging_sensors(fitted: Fit, rivals: Sequence[Fit], effects: Iterable[Effect]) -> tuple[Fault, ...]:
     """Return a temperature log that explains as much as any effect, if its sensor lagged behind.
 
     Parameters
     ----------
     fitted
         The model.
-    best
-        The same with the best effect; None if no effect is better than nothing.
+    rivals
+        The same with each of the best effects; nothing is said where none is better than nothing.
     effects
         That may be missing.
     """
     design, readings = fitted.design, len(fitted.deviation)
     floor = noise_floor(design, fitted.deviation)
-    if best is None or floor is None or design.time_is_counted or design.duration == 0:
+    if not rivals or floor is None or design.time_is_counted or design.duration == 0:
         return ()
     # A lag turns a log into another: only one with which nothing is left is worth a word.
     enough = _NEARLY_NOISE * readings * floor**2
     moments, first = np.unique(design.time, return_index=True)
-    base, least = fitted.base(), float(np.sum(best.residual**2))
+    base, least = fitted.base(), min(float(np.sum(each.residual**2)) for each in rivals)
     found: list[tuple[float, str, float]] = []
     for name in design.conditions:
         if not name.endswith("temperature") or len(moments) < _FEWEST_STUCK:
@@ -188,20 +202,22 @@ def _probability(ahead: float) -> float:
 def _slips(
     design: Design, deviation: FloatArray, own: BoolArray
 ) -> Iterator[tuple[FaultKind, float, float, int]]:
-    """Yield of each slip what is left within the repeats without it, what as it stands, of how many."""
-    whole = repeats(design, deviation).squares
+    """Yield of each slip what is left within the repeats without it, what as it stands, with what degrees."""
+    as_it_stands = repeats(design, deviation)
+    whole, degrees = as_it_stands.squares, as_it_stands.degrees
     if design.is_bidirectional:
         turned = replace(design, direction=np.where(own, -design.direction, design.direction))
-        yield FaultKind.SWAPPED_DIRECTION, repeats(turned, deviation).squares, whole, len(deviation)
+        yield FaultKind.SWAPPED_DIRECTION, repeats(turned, deviation).squares, whole, degrees
     negated = np.where(own, -deviation, deviation)
-    yield FaultKind.WRONG_SIGN, repeats(design, negated).squares, whole, len(deviation)
+    yield FaultKind.WRONG_SIGN, repeats(design, negated).squares, whole, degrees
     for step in (1, -1):
         source = _moved_by(design, own, step)
         kept = np.flatnonzero(source >= 0)
         if len(kept) > len(deviation) // 2:
             subset = of_readings(design, kept)
+            stands = repeats(subset, deviation[kept])
             left = repeats(subset, deviation[source[kept]]).squares
-            yield FaultKind.SHIFTED_RUN, left, repeats(subset, deviation[kept]).squares, len(kept)
+            yield FaultKind.SHIFTED_RUN, left, stands.squares, stands.degrees
 
 
 def _moved_by(design: Design, own: BoolArray, step: int) -> IntArray:

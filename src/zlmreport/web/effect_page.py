@@ -11,6 +11,7 @@ from zlmreport.job.fields import keys_in
 from zlmreport.language import Language, Words
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.axis import Axis
+from zlmreport.model.curve import effect_positions
 from zlmreport.model.design import Design, at_positions
 from zlmreport.model.effect import Effect, Parameter, Shape, unit_of
 from zlmreport.plugins import Registry
@@ -37,7 +38,6 @@ _ELSEWHERE = Words(
     de="Wie eine vollständige Messung ihn sähe; diese kann ihn nicht zeigen: {reason}.",
 )
 _DECIMALS = 6
-_POINTS = 600
 _ROUNDING = 1e-9
 #: Of an effect that repeats along the axis, so many are drawn.
 _PERIODS = 6.0
@@ -116,7 +116,7 @@ def sketch(effect: Effect, design: Design, language: Language) -> dict[str, Any]
                 "x": _rounded(along),
                 "y": _rounded((_alone(effect, between, theta) - mean) / size),
             }
-            for approach, along, between in _between(effect.shape, design, span)
+            for approach, along, between in _between(effect, theta, design, span)
         ],
         "range": None if span == design.span else [design.axis.position_unit.from_si(end) for end in span],
         "title": title.in_language(language),
@@ -143,14 +143,14 @@ def _shown(effect: Effect, theta: FloatArray, design: Design) -> tuple[float, fl
 
 
 def _between(
-    shape: Shape, design: Design, span: tuple[float, float]
+    effect: Effect, theta: FloatArray, design: Design, span: tuple[float, float]
 ) -> Iterator[tuple[Approach, FloatArray, Design]]:
     """Yield positions between the targets, by direction; nothing for an effect that changes with time."""
-    if shape in _OVER_TIME:
+    if effect.shape in _OVER_TIME:
         return
     for approach in Approach:
         if np.any(design.direction == approach):
-            positions = np.linspace(*span, _POINTS)
+            positions = effect_positions(effect, theta, design, approach, span)
             yield (
                 approach,
                 design.axis.position_unit.from_si(positions),
