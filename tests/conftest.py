@@ -27,6 +27,12 @@ hypothesis.settings.register_profile("thorough", deadline=None, max_examples=100
 hypothesis.settings.load_profile("ci" if os.environ.get("CI") else "workstation")
 
 
+@pytest.hookimpl(trylast=True)  # after pytest's own order
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Begin with what takes long or waits: a worker that comes to it last would be waited for."""
+    items.sort(key=lambda item: item.get_closest_marker("early") is None)
+
+
 #: Returns the folder of a name, filled by a function.
 Shared: TypeAlias = Callable[[str, Callable[[Path], object]], Path]
 

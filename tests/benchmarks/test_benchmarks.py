@@ -37,6 +37,7 @@ def run(*arguments: str | Path) -> CompletedProcess[str]:
     return processes.run(processes.PYTHON, BENCHMARKS, *arguments)
 
 
+@pytest.mark.early
 @pytest.mark.parametrize(
     ("names", "known"),
     [

@@ -6,11 +6,14 @@ import json
 import math
 from pathlib import Path
 
+import pytest
+
 from processes import PYTHON, run
 
 BENCHMARKS = Path(__file__).parents[2] / "benchmarks"
 
 
+@pytest.mark.early
 def test_the_nights_of_a_fleet_are_measured(tmp_path: Path) -> None:
     file = tmp_path / "results.json"
     sizes = ("--certificates", "1", "--sample", "0", "--kills", "1")

@@ -6,12 +6,14 @@ import re
 from collections.abc import Callable
 from pathlib import Path
 
+import pytest
 from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import Page, expect
 
 from browser.pictures import picture
 
 Window = Callable[..., Page]
+pytestmark = pytest.mark.early
 
 
 def diagnosed(page: Page, verdict: str) -> None:

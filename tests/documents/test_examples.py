@@ -24,6 +24,7 @@ def command() -> Iterator[Path]:
         yield command
 
 
+@pytest.mark.early
 @pytest.mark.parametrize("page", EXECUTED, ids=name)
 def test_the_examples_of_a_page_work(page: Path, command: Path, tmp_path: Path) -> None:
     run_page(page, tmp_path, compare, command)

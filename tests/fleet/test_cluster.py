@@ -55,6 +55,7 @@ def _address(file: Path) -> str:
     return address
 
 
+@pytest.mark.early
 def test_a_cluster_makes_the_certificates_and_loses_none_with_a_worker(
     scheduler: str, tmp_path: Path
 ) -> None:

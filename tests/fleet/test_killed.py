@@ -6,11 +6,14 @@ import os
 import sys
 from pathlib import Path
 
+import pytest
+
 from processes import PYTHON, run
 
 KILLS = 12
 
 
+@pytest.mark.early
 def test_nights_killed_at_random_moments_are_made_good_by_the_next(tmp_path: Path) -> None:
     script = Path(__file__).with_name("kill_nights.py")
     path = os.pathsep.join(path for path in sys.path if path)
