@@ -24,6 +24,10 @@ class Place:
         return f"{self.file}:{self.line}:{self.column or 1}"
 
 
+#: The place of a problem of which nobody knows yet for which job the work was done.
+NOWHERE = Place("zlmreport")
+
+
 @dataclass(frozen=True, slots=True, order=True)
 class Problem:
     """One mistake: its place, and a sentence that says what is wrong and what would be right."""
@@ -60,6 +64,15 @@ class ZlmreportError(Exception):
         """Return the error for a single problem."""
         return cls([Problem(place, message)])
 
+    def of_job(self, job: Path) -> ZlmreportError:
+        """Return the same with the job as the place of what has none of its own."""
+        if all(problem.place != NOWHERE for problem in self.problems):
+            return self
+        place = Place(str(job))
+        return type(self)(
+            Problem(place, each.message) if each.place == NOWHERE else each for each in self.problems
+        )
+
 
 class InputError(ZlmreportError):
     """The job, its data or the command line is wrong (exit code 2)."""
@@ -69,6 +82,10 @@ class AccessError(ZlmreportError):
     """A file or a device could not be read or written (exit code 3)."""
 
     exit_code = 3
+
+
+class PluginError(InputError):
+    """A plugin did what it must not, while it was at work for a job (exit code 2)."""
 
 
 def as_problems(job: Path, error: Exception) -> ZlmreportError:
@@ -83,7 +100,7 @@ def as_problems(job: Path, error: Exception) -> ZlmreportError:
         mistake of the program's own, named with the line of it that a report needs.
     """
     if isinstance(error, ZlmreportError):
-        return error
+        return error.of_job(job)
     if isinstance(error, OSError):
         if error.filename and error.strerror:
             message = f"cannot be read or written: {error.strerror.lower()}"

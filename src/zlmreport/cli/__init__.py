@@ -30,15 +30,17 @@ def main(arguments: Sequence[str] | None = None) -> int:
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
     for stream in (sys.stdout, sys.stderr):
         _write_what_cannot_be_encoded_as_escapes(stream)
+    options = None
     try:
         command, options = parse(sys.argv[1:] if arguments is None else arguments)
         module = importlib.import_module(f"zlmreport.cli.{command.replace(' ', '_')}")
         code: int = module.run(options)
         sys.stdout.flush()
     except SystemExit:  # by argparse, after --help and --version
-        return 0
+        return 0 if options is None else ZlmreportError.exit_code
     except ZlmreportError as error:
-        print_problems(error)
+        job = getattr(options, "job", None)  # a command that works on several has told of each
+        print_problems(error.of_job(job) if job else error)
         return error.exit_code
     except BrokenPipeError:
         _forget_standard_output()

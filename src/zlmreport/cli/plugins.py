@@ -33,6 +33,9 @@ def listing(registry: Registry) -> Iterator[str]:
         yield Colour.RED.of("not loaded")
         rows = [(each.plugin.name, each.plugin.release, each.reason) for each in registry.failed]
         yield from table(rows, indent="  ")
+    if registry.misspelt:
+        yield Colour.RED.of("misspelt")
+        yield from (f"  {problem}" for problem in registry.misspelt)
     if registry.disabled:
         yield f"switched off by {DISABLE}"
         yield from (f"  {name}" for name in registry.disabled)

@@ -8,6 +8,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from zlmreport.evaluation.evaluation import Arithmetic, Evaluation, Parameter, PositionColumn
+from zlmreport.evaluation.plausibility import doubts
 from zlmreport.evaluation.quantity import PositionQuantity, Quantity
 from zlmreport.evaluation.requirements import Finding
 from zlmreport.evaluation.statistics import PositionStatistics, position_statistics
@@ -79,7 +80,11 @@ def evaluate(
         statistics=statistics,
         parameters=tuple(parameters),
         columns=columns,
-        findings=(*standard.requirements(measurements, options), *undefined),
+        findings=(
+            *standard.requirements(measurements, options),
+            *undefined,
+            *doubts(((each.quantity, each.value) for each in parameters), statistics, measurements.axis),
+        ),
         notes=standard.notes,
     )
 

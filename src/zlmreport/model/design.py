@@ -19,6 +19,7 @@ from zlmreport.quantities.units import Unit
 
 _OF_THE_READINGS = (math.nan, math.nan)
 _ROUNDING = 1e-12
+_ARRAYS = ("position", "direction", "run", "target", "time", "since_reversal")
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,7 +64,11 @@ class Design:
     span: tuple[float, float] = _OF_THE_READINGS
 
     def __post_init__(self) -> None:
-        """Take the span from the readings where none is given."""
+        """Take the span from the readings where none is given; let no effect alter the arrays."""
+        for name in _ARRAYS:
+            if (array := getattr(self, name)).flags.writeable:
+                object.__setattr__(self, name, array := array.view())
+                array.setflags(write=False)
         if self.span is _OF_THE_READINGS:
             object.__setattr__(self, "span", (float(self.position.min()), float(self.position.max())))
 

@@ -7,6 +7,7 @@ from typing import Any, TypeAlias
 
 import pluggy
 
+from zlmreport.boundary.guard import guarded
 from zlmreport.errors import Problem
 from zlmreport.plugin.kinds import KINDS, PROJECT, specifications
 from zlmreport.plugins.fitness import check, misspelt_hooks
@@ -67,7 +68,7 @@ class Candidate:
 
 
 def _offers(plugin: Plugin, module: object) -> Mapping[Key, Any]:
-    """Return what one plugin offers, each checked to be what it should be."""
+    """Return what one plugin offers, each checked to be what it should be, and behind the boundary."""
     manager = pluggy.PluginManager(PROJECT)
     manager.add_hookspecs(specifications())
     manager.register(module, plugin.name)
@@ -81,5 +82,5 @@ def _offers(plugin: Plugin, module: object) -> Mapping[Key, Any]:
                 check(kind, offered)
                 if (kind.name, offered.identifier) in found:
                     raise UnfitError(f"offers {kind.label} {offered.identifier!r} twice")
-                found[kind.name, offered.identifier] = offered
+                found[kind.name, offered.identifier] = guarded(kind, offered, plugin.in_words)
     return found

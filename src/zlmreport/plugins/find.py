@@ -10,9 +10,9 @@ from importlib.metadata import EntryPoint, entry_points
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
 
-from zlmreport.errors import AccessError, InputError, Place, Problem
+from zlmreport.errors import AccessError, InputError, Place, Problem, ZlmreportError
 from zlmreport.plugins.candidate import Candidate, Key
-from zlmreport.plugins.origin import DISABLE, Plugin, reason_of
+from zlmreport.plugins.origin import DISABLE, Plugin, UnfitError, reason_of
 from zlmreport.plugins.registry import Registry
 from zlmreport.plugins.remembered import Memory
 
@@ -40,7 +40,8 @@ def find_plugins(
     files
         More of them, from the command line.
     lenient
-        Whether a misspelt hook is passed over: for a listing, which tells of it.
+        Whether a misspelt hook and a file that does not work are passed over: for a listing, which tells of
+        them.
 
     Raises
     ------
@@ -69,7 +70,8 @@ def find_plugins(
             memory.watch(point, candidate)
         candidates.append(candidate)
     named = [Path(name) for name in environment.get(FILES, "").split(os.pathsep) if name]
-    from_files = [_in_file(path) for path in dict.fromkeys(each.resolve() for each in (*named, *files))]
+    paths = dict.fromkeys(each.resolve() for each in (*named, *files))
+    from_files = [_in_file_or_not(path) if lenient else _in_file(path) for path in paths]
     registry = Registry([*candidates, *from_files], disabled)
     for candidate in (*candidates, *from_files):
         _ = candidate.keys  # loads it, if nobody knows what it offers
@@ -77,9 +79,8 @@ def find_plugins(
     problems = [
         Problem(Place(each.plugin.module), each.failure.reason) for each in from_files if each.failure
     ]
-    if not lenient:
-        problems += registry.misspelt
-    if problems:
+    problems += registry.misspelt
+    if problems and not lenient:
         raise InputError(problems)
     return registry
 
@@ -135,6 +136,19 @@ def _in_file(path: Path) -> Candidate:
     except (Exception, SystemExit) as error:
         raise InputError.at(Place(str(path), _line_in(path, error)), reason_of(error)) from error
     return Candidate(Plugin(path.stem, str(path)), lambda: module)
+
+
+def _in_file_or_not(path: Path) -> Candidate:
+    """Return the plugin in a file; one that fails where the file does not work."""
+    try:
+        return _in_file(path)
+    except ZlmreportError as error:
+        reason = "; ".join(problem.message for problem in error.problems)
+
+    def fail() -> object:
+        raise UnfitError(reason)
+
+    return Candidate(Plugin(path.stem, str(path)), fail)
 
 
 def _line_in(path: Path, error: BaseException) -> int:

@@ -38,6 +38,12 @@ class Plugin:
         """Distribution and version: ``zlmreport 0.1.0``."""
         return f"{self.distribution} {self.version}".strip()
 
+    @property
+    def in_words(self) -> str:
+        """As messages call it: ``plugin house (zlmreport-house 1.0)``, or the file."""
+        where = self.release or self.module
+        return f"plugin {self.name} ({where})" if where else f"plugin {self.name}"
+
 
 @dataclass(frozen=True, slots=True)
 class FailedPlugin:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar, cast
 
 from zlmreport.errors import InputError, Place, Problem, did_you_mean
 from zlmreport.plugin import kinds
@@ -96,14 +96,23 @@ class Registry:
         return InputError([Problem(named_at or Place("zlmreport"), "\n  ".join(lines))])
 
     def all(self, kind: Kind[Wanted]) -> tuple[Wanted, ...]:
-        """Return everything of one kind, in the order of identifiers."""
-        place = Place("zlmreport")
-        return tuple(
-            offered
-            for identifier in self.identifiers(kind)
-            for candidate in self._one((kind.name, identifier), place)
-            if (offered := self._loaded(candidate).get((kind.name, identifier))) is not None
-        )
+        """Return everything of one kind, in the order of identifiers.
+
+        What two plugins provide is left out: only who names it is stopped. An effect stands here all the
+        same, as one that cannot be tested, so that no diagnosis lacks it in silence.
+        """
+        found: list[Wanted] = []
+        for identifier in self.identifiers(kind):
+            key = kind.name, identifier
+            offering = self._offering(key)
+            offered = [each[key] for each in map(self._loaded, offering) if key in each]
+            if len(offering) == 1:
+                found.extend(offered)
+            elif kind is kinds.EFFECT and offered:
+                from zlmreport.boundary.doubtful import doubtful  # noqa: PLC0415 - brings phrases
+
+                found.append(cast("Wanted", doubtful(offered[0])))
+        return tuple(found)
 
     def identifiers(self, kind: Kind[Any]) -> tuple[str, ...]:
         """Return what jobs call what there is of one kind, in order; only plugins that say so are loaded."""
@@ -159,16 +168,14 @@ class Registry:
 
     def _one(self, key: tuple[str, str], place: Place) -> Sequence[Candidate]:
         """Return the plugin that offers this, if there is one; two would answer differently."""
-        offering = [each for each in self._candidates if key in each.keys]
+        offering = self._offering(key)
         if len(offering) > 1:
-            first, second = (each.plugin for each in offering[:2])
-            label = next(kind.label for kind in KINDS if kind.name == key[0])
-            raise InputError.at(
-                place,
-                f"two plugins provide {label} {key[1]!r}: {first.module or first.name} and "
-                f"{second.module or second.name}; switch one off: {DISABLE}={second.name}",
-            )
+            kind = next(kind for kind in KINDS if kind.name == key[0])
+            raise InputError.at(place, _twice(kind, key[1], offering))
         return offering
+
+    def _offering(self, key: tuple[str, str]) -> Sequence[Candidate]:
+        return [each for each in self._candidates if key in each.keys]
 
     @property
     def standards(self) -> tuple[Standard, ...]:
@@ -270,6 +277,15 @@ def _is_for(program: PartProgram, takes: type | None) -> bool:
     from zlmreport.plugin.protocols import taken_by  # noqa: PLC0415
 
     return taken_by(program) is (takes or Motion)
+
+
+def _twice(kind: Kind[Any], identifier: str, offering: Sequence[Candidate]) -> str:
+    """Return the sentence on what two plugins provide."""
+    first, second = (each.plugin for each in offering[:2])
+    return (
+        f"two plugins provide {kind.label} {identifier!r}: {first.module or first.name} and "
+        f"{second.module or second.name}; switch one off: {DISABLE}={second.name}"
+    )
 
 
 def _as_it_is(module: object) -> object:
