@@ -52,14 +52,16 @@ def test_without_being_named_it_is_not_there(folder: Path) -> None:
 
 def test_a_file_that_is_not_there_cannot_be_read(folder: Path) -> None:
     done = _run("plugins", "--plugin", "yours.py", folder=folder)
-    assert (done.returncode, done.stdout) == (3, "")
+    assert done.returncode == 3
+    assert "iso230-2:2014" in done.stdout  # what works is listed all the same
     assert done.stderr.endswith("yours.py: there is no such plugin file\n")
 
 
 def test_a_file_that_does_not_work_is_a_mistake_at_its_line(folder: Path) -> None:
     (folder / "mine.py").write_text("import numpy\n1 / 0\n")
     done = _run("plugins", "--plugin", "mine.py", folder=folder)
-    assert (done.returncode, done.stdout) == (2, "")
+    assert done.returncode == 2
+    assert "iso230-2:2014" in done.stdout
     assert "mine.py:2:1: ZeroDivisionError: division by zero" in done.stderr
 
 

@@ -16,8 +16,8 @@ from zlmreport.plugin.kinds import EXTENSION, Kind
 
 #: What is no fault of a plugin: the user's mistake that it tells of, the user's stop, too little memory.
 _PASSED = (ZlmreportError, KeyboardInterrupt, MemoryError)
-#: Plugins of these kinds open files and ports, which may not be there.
-_OPENING = frozenset({"source", "instrument", "extension"})
+#: Plugins of these kinds open files, ports and libraries, which may not be there.
+_OPENING = frozenset({"source", "renderer", "instrument", "extension"})
 _LONGEST = 300
 _NOTHING = object()
 

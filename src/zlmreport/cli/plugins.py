@@ -13,8 +13,11 @@ from zlmreport.plugins import DISABLE, Plugin, Registry, find_plugins
 
 
 def run(options: Namespace) -> int:
-    """Print every plugin."""
-    print(*listing(find_plugins(files=options.plugin, lenient=True)), sep="\n")
+    """Print every plugin, and then what the user should mend before any job is run."""
+    registry = find_plugins(files=options.plugin, lenient=True)
+    print(*listing(registry), sep="\n", flush=True)
+    if registry.refused:
+        raise registry.refused
     return 0
 
 
@@ -33,9 +36,6 @@ def listing(registry: Registry) -> Iterator[str]:
         yield Colour.RED.of("not loaded")
         rows = [(each.plugin.name, each.plugin.release, each.reason) for each in registry.failed]
         yield from table(rows, indent="  ")
-    if registry.misspelt:
-        yield Colour.RED.of("misspelt")
-        yield from (f"  {problem}" for problem in registry.misspelt)
     if registry.disabled:
         yield f"switched off by {DISABLE}"
         yield from (f"  {name}" for name in registry.disabled)

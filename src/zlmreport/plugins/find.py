@@ -12,7 +12,7 @@ from pathlib import Path
 
 from zlmreport.errors import AccessError, InputError, Place, Problem, ZlmreportError
 from zlmreport.plugins.candidate import Candidate, Key
-from zlmreport.plugins.origin import DISABLE, Plugin, UnfitError, reason_of
+from zlmreport.plugins.origin import DISABLE, Plugin, reason_of
 from zlmreport.plugins.registry import Registry
 from zlmreport.plugins.remembered import Memory
 
@@ -40,8 +40,7 @@ def find_plugins(
     files
         More of them, from the command line.
     lenient
-        Whether a misspelt hook and a file that does not work are passed over: for a listing, which tells of
-        them.
+        Whether what would be raised is kept as `Registry.refused`: for a listing of what does work.
 
     Raises
     ------
@@ -70,8 +69,13 @@ def find_plugins(
             memory.watch(point, candidate)
         candidates.append(candidate)
     named = [Path(name) for name in environment.get(FILES, "").split(os.pathsep) if name]
-    paths = dict.fromkeys(each.resolve() for each in (*named, *files))
-    from_files = [_in_file_or_not(path) if lenient else _in_file(path) for path in paths]
+    from_files: list[Candidate] = []
+    refused: list[ZlmreportError] = []
+    for path in dict.fromkeys(each.resolve() for each in (*named, *files)):
+        try:
+            from_files.append(_in_file(path))
+        except ZlmreportError as error:
+            refused.append(error)
     registry = Registry([*candidates, *from_files], disabled)
     for candidate in (*candidates, *from_files):
         _ = candidate.keys  # loads it, if nobody knows what it offers
@@ -80,8 +84,11 @@ def find_plugins(
         Problem(Place(each.plugin.module), each.failure.reason) for each in from_files if each.failure
     ]
     problems += registry.misspelt
-    if problems and not lenient:
-        raise InputError(problems)
+    if problems:
+        refused.append(InputError(problems))
+    if refused and not lenient:
+        raise refused[0]
+    registry.refused = refused[0] if refused else None
     return registry
 
 
@@ -136,19 +143,6 @@ def _in_file(path: Path) -> Candidate:
     except (Exception, SystemExit) as error:
         raise InputError.at(Place(str(path), _line_in(path, error)), reason_of(error)) from error
     return Candidate(Plugin(path.stem, str(path)), lambda: module)
-
-
-def _in_file_or_not(path: Path) -> Candidate:
-    """Return the plugin in a file; one that fails where the file does not work."""
-    try:
-        return _in_file(path)
-    except ZlmreportError as error:
-        reason = "; ".join(problem.message for problem in error.problems)
-
-    def fail() -> object:
-        raise UnfitError(reason)
-
-    return Candidate(Plugin(path.stem, str(path)), fail)
 
 
 def _line_in(path: Path, error: BaseException) -> int:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Any, TypeVar, cast
 
-from zlmreport.errors import InputError, Place, Problem, did_you_mean
+from zlmreport.errors import InputError, Place, Problem, ZlmreportError, did_you_mean
 from zlmreport.plugin import kinds
 from zlmreport.plugin.kinds import KINDS, Kind
 from zlmreport.plugins.candidate import Candidate
@@ -68,6 +68,7 @@ class Registry:
 
     def __init__(self, candidates: Iterable[Candidate] = (), disabled: Iterable[str] = ()) -> None:
         self.disabled = tuple(disabled)
+        self.refused: ZlmreportError | None = None
         self._candidates = sorted(candidates, key=lambda each: (each.plugin.name, each.plugin.module))
 
     def find(self, kind: Kind[Wanted], identifier: str, named_at: Place | None = None) -> Wanted:
