@@ -250,7 +250,7 @@ def test_trouble_of_a_plugin_is_told_without_a_traceback(shop: Shop, monkeypatch
     run = shop.run("job.yaml")
     assert run.code == 2
     assert run.messages.startswith(
-        "job.yaml: standard 'exemplary:1' of plugin faulty: arithmetic raised KeyError: 'A' (test_report.py, line "
+        "job.yaml: standard 'exemplary:1' of plugin faulty: arithmetic raised KeyError: 'A' (test_report.py, "
     )
     assert "Traceback" not in run.messages
 
