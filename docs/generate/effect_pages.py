@@ -80,7 +80,7 @@ def _section(effect: Effect) -> Iterator[str]:
 
 def _doc(effect: Effect) -> str:
     """Return what the code says of the effect below the one line that names it."""
-    first, _, rest = (inspect.getdoc(type(effect)) or "").partition("\n\n")
+    first, _, rest = (inspect.getdoc(effect.__class__) or "").partition("\n\n")
     return f"{first}\n\n{rest}".strip()
 
 

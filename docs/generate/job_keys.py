@@ -93,7 +93,7 @@ def instruments_text() -> str:
         for part in (
             f"## `{instrument.identifier}`",
             f"{instrument.title.in_language(Language.ENGLISH)}.",
-            (inspect.getdoc(type(instrument)) or "").partition("\n\nParameters\n")[0],
+            (inspect.getdoc(instrument.__class__) or "").partition("\n\nParameters\n")[0],
             _table(instrument.options),
         )
     )

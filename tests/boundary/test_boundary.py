@@ -426,6 +426,7 @@ def test_guarded_object_is_equal_to_the_object() -> None:
     assert one == other == standard
     assert len({one, other}) == 1
     assert repr(one) == repr(standard)
+    assert one.__class__ is ExemplaryStandard
     assert not hasattr(one, "no_such_member")
     statistics = position_statistics(simulated_test().deviations())
     assert one.arithmetic(statistics, options=standard.options()).parameters["E"] > 0

@@ -44,6 +44,11 @@ class Guarded:
         self._offered = offered
         self._who = who
 
+    @property  # type: ignore[misc]  # as weak references and mocks do it: who asks what it is means the object
+    def __class__(self) -> type:
+        """The class of the object."""
+        return type(self._offered)
+
     def __getattr__(self, name: str) -> Any:
         """Return what the object has under this name; what can be called is guarded, and kept."""
         if name.startswith("__") or name in {"_kind", "_offered", "_who"}:

@@ -73,7 +73,7 @@ class Answers:
 def _program(effects: Iterable[Effect]) -> str:
     """Return what tells this program and its effects, as they stand in their files, from any other."""
     package = Path(version.__file__).parent
-    modules = (sys.modules.get(type(each).__module__) for each in effects)
+    modules = (sys.modules.get(each.__class__.__module__) for each in effects)
     homes = {Path(found) for each in modules if (found := getattr(each, "__file__", None))}
     stats = [(str(path), path.stat()) for path in sorted({*package.rglob("*.py"), *homes})]
     return repr([(path, stat.st_mtime_ns, stat.st_size) for path, stat in stats])
