@@ -8,6 +8,7 @@ from xml.etree import ElementTree as ET
 import pytest
 
 from typesetting.samples import NUMBER, certificate, measurements
+from zlmreport.certificate.columns import text_of
 from zlmreport.certificate.document import (
     Certificate,
     Column,
@@ -24,7 +25,6 @@ from zlmreport.certificate.document import (
     Verdict,
 )
 from zlmreport.language import Language
-from zlmreport.typesetting.columns import text_of
 from zlmreport.typesetting.compose import Setting, compose
 from zlmreport.typesetting.templates import symbol
 

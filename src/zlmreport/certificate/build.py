@@ -2,24 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from zlmreport.certificate import (
-    conditions,
-    cover,
-    origin,
-    readings,
-    results,
-    uncertainty,
-)
 from zlmreport.certificate.attachments import sources
 from zlmreport.certificate.conditions import Described
 from zlmreport.certificate.cover import lines
-from zlmreport.certificate.document import Certificate, Graph, Letterhead, PageWords, Party, Section
+from zlmreport.certificate.document import Certificate, Letterhead, PageWords, Party
 from zlmreport.certificate.logo import Logo, read_logo
-from zlmreport.certificate.statements import document_title, opinion_sections, running_title
+from zlmreport.certificate.material import LaidOut, Material
+from zlmreport.certificate.statements import document_title, running_title
 from zlmreport.evaluation.likely_units import doubts
 from zlmreport.language import Words
 from zlmreport.presenting.marks import Marks
@@ -30,11 +23,9 @@ if TYPE_CHECKING:
     from zlmreport.certificate.linked import Linked
     from zlmreport.certificate.model_annex import Modelled
     from zlmreport.certificate.results import Evaluated
-    from zlmreport.certificate.standard_layout import Pages
     from zlmreport.figures.figure import Figure
     from zlmreport.job.document_keys import Laboratory
     from zlmreport.job.job import Job
-    from zlmreport.measurement.measurement_set import MeasurementSet
 
 GENERATOR = f"zlmreport {__version__}"
 
@@ -78,33 +69,35 @@ def build(  # noqa: PLR0913, PLR0917 - what a document is made of
     designations = tuple(each.evaluation.designation for each in evaluated)
     logo = _logo(job)
     read = (measurements, *(each.evaluation.measurements for each in as_found[:1]))
-    described = describe(writer)
-    pages = _pages(job, evaluated, writer)
     files = [file for each in read for file in each.provenance.files]
     made_from = sources(job, files, logo.file if logo else None)
     doubtful = doubts(job, [each.evaluation for each in evaluated])
+    letterhead, title = _letterhead(job.keys.laboratory, logo), writer.say(document_title(certificate))
+    material = Material(
+        job,
+        evaluated,
+        as_found,
+        doubtful,
+        modelled,
+        describe(writer),
+        made_from,
+        GENERATOR,
+        plugins,
+        letterhead,
+        title,
+        writer,
+    )
+    laid_out = _laid_out(material)
     return Certificate(
         number=certificate.number,
-        title=writer.say(document_title(certificate)),
+        title=title,
         subtitle=writer.say(_SUBTITLE.given(axis=job.axis.name)),
         language=certificate.language,
         issued=certificate.issued,
         paper=certificate.paper,
-        letterhead=_letterhead(job.keys.laboratory, logo),
-        cover=cover.blocks(job, measurements, evaluated, doubtful, writer, pages, described),
-        sections=(
-            *_conditions(job, measurements, described, pages, writer),
-            *_results(job, evaluated, as_found, pages, writer),
-            *_in_common(pages, writer),
-            *_uncertainty(job, evaluated, as_found, pages, writer),
-            *(
-                replace(each, new_page=each.new_page and pages is None)
-                for each in _readings(job, measurements, as_found, writer)
-            ),
-            origin.section(made_from, read, GENERATOR, plugins, writer),
-            *opinion_sections(job.keys, writer),
-            *_model(modelled, writer),
-        ),
+        letterhead=letterhead,
+        cover=laid_out.cover,
+        sections=laid_out.sections,
         page_words=PageWords(
             number=writer.say(running_title(certificate)),
             page=writer.say(Words(en="page", de="Seite")),
@@ -125,118 +118,32 @@ def build(  # noqa: PLR0913, PLR0917 - what a document is made of
         budget=evaluated[0].budget,
         job=job,
         sources=made_from,
-        is_compact=pages is not None,
+        is_compact=laid_out.is_compact,
         doubts=doubtful,
     )
 
 
-def _pages(job: Job, evaluated: tuple[Evaluated, ...], writer: Writer) -> Pages | None:
-    """Return which evaluations share a page; None where each has a chapter."""
-    if job.keys.certificate.layout != "standard":
-        return None
-    from zlmreport.certificate.standard_layout import together  # noqa: PLC0415 - of those that ask for it
-
-    return together(evaluated, writer)
-
-
-def _in_common(pages: Pages | None, writer: Writer) -> Iterator[Section]:
-    """Yield what is said once for all standards, where each has no chapter."""
-    if pages is None:
-        return iter(())
-    from zlmreport.certificate.standard_layout import in_common  # noqa: PLC0415 - of those that ask for it
-
-    return in_common(pages, writer)
-
-
-def _without_graphs(section: Section) -> Section:
-    """Return a section whose table says what its bars repeat: that of the uncertainty."""
-    return replace(section, blocks=tuple(each for each in section.blocks if not isinstance(each, Graph)))
-
-
-def _conditions(
-    job: Job,
-    measurements: MeasurementSet,
-    described: Sequence[Described],
-    pages: Pages | None,
-    writer: Writer,
-) -> Iterator[Section]:
-    """Yield the conditions; where the cover holds them, what is said besides."""
-    section = conditions.section(job, measurements, described, writer)
-    besides = tuple(conditions.besides(measurements, described, writer))
-    if pages is None:
-        yield section
-    elif besides:
-        yield replace(section, blocks=besides)
-
-
-def _results(
-    job: Job,
-    evaluated: tuple[Evaluated, ...],
-    as_found: tuple[Evaluated, ...],
-    pages: Pages | None,
-    writer: Writer,
-) -> Iterator[Section]:
-    """Yield the results by each standard; of an axis that was adjusted, those before, after, and compared."""
-    keys = job.keys.as_found
-    if pages is None:
-        sections = (results.section(each, writer) for each in evaluated)
-        page = results.section
-    else:
-        from zlmreport.certificate import standard_layout  # noqa: PLC0415 - of those that ask for it
-
-        sections = (standard_layout.page(each, writer) for each in pages)
-        page = standard_layout.page_of_one
-    if keys is None:
-        return sections
-    from zlmreport.certificate.as_found import beside_as_found  # noqa: PLC0415 - of the few that need it
-
-    return beside_as_found(keys, sections, as_found, evaluated, writer, page)
-
-
-def _uncertainty(
-    job: Job,
-    evaluated: tuple[Evaluated, ...],
-    as_found: tuple[Evaluated, ...],
-    pages: Pages | None,
-    writer: Writer,
-) -> Iterator[Section]:
-    """Yield the uncertainty budget; of an axis that was adjusted, that of both measurements."""
-    sections = iter([uncertainty.section(evaluated[0].budget, job.axis, writer)])
-    if job.keys.as_found:
-        from zlmreport.certificate.as_found import uncertainty_beside_as_found  # noqa: PLC0415
-
-        sections = uncertainty_beside_as_found(job.keys.as_found, as_found, evaluated, writer)
-    return sections if pages is None else map(_without_graphs, sections)
-
-
-def _model(modelled: Modelled | None, writer: Writer) -> Iterator[Section]:
-    """Yield what the error model says, if the job names one."""
-    if modelled:
-        from zlmreport.certificate.model_annex import section  # noqa: PLC0415 - brings the error model
-
-        yield section(modelled, writer)
+def _laid_out(material: Material) -> LaidOut:
+    """Return the parts of the document in the layout that the job asks for."""
+    match material.job.keys.certificate.layout:
+        case "sheet":
+            from zlmreport.certificate.sheet_layout import lay_out  # noqa: PLC0415 - of those that ask for it
+        case "standard":
+            from zlmreport.certificate.standard_layout import lay_out  # noqa: PLC0415
+        case _:
+            from zlmreport.certificate.full_layout import lay_out  # noqa: PLC0415
+    return lay_out(material)
 
 
 def _linked(job: Job, modelled: Modelled | None, writer: Writer) -> Linked | None:
     """Return the readings beside the model, one by one; nothing where single readings are not to be shown."""
-    if modelled is None or job.keys.agreement.simplified or not job.keys.certificate.readings_on_graphs:
+    keys = job.keys
+    is_shown = keys.certificate.readings_on_graphs and keys.certificate.layout != "sheet"
+    if modelled is None or keys.agreement.simplified or not is_shown:
         return None
     from zlmreport.certificate.model_annex import linked_graphs  # noqa: PLC0415 - brings the error model
 
     return linked_graphs(modelled, writer)
-
-
-def _readings(
-    job: Job, measurements: MeasurementSet, as_found: tuple[Evaluated, ...], writer: Writer
-) -> Iterator[Section]:
-    """Yield the readings, unless the customer agreed to a document without them."""
-    if job.keys.agreement.simplified:
-        return
-    yield readings.section(measurements, writer)
-    if job.keys.as_found:
-        from zlmreport.certificate.as_found import readings_as_found  # noqa: PLC0415
-
-        yield readings_as_found(job.keys.as_found, as_found, writer)
 
 
 def _without_readings(evaluated: tuple[Evaluated, ...]) -> tuple[Evaluated, ...]:

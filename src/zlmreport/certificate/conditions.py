@@ -108,6 +108,13 @@ def facts(
         yield Paragraph(writer.say(_NO_INFLUENCE))
 
 
+def identified(job: Job, writer: Writer) -> frozenset[str]:
+    """Return what an identification of the machine says in one line."""
+    machine = job.keys.machine
+    kind = writer.say(MACHINE_KINDS[machine.kind])
+    return frozenset({machine.manufacturer or "", machine.model or "", machine.serial or "", kind})
+
+
 def besides(measurements: MeasurementSet, described: Sequence[Described], writer: Writer) -> Iterator[Block]:
     """Yield what does not fit into facts: corrections, and what extensions show."""
     yield from correction_blocks(measurements, writer)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from zlmreport.certificate import conformity, statements, uncertainty
 from zlmreport.certificate.circumstances import Fact, date, days, stated_facts
-from zlmreport.certificate.conditions import MACHINE_KINDS, Described, axis_in_words
+from zlmreport.certificate.conditions import MACHINE_KINDS, axis_in_words, identified
 from zlmreport.certificate.conditions import facts as facts_of_conditions
 from zlmreport.certificate.document import Block, Column, Facts, Notice, RowGroup, Symbol, Table
 from zlmreport.certificate.readings import missing_readings
@@ -20,40 +20,29 @@ from zlmreport.job.document_keys import Location
 from zlmreport.language import Words, same
 
 if TYPE_CHECKING:
+    from zlmreport.certificate.material import Material
     from zlmreport.evaluation.evaluation import Evaluation, Parameter
     from zlmreport.job.job import Job
     from zlmreport.job.keys import JobKeys
-    from zlmreport.measurement.measurement_set import MeasurementSet
     from zlmreport.presenting.writer import Writer
 
 
 _CALIBRATION = Words(en="Calibration", de="Kalibrierung")
 
 
-def blocks(  # noqa: PLR0913, PLR0917 - what a first page is made of
-    job: Job,
-    measurements: MeasurementSet,
-    evaluated: tuple[Evaluated, ...],
-    doubts: tuple[Words, ...],
-    writer: Writer,
-    pages: Sequence[tuple[Evaluated, ...]] | None = None,
-    described: Sequence[Described] = (),
-) -> tuple[Block, ...]:
+def blocks(of: Material, pages: Sequence[tuple[Evaluated, ...]] | None = None) -> tuple[Block, ...]:
     """Return the blocks under the title.
 
-    `doubts` are sentences on values that seem to be in another unit.
-
-    Where standards share `pages`, they share their results in brief, and the conditions stand here too,
-    with what extensions have `described`.
+    Where standards share `pages`, they share their results in brief, and the conditions stand here too.
     """
+    job, measurements, evaluated, writer = of.job, of.measurements, of.evaluated, of.writer
     evaluations = tuple(each.evaluation for each in evaluated)
     facts = stated_facts(identity(job, evaluations, writer), writer)
     if pages is None:
         first: tuple[Block, ...] = (Facts(facts),)
     else:
-        machine, kind = job.keys.machine, writer.say(MACHINE_KINDS[job.keys.machine.kind])
-        beside = {machine.manufacturer or "", machine.model or "", machine.serial or "", kind}
-        of_conditions = facts_of_conditions(job, measurements, described, writer, beside)
+        beside = identified(job, writer)
+        of_conditions = facts_of_conditions(job, measurements, of.described, writer, beside)
         first = (Facts(facts, writer.say(_CALIBRATION)), *of_conditions)
     return (
         *amendment_notice(job.keys.certificate, writer),
@@ -61,7 +50,7 @@ def blocks(  # noqa: PLR0913, PLR0917 - what a first page is made of
         _results(pages or [(each,) for each in evaluated], writer, dense=pages is not None),
         *uncertainty.statement(evaluated[0].budget, writer),
         *conformity.rule_paragraph(job.keys.decision_rule, evaluations, writer),
-        *_unlikely(doubts, writer),
+        *unlikely(of.doubts, writer),
         *missing_readings(measurements, writer),
         *_shortfalls(evaluations, writer, in_a_line=pages is not None),
         *_as_found(job, writer),
@@ -70,7 +59,8 @@ def blocks(  # noqa: PLR0913, PLR0917 - what a first page is made of
     )
 
 
-def _unlikely(doubts: tuple[Words, ...], writer: Writer) -> Iterator[Notice]:
+def unlikely(doubts: tuple[Words, ...], writer: Writer) -> Iterator[Notice]:
+    """Yield what seems to be in another unit."""
     heading = Words(
         en="Values that are unusual in the unit in which they are stated",
         de="Werte, die in der angegebenen Einheit ungewöhnlich sind",
@@ -144,7 +134,7 @@ def _shortfalls(evaluations: tuple[Evaluation, ...], writer: Writer, *, in_a_lin
         yield Notice(writer.say(heading), items)
 
 
-def identity(job: Job, evaluations: tuple[Evaluation, ...], writer: Writer) -> Iterator[Fact]:
+def identity(job: Job, evaluations: Sequence[Evaluation], writer: Writer) -> Iterator[Fact]:
     """Yield the facts, in the order of the page."""
     keys = job.keys
     machine, customer, person = keys.machine, keys.customer, keys.certificate.authorised_by

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from typing import TypeAlias
 
-from zlmreport.certificate import conformity, results
+from zlmreport.certificate import conditions, conformity, cover, results
 from zlmreport.certificate.document import (
     Block,
     Column,
@@ -20,6 +20,14 @@ from zlmreport.certificate.document import (
     Section,
     Symbol,
     Table,
+)
+from zlmreport.certificate.material import (
+    LaidOut,
+    Material,
+    opinions_and_model,
+    origin_section,
+    readings_sections,
+    uncertainty_sections,
 )
 from zlmreport.certificate.results import Evaluated, section_key
 from zlmreport.certificate.values import Values
@@ -53,6 +61,59 @@ _DEFINITIONS = Words(
 _DEFINED = Words(en="{caption} {designations}.", de="{caption} {designations}.")
 
 
+def lay_out(of: Material) -> LaidOut:
+    """Return the document."""
+    pages = together(of.evaluated, of.writer)
+    return LaidOut(
+        cover.blocks(of, pages),
+        (
+            *_besides_conditions(of),
+            *_results(of, pages),
+            *in_common(pages, of.writer),
+            *map(_without_graphs, uncertainty_sections(of)),
+            *(replace(each, new_page=False) for each in readings_sections(of)),
+            origin_section(of),
+            *map(_in_less_room, opinions_and_model(of, new_page=False)),
+        ),
+        is_compact=True,
+    )
+
+
+def _besides_conditions(of: Material) -> Iterator[Section]:
+    """Yield what is to be said of the conditions and is no fact: the facts stand on the first page."""
+    blocks = tuple(conditions.besides(of.measurements, of.described, of.writer))
+    if blocks:
+        section = conditions.section(of.job, of.measurements, of.described, of.writer)
+        yield replace(section, blocks=blocks)
+
+
+def _results(of: Material, pages: Pages) -> Iterator[Section]:
+    """Yield the results; of an axis that was adjusted, those before, after, and compared."""
+    sections = (page(each, of.writer) for each in pages)
+    keys = of.job.keys.as_found
+    if keys is None:
+        return sections
+    from zlmreport.certificate.as_found import beside_as_found  # noqa: PLC0415 - of the few that need it
+
+    return beside_as_found(keys, sections, of.as_found, of.evaluated, of.writer, page_of_one)
+
+
+def _without_graphs(section: Section) -> Section:
+    """Return a section whose table says what its bars repeat: that of the uncertainty."""
+    return replace(section, blocks=tuple(each for each in section.blocks if not isinstance(each, Graph)))
+
+
+def _in_less_room(section: Section) -> Section:
+    """Return a section that goes on where the one before ends, its graphs no higher than they must be."""
+    blocks = (
+        Graph(replace(each.figure, height=_OTHER * len(each.figure.panels)))
+        if isinstance(each, Graph)
+        else each
+        for each in section.blocks
+    )
+    return replace(section, blocks=tuple(blocks), new_page=False)
+
+
 def together(evaluated: Iterable[Evaluated], writer: Writer) -> Pages:
     """Return the evaluations, those together that share a page: the first of them gives names and limits."""
     pages: Pages = []
@@ -74,18 +135,23 @@ def designations(page: Sequence[Evaluated]) -> str:
 def page(shared: Sequence[Evaluated], writer: Writer) -> Section:
     """Return the results by a standard, and by others that give the same numbers."""
     first, *others = (each.evaluation for each in shared)
-    blocks: list[Block] = []
-    if others:
-        words = _SHARED_WITH_LIMITS if any(each.limit is not None for each in first.parameters) else _SHARED
-        names = ", ".join(each.designation for each in others)
-        blocks.append(Paragraph(writer.say(words.given(others=names, first=first.designation))))
-    blocks += _shortfalls((first, *others), writer)
+    blocks: list[Block] = [*said_of_all((first, *others), writer)]
     if first.parameters:
-        blocks += (_parameters(first, writer), *results.raised(first, writer))
+        blocks += (parameters(first, writer), *results.raised(first, writer))
     blocks += map(Graph, in_less_room(shared[0].figures))
     blocks.append(results.positions(first, writer))
     title = _TITLE.given(designations=designations(shared))
     return Section(section_key(first), writer.say(title), tuple(blocks), new_page=True)
+
+
+def said_of_all(evaluations: Sequence[Evaluation], writer: Writer) -> Iterator[Block]:
+    """Yield that standards share a page, whose names it has, and what deviates from them."""
+    first, *others = evaluations
+    if others:
+        words = _SHARED_WITH_LIMITS if any(each.limit is not None for each in first.parameters) else _SHARED
+        names = ", ".join(each.designation for each in others)
+        yield Paragraph(writer.say(words.given(others=names, first=first.designation)))
+    yield from _shortfalls(evaluations, writer)
 
 
 def page_of_one(evaluated: Evaluated, writer: Writer) -> Section:
@@ -117,7 +183,7 @@ def in_less_room(figures: Sequence[Figure]) -> Iterator[Figure]:
     Single readings of a graph that is left out stand in the one that is kept.
     """
     single = [each for each in figures if len(each.panels) == 1]
-    main = next((each for each in single if each.panels[0].brackets), single[0] if single else None)
+    main = main_graph(figures)
     if main is not None:
         again = [each for each in single if each is not main and _shows_again(each.panels[0], main.panels[0])]
         readings = main.panels[0].readings or next((each.panels[0].readings for each in again), ())
@@ -130,6 +196,12 @@ def in_less_room(figures: Sequence[Figure]) -> Iterator[Figure]:
             yield each
         elif any(each is other for other in single):
             yield replace(each, height=_OTHER)
+
+
+def main_graph(figures: Sequence[Figure]) -> Figure | None:
+    """Return the graph that shows where the parameters arise; any other of one panel if none does."""
+    single = [each for each in figures if len(each.panels) == 1]
+    return next((each for each in single if each.panels[0].brackets), single[0] if single else None)
 
 
 def _shows_again(panel: Panel, main: Panel) -> bool:
@@ -168,20 +240,25 @@ def _shortfalls(evaluations: Sequence[Evaluation], writer: Writer) -> Iterator[N
         yield results.shortfall(", ".join(names), items, writer)
 
 
-def _parameters(evaluation: Evaluation, writer: Writer) -> Table:
-    values = Values.of([evaluation], writer)
+def parameters(evaluation: Evaluation, writer: Writer) -> Table:
+    """Return all parameters by a standard: a row each, what repeats apart from what scatters."""
+    values = Values.of([evaluation], writer, with_interval=True)
     columns = (
         Column(writer.say(Words(en="Symbol", de="Zeichen"))),
         Column(writer.say(Words(en="Parameter", de="Kenngröße"))),
         *values.columns,
     )
-    order = list(Group)
-    rows = tuple(
-        (Symbol(each.quantity.notation), writer.say(each.quantity.name), *values.cells(each))
-        for each in sorted(evaluation.parameters, key=lambda each: order.index(each.quantity.group))
+    groups = (
+        tuple(
+            (Symbol(each.quantity.notation), writer.say(each.quantity.name), *values.cells(each))
+            for each in evaluation.parameters
+            if each.quantity.group is group
+        )
+        for group in Group
     )
     caption = Words(
         en="Parameters of the axis: systematic, random and composite deviations",
         de="Kenngrößen der Achse: systematische, zufällige und Gesamtabweichungen",
     )
-    return Table(writer.say(caption), columns, (RowGroup(rows),), dense=True)
+    rows = tuple(RowGroup(each) for each in groups if each)
+    return Table(writer.say(caption), columns, rows, dense=True)

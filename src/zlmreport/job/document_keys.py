@@ -141,10 +141,11 @@ class CertificateKeys(JobPart):
         description="The earlier document that this one amends or replaces.",
         examples=[{"number": "CAL-2026-0117", "reason": "The serial number of the machine was wrong."}],
     )
-    layout: Literal["standard", "full"] = Field(
+    layout: Literal["sheet", "standard", "full"] = Field(
         "full",
-        description="How much room the document takes: `standard` has a page or so for each standard, and "
-        "says once for all what they share; `full` has a chapter for each.",
+        description="How much room the document takes: `sheet` has one page for each standard and no more; "
+        "`standard` has a page or so for each, and says once for all what they share; `full` has a chapter "
+        "for each.",
     )
     paper: Literal["A4", "Letter"] = Field("A4", description="Paper size.")
     readings_on_graphs: bool = Field(

@@ -23,6 +23,8 @@ if TYPE_CHECKING:
     from zlmreport.certificate.attachments import Attachment, Relationship
     from zlmreport.certificate.attachments import Source as CertificateSource
     from zlmreport.certificate.circumstances import Fact
+    from zlmreport.certificate.columns import GatheredBlock, decimal_padding, gather_facts, table_layout
+    from zlmreport.certificate.columns import side_by_side as facts_side_by_side
     from zlmreport.certificate.conditions import Described
     from zlmreport.certificate.conformity import STATEMENTS as CONFORMITY_STATEMENTS
     from zlmreport.certificate.cover import lines as address_lines
@@ -223,13 +225,6 @@ if TYPE_CHECKING:
         unit_named,
     )
     from zlmreport.quantities.units import Scale as ReadingScale
-    from zlmreport.typesetting.columns import GatheredBlock, decimal_padding, gather_facts
-    from zlmreport.typesetting.columns import lines as table_lines
-    from zlmreport.typesetting.columns import measures as column_measures
-    from zlmreport.typesetting.columns import side_by_side as facts_side_by_side
-    from zlmreport.typesetting.columns import size as table_size
-    from zlmreport.typesetting.columns import stands_apart as columns_stand_apart
-    from zlmreport.typesetting.columns import widths as column_widths
     from zlmreport.typesetting.compose import GRAPH_ADDRESS, LOGO_ADDRESS
     from zlmreport.typesetting.compose import Setting as HtmlSetting
     from zlmreport.typesetting.compose import compose as compose_html
@@ -441,9 +436,6 @@ __all__ = [
     "both_directions",
     "calibration_in_words",
     "collect_readings",
-    "column_measures",
-    "column_widths",
-    "columns_stand_apart",
     "compose_html",
     "decided",
     "decimal_padding",
@@ -531,8 +523,7 @@ __all__ = [
     "streamed_readings",
     "style_sheet",
     "sync_folder",
-    "table_lines",
-    "table_size",
+    "table_layout",
     "take_names",
     "text_advance",
     "unit_named",
@@ -571,6 +562,9 @@ _ROOMS = {
     "zlmreport.capture.options": "CaptureOptions",
     "zlmreport.capture.records": "JournalHeader=Header",
     "zlmreport.certificate.attachments": "Attachment CertificateSource=Source Relationship",
+    "zlmreport.certificate.columns": (
+        "GatheredBlock decimal_padding facts_side_by_side=side_by_side gather_facts table_layout"
+    ),
     "zlmreport.certificate.conformity": "CONFORMITY_STATEMENTS=STATEMENTS",
     "zlmreport.certificate.document": (
         "Align Block Cell Certificate Column Explained Facts Formulas Graph Letterhead Mark Notice "
@@ -658,10 +652,6 @@ _ROOMS = {
         "CELSIUS HECTOPASCAL INCH LENGTH_UNITS MICROMETRE MILLIMETRE MILLIRADIAN PERCENT POSITION_UNITS "
         "ReadingScale=Scale SECOND TIME_UNITS Unit unit_named DEGREE MICROMETRE_PER_METRE_KELVIN "
         "MICRORADIAN"
-    ),
-    "zlmreport.typesetting.columns": (
-        "GatheredBlock column_measures=measures column_widths=widths columns_stand_apart=stands_apart "
-        "decimal_padding facts_side_by_side=side_by_side gather_facts table_lines=lines table_size=size"
     ),
     "zlmreport.typesetting.compose": "GRAPH_ADDRESS HtmlSetting=Setting LOGO_ADDRESS compose_html=compose",
     "zlmreport.typesetting.linked": "linked_script=script linked_style=style script_fingerprint=fingerprint",

@@ -11,6 +11,7 @@ from itertools import count
 
 from markupsafe import Markup
 
+from zlmreport.certificate.columns import GatheredBlock, gather_facts, side_by_side
 from zlmreport.certificate.document import (
     Block,
     Certificate,
@@ -21,7 +22,6 @@ from zlmreport.certificate.document import (
     Section,
     Table,
 )
-from zlmreport.typesetting.columns import GatheredBlock, gather_facts, side_by_side
 from zlmreport.typesetting.contexts import (
     Context,
     DocumentContext,

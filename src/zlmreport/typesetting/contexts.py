@@ -71,6 +71,8 @@ class TableContext:
         Class name of its type size.
     whole
         Whether it is short enough to stay on one page.
+    in_fives
+        Whether its rows are read in fives.
     widths
         Of the columns, in per cent of the page's.
     headings
@@ -86,6 +88,7 @@ class TableContext:
     caption: str
     size: str
     whole: bool
+    in_fives: bool
     widths: tuple[str, ...]
     headings: tuple[CellContext, ...]
     groups: tuple[RowGroupContext, ...]

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
+from zlmreport.certificate import columns
 from zlmreport.certificate.document import (
     Align,
     Cell,
@@ -14,12 +17,8 @@ from zlmreport.certificate.document import (
     Table,
     Verdict,
 )
-from zlmreport.typesetting import columns
 from zlmreport.typesetting.contexts import CellContext, FormulasContext, RowGroupContext, TableContext
 from zlmreport.typesetting.templates import symbol
-
-#: A table of no more lines is not parted by the end of a page.
-_WHOLE_LINES = 16
 
 _SHAPE = {Mark.MET: "met", Mark.NOT_MET: "not-met", Mark.OPEN: "open"}
 _ALIGNMENT = {Align.LEFT: "", Align.RIGHT: "right", Align.CENTRE: "centre"}
@@ -37,18 +36,19 @@ def table_context(table: Table, label: str, page: str) -> TableContext:
     page
         Word before the number of a page.
     """
-    size, widths, whole = _columns(table)
+    layout = columns.table_layout(table)
     styles = tuple(
         "apart" if apart else _ALIGNMENT[column.align]
-        for column, apart in zip(table.columns, columns.stands_apart(table.columns), strict=True)
+        for column, apart in zip(table.columns, layout.apart, strict=True)
     )
     padding = iter(columns.decimal_padding(table))
     return TableContext(
         label=label,
         caption=table.caption,
-        size=size,
-        whole=whole,
-        widths=widths,
+        size=layout.size,
+        whole=layout.is_whole,
+        in_fives=layout.in_fives,
+        widths=_per_cent(layout.widths),
         headings=tuple(
             CellContext(_content(column.heading), style, column.unit)
             for column, style in zip(table.columns, styles, strict=True)
@@ -69,12 +69,12 @@ def table_context(table: Table, label: str, page: str) -> TableContext:
 def formulas_context(formulas: Formulas, label: str) -> FormulasContext:
     """Return the context of definitions, which are set as a table without headings."""
     columns_of_words = (Column(""),) * 3
-    _, widths, whole = _columns(Table("", columns_of_words, (RowGroup(formulas.rows),)))
+    layout = columns.table_layout(Table("", columns_of_words, (RowGroup(formulas.rows),)))
     return FormulasContext(
         label=label,
         caption=formulas.caption,
-        whole=whole,
-        widths=widths,
+        whole=layout.is_whole,
+        widths=_per_cent(layout.widths),
         rows=tuple(
             (symbol(letter.notation), symbol(formula.notation), name)
             for letter, formula, name in formulas.rows
@@ -82,13 +82,8 @@ def formulas_context(formulas: Formulas, label: str) -> FormulasContext:
     )
 
 
-def _columns(table: Table) -> tuple[str, tuple[str, ...], bool]:
-    """Return the class name of a table's type size, its columns' widths, and whether it stays on a page."""
-    needs = columns.measures(table)
-    size = columns.size(table, needs)
-    widths = columns.widths(needs, size.page_em)
-    lines = columns.lines(table, [size.page_em * width / 100 for width in widths])
-    return size.name, tuple(f"{width:.2f}" for width in widths), lines <= _WHOLE_LINES
+def _per_cent(widths: Iterable[float]) -> tuple[str, ...]:
+    return tuple(f"{width:.2f}" for width in widths)
 
 
 def _cell(cell: Cell, style: str, padding: str) -> CellContext:

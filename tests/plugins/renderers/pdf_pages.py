@@ -12,9 +12,9 @@ from pypdf import PageObject, PdfReader
 from pypdf.generic import DictionaryObject
 
 from typesetting import samples
+from zlmreport.certificate.columns import text_of
 from zlmreport.certificate.document import Certificate, Table
 from zlmreport.language import Language
-from zlmreport.typesetting.columns import text_of
 from zlmreport_plugins.renderers.pdf import PdfRenderer
 
 #: A number as it is printed; a standard's year and the like are among them.

@@ -19,17 +19,11 @@ from zlmreport.plugin import (
     Symbol,
     Table,
     Verdict,
-    column_measures,
-    column_widths,
-    columns_stand_apart,
     decimal_padding,
-    table_lines,
-    table_size,
+    table_layout,
 )
 from zlmreport_plugins.renderers.pdf_typst.words import fitted, symbol_data
 
-#: A table of no more lines is not parted by the end of a page.
-_WHOLE_LINES = 16
 #: Width of a figure, and of a decimal sign, in em: all figures of the typeface are of one width.
 _FIGURE = 0.6
 _DECIMAL_SIGN = 0.272
@@ -56,7 +50,6 @@ def table_data(table: Table) -> dict[str, Any]:
     return {
         **columns_data,
         "align": [column.align.value for column in table.columns],
-        "apart": columns_stand_apart(table.columns),
         "headings": [
             {"content": _cell(column.heading, room, face=FontFace.SEMIBOLD), "unit": column.unit}
             for column, room in zip(table.columns, rooms, strict=True)
@@ -85,20 +78,17 @@ def _columns(table: Table) -> dict[str, Any]:
 
     Columns of numbers were made wide enough for each of them, and never part one.
     """
-    needs = column_measures(table)
-    size = table_size(table, needs)
-    widths = column_widths(needs, size.page_em)
-    available = [size.page_em * width / 100 for width in widths]
+    layout = table_layout(table)
     return {
-        "size": size.name,
-        "widths": widths,
-        "whole": table_lines(table, available) <= _WHOLE_LINES,
+        "size": layout.size,
+        "widths": layout.widths,
+        "apart": layout.apart,
+        "whole": layout.is_whole,
+        "in-fives": layout.in_fives,
         "breakable": any(_is_long(cell) for group in table.groups for row in group.rows for cell in row),
         "rooms": [
-            inf if column.align is Align.RIGHT else width - _PADDING - (_APART if apart else 0.0)
-            for width, column, apart in zip(
-                available, table.columns, columns_stand_apart(table.columns), strict=True
-            )
+            inf if column.align is Align.RIGHT else room - _PADDING - (_APART if apart else 0.0)
+            for room, column, apart in zip(layout.rooms, table.columns, layout.apart, strict=True)
         ],
     }
 

@@ -92,6 +92,59 @@ class Measure:
     least: float
 
 
+#: A table of no more lines is not parted by the end of a page.
+_WHOLE_LINES = 16
+
+
+@dataclass(frozen=True, slots=True)
+class TableLayout:
+    """How a table stands on a page, for every renderer.
+
+    Attributes
+    ----------
+    size
+        Its type size: ``regular``, ``dense`` or ``finest``.
+    widths
+        Of the columns, in per cent of the page's.
+    rooms
+        The same in em of the type.
+    lines
+        That its body takes, estimated.
+    apart
+        Which columns are words that follow a column of numbers: the two need a gap between them.
+    is_whole
+        Whether it is short enough to stay on one page.
+    in_fives
+        Whether its rows are read in fives, as in a book of tables, and pages break between the fives.
+    """
+
+    size: str
+    widths: tuple[float, ...]
+    rooms: tuple[float, ...]
+    lines: int
+    apart: tuple[bool, ...]
+    is_whole: bool
+    in_fives: bool
+
+
+def table_layout(table: Table) -> TableLayout:
+    """Return how a table stands on a page."""
+    needs = measures(table)
+    chosen = size(table, needs)
+    shares = widths(needs, chosen.page_em)
+    rooms = tuple(chosen.page_em * share / 100 for share in shares)
+    body = lines(table, rooms)
+    return TableLayout(
+        size=chosen.name,
+        widths=shares,
+        rooms=rooms,
+        lines=body,
+        apart=stands_apart(table.columns),
+        is_whole=body <= _WHOLE_LINES,
+        in_fives=chosen.name != SIZES[0].name and table.columns[0].align is Align.RIGHT,
+    )
+
+
 def text_of(cell: Cell) -> str:
     """Return what a cell shows, as a plain line."""
     match cell:
@@ -182,15 +235,15 @@ def _padding(cells: Sequence[Cell]) -> tuple[str, ...]:
 
 def _measure(column: Column, cells: Sequence[Cell], gap: float) -> Measure:
     is_words = column.align is Align.LEFT
-    heading = _SEMIBOLD * _width(text_of(column.heading))
-    least = max(_SEMIBOLD * _longest_word(text_of(column.heading)), _width(column.unit))
+    heading = _SEMIBOLD * width_of(text_of(column.heading))
+    least = max(_SEMIBOLD * _longest_word(text_of(column.heading)), width_of(column.unit))
     natural = heading if is_words else least
     for cell in cells:
         text = text_of(cell)
-        width = _width(text)
+        width = width_of(text)
         match cell:
             case Explained(meaning=meaning):
-                width = max(width, _SMALL * _width(meaning))
+                width = max(width, _SMALL * width_of(meaning))
                 unbroken = max(_longest_word(text), _SMALL * _longest_word(meaning))
             case Verdict():
                 width = unbroken = _SEMIBOLD * width + _VERDICT_EM
@@ -205,16 +258,17 @@ def _measure(column: Column, cells: Sequence[Cell], gap: float) -> Measure:
 
 def _lines(cell: Cell, available: float) -> int:
     room = max(available - _PADDING_EM, _FULL)
-    note = ceil(_SMALL * _width(cell.meaning) / room) if isinstance(cell, Explained) else 0
-    return max(1, ceil(_width(text_of(cell)) / room)) + note
+    note = ceil(_SMALL * width_of(cell.meaning) / room) if isinstance(cell, Explained) else 0
+    return max(1, ceil(width_of(text_of(cell)) / room)) + note
 
 
 def _longest_word(text: str) -> float:
-    return min(max(map(_width, text.split()), default=0.0), _LONGEST_WORD_EM)
+    return min(max(map(width_of, text.split()), default=0.0), _LONGEST_WORD_EM)
 
 
 @lru_cache(maxsize=4096)
-def _width(text: str) -> float:
+def width_of(text: str) -> float:
+    """Estimate how wide a text is, in em."""
     return sum(map(_character_width, text))
 
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from zlmreport.certificate.columns import gather_facts, side_by_side
 from zlmreport.certificate.document import Facts, Notice, Paragraph
-from zlmreport.typesetting.columns import gather_facts, side_by_side
 
 
 def group(pairs: int, value: str = "value") -> Facts:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
+from zlmreport.certificate import columns
 from zlmreport.certificate.document import Align, Cell, Column, Mark, RowGroup, Symbol, Table, Verdict
-from zlmreport.typesetting import columns
 
 NUMBERS = Align.RIGHT
 

@@ -1,0 +1,120 @@
+"""What a document is made of, and the sections that no layout makes its own way."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+from zlmreport.certificate import origin, readings, uncertainty
+from zlmreport.certificate.statements import opinion_sections
+
+if TYPE_CHECKING:
+    from zlmreport.certificate.attachments import Source
+    from zlmreport.certificate.conditions import Described
+    from zlmreport.certificate.document import Block, Letterhead, Section
+    from zlmreport.certificate.model_annex import Modelled
+    from zlmreport.certificate.results import Evaluated
+    from zlmreport.job.job import Job
+    from zlmreport.language import Words
+    from zlmreport.measurement.measurement_set import MeasurementSet
+    from zlmreport.presenting.writer import Writer
+
+
+@dataclass(frozen=True, slots=True)
+class Material:
+    """What a document is made of.
+
+    Attributes
+    ----------
+    job
+        The checked job.
+    evaluated
+        At least one evaluation; all are of the same measurements.
+    as_found
+        Evaluations of the axis before it was adjusted, by the same standards; empty where it was not.
+    doubts
+        Sentences on values that seem to be in another unit.
+    modelled
+        The error model, studied; None where the job names none.
+    described
+        What extensions say of their groups of job keys.
+    sources
+        The files that it is made from.
+    generator, plugins
+        Name and version of this program; identifier and version of every plugin that took part.
+    letterhead, title
+        What stands above everything.
+    writer
+        Of the document.
+    """
+
+    job: Job
+    evaluated: tuple[Evaluated, ...]
+    as_found: tuple[Evaluated, ...]
+    doubts: tuple[Words, ...]
+    modelled: Modelled | None
+    described: Sequence[Described]
+    sources: tuple[Source, ...]
+    generator: str
+    plugins: Mapping[str, str]
+    letterhead: Letterhead | None
+    title: str
+    writer: Writer
+
+    @property
+    def measurements(self) -> MeasurementSet:
+        """What the results are of: the axis as left."""
+        return self.evaluated[0].evaluation.measurements
+
+    @property
+    def read(self) -> tuple[MeasurementSet, ...]:
+        """All that was measured: the axis as left, and as found if it was adjusted."""
+        return (self.measurements, *(each.evaluation.measurements for each in self.as_found[:1]))
+
+
+@dataclass(frozen=True, slots=True)
+class LaidOut:
+    """A document in a layout: the first page under its title, and the rest."""
+
+    cover: tuple[Block, ...]
+    sections: tuple[Section, ...]
+    is_compact: bool = False
+
+
+def uncertainty_sections(of: Material) -> Iterator[Section]:
+    """Yield the uncertainty budget; of an axis that was adjusted, that of both measurements."""
+    keys = of.job.keys.as_found
+    if keys:
+        from zlmreport.certificate.as_found import uncertainty_beside_as_found  # noqa: PLC0415 - of few
+
+        yield from uncertainty_beside_as_found(keys, of.as_found, of.evaluated, of.writer)
+    else:
+        yield uncertainty.section(of.evaluated[0].budget, of.job.axis, of.writer)
+
+
+def readings_sections(of: Material) -> Iterator[Section]:
+    """Yield the readings, unless the customer agreed to a document without them."""
+    keys = of.job.keys
+    if keys.agreement.simplified:
+        return
+    yield readings.section(of.measurements, of.writer)
+    if keys.as_found:
+        from zlmreport.certificate.as_found import readings_as_found  # noqa: PLC0415 - of few
+
+        yield readings_as_found(keys.as_found, of.as_found, of.writer)
+
+
+def origin_section(of: Material) -> Section:
+    """Return where the numbers come from."""
+    return origin.section(of.sources, of.read, of.generator, of.plugins, of.writer)
+
+
+def opinions_and_model(of: Material, *, new_page: bool) -> Iterator[Section]:
+    """Yield what is an opinion and no result: the job's, and what the error model says."""
+    for each in opinion_sections(of.job.keys, of.writer):
+        yield replace(each, new_page=new_page)
+    if of.modelled:
+        from zlmreport.certificate.model_annex import section  # noqa: PLC0415 - brings the error model
+
+        yield section(of.modelled, of.writer)
