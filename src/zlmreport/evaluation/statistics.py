@@ -114,15 +114,16 @@ def position_statistics(deviations: FloatArray) -> PositionStatistics:
     Notes
     -----
     Means first, squares of the residuals about them second: nothing cancels. The runs, which are few, are
-    taken one by one, so that a large stack of tests needs no copy of itself.
+    taken one by one, so that a large stack of tests needs no copy of itself. The tests of a stack lie next to
+    each other in memory, for what is asked next are extremes over the positions, which are few.
     """
     readings = deviations.view()
     readings.setflags(write=False)
     runs = np.moveaxis(readings, -1, 0)
     by_position = readings.shape[:-1]
-    count = np.zeros(by_position, dtype=np.int64)
-    total = np.zeros(by_position)
-    squares = np.zeros(by_position)
+    count = np.zeros(by_position, dtype=np.int64, order="F")
+    total = np.zeros(by_position, order="F")
+    squares = np.zeros(by_position, order="F")
     for run in runs:
         present = ~np.isnan(run)
         count += present

@@ -10,17 +10,20 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from zlmreport.language import Words
 from zlmreport.model import wording
 from zlmreport.model.design import Design
-from zlmreport.model.effect import Effect
-from zlmreport.model.fit import Fit
 from zlmreport.model.observations import of_readings
 from zlmreport.model.repeats import noise_floor, repeats
 from zlmreport.quantities.arrays import BoolArray, FloatArray, IntArray
+
+if TYPE_CHECKING:
+    from zlmreport.model.effect import Effect
+    from zlmreport.model.fit import Fit
 
 #: Evidence, 2·ln of a likelihood ratio, that a slip must have, and by which it must surpass every effect.
 _STRONG, _FARTHER = 20.0, 6.0

@@ -46,6 +46,7 @@ def with_uncertainty(
     ]
     if isinstance(budget, NoBudget):
         return tuple(bare)
+    means = mean_uncertainty(evaluations[0][0], budget)  # of the readings, which all have in common
     found = []
     for evaluation, expanded in zip(bare, propagate(budget, evaluations), strict=True):
         parameters = tuple(
@@ -57,7 +58,6 @@ def with_uncertainty(
             )
             for each in evaluation.parameters
         )
-        means = mean_uncertainty(evaluation, budget)
         found.append(
             replace(
                 evaluation,
