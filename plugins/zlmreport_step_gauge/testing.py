@@ -17,7 +17,7 @@ from zlmreport.plugin import (
     PartProgram,
     Place,
 )
-from zlmreport.testing.expectations import expect, run_all
+from zlmreport.testing.expectations import check, expect, run_all
 from zlmreport.testing.program_expectations import (
     expect_defaults,
     expect_named,
@@ -59,16 +59,19 @@ class Stated:
 Recogniser: TypeAlias = Callable[[str], Sequence[Stated]]
 
 
+@check
 def is_named(program: PartProgram, _recogniser: Recogniser, _keys: Mapping[str, Any]) -> None:
     """Check that it has an identifier that can be typed, a title in every language, and a file suffix."""
     expect_named(program, PartProgram, ".dmi")
 
 
+@check
 def options_are_described(program: PartProgram, _recogniser: Recogniser, _keys: Mapping[str, Any]) -> None:
     """Check that its job keys are described, none is a key of the core, and all have defaults."""
     expect_defaults(program)
 
 
+@check
 def leads_along_the_path(program: PartProgram, recogniser: Recogniser, keys: Mapping[str, Any]) -> None:
     """Check for both kinds of paths that the program has their moves, in their order, and no other."""
     for kind in PathKind:
@@ -88,17 +91,20 @@ def leads_along_the_path(program: PartProgram, recogniser: Recogniser, keys: Map
                 )
 
 
+@check
 def is_plain_text(program: PartProgram, _recogniser: Recogniser, keys: Mapping[str, Any]) -> None:
     """Check that the program is ASCII in lines that a machine can hold, and ends with a line."""
     expect_plain_text(_written(program, sample_path(), keys), program.identifier)
 
 
+@check
 def writes_the_same_again(program: PartProgram, _recogniser: Recogniser, keys: Mapping[str, Any]) -> None:
     """Check that the same path gives the same program."""
     first, second = (_written(program, sample_path(PathKind.HORIZONTAL), keys) for _ in range(2))
     expect(first == second, f"{program.identifier}: writing the same path again gives another program")
 
 
+@check
 def takes_no_name_for_a_statement(
     program: PartProgram, recogniser: Recogniser, keys: Mapping[str, Any]
 ) -> None:
@@ -110,6 +116,7 @@ def takes_no_name_for_a_statement(
         expect_same_deeds(text, recogniser, plain, where, "read")
 
 
+@check
 def minds_the_radius(program: PartProgram, _recogniser: Recogniser, keys: Mapping[str, Any]) -> None:
     """Check that a job whose machine corrects the radius gets another program, or is refused at its place.
 

@@ -13,7 +13,7 @@ from zlmreport.errors import Place
 from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.plugin.protocols import SourceContext
 from zlmreport.plugins import find_plugins
-from zlmreport.testing import SOURCE_CHECKS
+from zlmreport.testing import SOURCE_CHECKS, FileContents
 from zlmreport_step_gauge.calibration import read_calibration
 from zlmreport_step_gauge.set_up import GaugeSetUp
 
@@ -40,16 +40,60 @@ ON_A_GAUGE = SourceContext(
         )
     },
 )
-#: Files that a source reads without complaint: its identifier, its job keys, and the axis.
-SAMPLES: list[tuple[str, Mapping[str, Any], Axis | SourceContext]] = [
-    ("ecmc", {"file": DATA / "ecmc_13e6c326.dat"}, Axis("Y")),
-    ("laser-csv", {"file": CONFIGS / "linear-axis" / "y-axis.csv"}, Axis("Y")),
-    ("laser-csv", {"file": CONFIGS / "german" / "x-achse.csv", "columns": GERMAN_COLUMNS}, Axis("X")),
-    ("laser-csv", {"file": CONFIGS / "rotary-axis" / "c-axis.csv"}, Axis("C", AxisKind.ROTARY)),
-    ("renishaw-rtl", {"file": DATA / "bidirectional.rtl"}, Axis("Y")),
-    ("serial-interferometer", {"journal": DATA / "linear.journal"}, Axis("X")),
-    ("step-gauge", {"file": ROOT / "tests" / "data" / "step_gauge" / "stepgauge_raw.csv"}, ON_A_GAUGE),
-    ("step-gauge", {"file": ROOT / "tests" / "data" / "step_gauge" / "stepgauge.res"}, ON_A_GAUGE),
+_Y_AXIS = FileContents(
+    90, ((-15.0, "+", 1, 30.87), (20.0, "+", 5, -20.24), (15.0, "-", 1, 43.5), (-20.0, "-", 5, -7.93))
+)
+#: Read by a formula from distances and the calibration of the gauge: 20.0 mm is reached 2.2 µm short.
+_ON_A_GAUGE = FileContents(
+    20, ((20.0, "+", 1, -2.2314), (80.0, "+", 2, 2.4194), (30.0, "-", 1, -2.8904), (90.0, "-", 2, 1.4604))
+)
+#: Files that a source reads without complaint: its identifier, its job keys, the axis, and what it holds.
+SAMPLES: list[tuple[str, Mapping[str, Any], Axis | SourceContext, FileContents]] = [
+    (
+        "ecmc",
+        {"file": DATA / "ecmc_13e6c326.dat"},
+        Axis("Y"),
+        FileContents(
+            90, ((-15.0, "+", 1, 19.88), (20.0, "+", 5, -27.57), (15.0, "-", 1, 63.44), (-20.0, "-", 5, 0.62))
+        ),
+    ),
+    ("laser-csv", {"file": CONFIGS / "linear-axis" / "y-axis.csv"}, Axis("Y"), _Y_AXIS),
+    (
+        "laser-csv",
+        {"file": CONFIGS / "german" / "x-achse.csv", "columns": GERMAN_COLUMNS},
+        Axis("X"),
+        FileContents(
+            50, ((25.2, "+", 1, -0.97), (55.8, "+", 5, 44.86), (45.6, "-", 1, -25.54), (15.0, "-", 5, -22.08))
+        ),
+    ),
+    (
+        "laser-csv",
+        {"file": CONFIGS / "rotary-axis" / "c-axis.csv"},
+        Axis("C", AxisKind.ROTARY),
+        FileContents(
+            100,
+            ((10.0, "+", 1, -20.52), (40.0, "+", 10, -3.6), (10.0, "-", 1, 111.6), (40.0, "-", 10, 115.92)),
+        ),
+    ),
+    ("renishaw-rtl", {"file": DATA / "bidirectional.rtl"}, Axis("Y"), _Y_AXIS),
+    (
+        "serial-interferometer",
+        {"journal": DATA / "linear.journal"},
+        Axis("X"),
+        FileContents(11, ((100.0, "+", 1, -2.3), (200.0, "+", 2, 4.7), (0.0, "-", 2, 1.1)), missing=1),
+    ),
+    (
+        "step-gauge",
+        {"file": ROOT / "tests" / "data" / "step_gauge" / "stepgauge_raw.csv"},
+        ON_A_GAUGE,
+        _ON_A_GAUGE,
+    ),
+    (
+        "step-gauge",
+        {"file": ROOT / "tests" / "data" / "step_gauge" / "stepgauge.res"},
+        ON_A_GAUGE,
+        _ON_A_GAUGE,
+    ),
 ]
 
 
@@ -61,11 +105,15 @@ def name(value: object) -> str | None:
 
 
 @pytest.mark.parametrize("check", SOURCE_CHECKS)
-@pytest.mark.parametrize(("identifier", "keys", "axis"), SAMPLES, ids=name)
+@pytest.mark.parametrize(("identifier", "keys", "axis", "holds"), SAMPLES, ids=name)
 def test_conforms(
-    check: Callable[..., None], identifier: str, keys: Mapping[str, Any], axis: Axis | SourceContext
+    check: Callable[..., None],
+    identifier: str,
+    keys: Mapping[str, Any],
+    axis: Axis | SourceContext,
+    holds: FileContents,
 ) -> None:
-    check(REGISTRY.source(identifier), keys, axis)
+    check(REGISTRY.source(identifier), keys, axis, holds)
 
 
 def test_every_source_has_a_sample() -> None:

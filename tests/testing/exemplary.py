@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import html
 import json
-from collections.abc import Iterable
-from dataclasses import replace
+from collections.abc import Iterable, Iterator
+from dataclasses import fields, is_dataclass, replace
 from typing import Any
 
 import numpy as np
 from pydantic import Field
 
-from zlmreport.certificate.document import Certificate
+from zlmreport.certificate.document import Certificate, Graph
 from zlmreport.errors import AccessError, InputError, Place
 from zlmreport.evaluation.evaluation import Arithmetic, Evaluation
 from zlmreport.evaluation.quantity import Group, PositionQuantity, Quantity
@@ -119,11 +119,26 @@ class ExemplaryRenderer:
 
     def render(self, certificate: Certificate) -> bytes:
         words = [certificate.number, certificate.title, certificate.subtitle]
-        return json.dumps(words, ensure_ascii=False).encode()
+        values = [parameter.value for each in certificate.evaluations for parameter in each.parameters]
+        return json.dumps([*words, *values], ensure_ascii=False).encode()
 
 
 class ExemplaryPage(ExemplaryRenderer):
     suffix = ".html"
 
     def render(self, certificate: Certificate) -> bytes:
-        return f"<h1>{html.escape(certificate.title)}</h1><p>{certificate.number}</p>".encode()
+        parts = (certificate.title, certificate.subtitle, certificate.letterhead, certificate.cover)
+        words = [html.escape(each) for each in _words((*parts, certificate.sections))]
+        return f"<p>{certificate.number}</p><p>{'</p><p>'.join(words)}</p>".encode()
+
+
+def _words(value: Any) -> Iterator[str]:
+    """Yield every text below a part of a certificate, but for graphs."""
+    if isinstance(value, str):
+        yield value
+    elif isinstance(value, tuple):
+        for each in value:
+            yield from _words(each)
+    elif is_dataclass(value) and not isinstance(value, Graph):
+        for each in fields(value):
+            yield from _words(getattr(value, each.name))

@@ -110,6 +110,11 @@ SINS: list[tuple[str, dict[str, Any], str]] = [
     ("plausible_sizes_are_metres", _columns(lambda columns, _: 1e6 * columns), "columns and ranges are SI"),
     ("is_seen_somewhere", _columns(lambda columns, _: 0.0 * columns), "its columns are zero, or alike"),
     (
+        "every_parameter_matters",
+        {"columns": lambda _, design, __: np.sin(design.position)[:, np.newaxis]},
+        "parameter 'wavelength' changes no column on any test",
+    ),
+    (
         "expected_values_are_of_parameters",
         {"expected": lambda *_: {"depth": 1.0}},
         "'depth' is none of its parameters (height, wavelength)",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterator
 from itertools import islice
 from types import SimpleNamespace
@@ -49,6 +50,7 @@ class _Gauge:
     per_metre = 1e9
     fault = Fault.BEAM_LOST
     follows_sign = True
+    takes_cut = False
 
     def open(self, options: PortOptions) -> Any:
         port = Port(options.port, Framing(), options.timeout)
@@ -66,7 +68,7 @@ class _Gauge:
 
     def _readings(self, data: bytes, now: float, factor: float) -> list[LiveReading]:
         found = []
-        for line in data.split(b"\n")[:-1]:
+        for line in data.split(b"\n")[: None if self.takes_cut else -1]:
             if line == b"E":
                 found.append(LiveReading(1.0, now, self.fault, message="lost" if self.fault else ""))
             elif line.lstrip(b"-").isdigit():
@@ -91,7 +93,13 @@ def _careless(_self: object, _options: PortOptions) -> Any:
 
 
 @pytest.mark.parametrize(
-    "check", [instruments.is_named, instruments.options_are_described, instruments.follows_the_axis]
+    "check",
+    [
+        instruments.is_named,
+        instruments.options_are_described,
+        instruments.follows_the_axis,
+        instruments.no_cut_answer_is_usable,
+    ],
 )
 def test_a_sound_instrument_passes(check: Any) -> None:
     check(_Gauge())
@@ -106,6 +114,9 @@ def test_a_sound_instrument_passes(check: Any) -> None:
         (instruments.follows_the_axis, _sin(per_metre=1e6), r"SI is expected"),
         (instruments.sign_turns_it_round, _sin(follows_sign=False), "with sign '-' readings go by"),
         (instruments.no_wrong_reading_is_usable, _sin(fault=Fault(0)), "the axis rests at 0, and 1.0 m"),
+        (instruments.sign_turns_it_round, _sin(per_metre=-1e9), r"with sign '\+' readings go by"),
+        (instruments.no_cut_answer_is_usable, _sin(takes_cut=True), "m is called usable"),
+        (instruments.refuses_silence, _sin(open=lambda *_: sys.exit(0)), "raised SystemExit: 0"),
         (instruments.refuses_silence, _sin(open=_careless), "an AccessError is expected"),
     ],
 )

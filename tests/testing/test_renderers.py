@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import itertools
+import json
 import time
 from collections.abc import Callable
+from dataclasses import replace
 from datetime import datetime
 from typing import Any
 
 import pytest
 
 from testing.exemplary import ExemplaryPage, ExemplaryRenderer
-from zlmreport.certificate.document import Block, Cell, Certificate, Table
+from zlmreport.certificate.document import Block, Cell, Certificate, Formulas, Notice, Table
 from zlmreport.language import Language, Words
 from zlmreport.testing import RENDERER_CHECKS, check_renderer, renderers, sample_certificate
 
@@ -29,6 +31,32 @@ def german_only(_self: object, certificate: Certificate) -> bytes:
 
 def unescaped(_self: object, certificate: Certificate) -> bytes:
     return f"{certificate.title} {certificate.number}".encode()
+
+
+def title_only(_self: object, certificate: Certificate) -> bytes:
+    return f"<h1>{certificate.title}</h1><p>{certificate.number}</p>".encode()
+
+
+def without(kind: type) -> Callable[..., bytes]:
+    """Return a renderer that drops every block of a kind."""
+
+    def render(_self: object, certificate: Certificate) -> bytes:
+        sections = tuple(
+            replace(each, blocks=tuple(block for block in each.blocks if not isinstance(block, kind)))
+            for each in certificate.sections
+        )
+        return ExemplaryPage().render(replace(certificate, sections=sections))
+
+    return render
+
+
+def without_values(_self: object, certificate: Certificate) -> bytes:
+    return json.dumps([certificate.number, certificate.title]).encode()
+
+
+def in_nanometres(_self: object, certificate: Certificate) -> bytes:
+    (parameter,) = certificate.evaluations[0].parameters
+    return json.dumps([certificate.number, certificate.title, parameter.value * 1e9]).encode()
 
 
 SINS = [
@@ -57,6 +85,20 @@ SINS = [
         renderers.names_the_certificate,
         {"render": on_paper(lambda page: page.replace(b"KIT-", b""))},
         "does not carry the certificate's number",
+    ),
+    (renderers.prints_what_the_document_says, {"render": title_only}, "does not print "),
+    (renderers.prints_what_the_document_says, {"render": without(Notice)}, "(notice: heading "),
+    (renderers.prints_what_the_document_says, {"render": without(Table)}, "(verdict: "),
+    (renderers.prints_what_the_document_says, {"render": without(Formulas)}, "(formulas: "),
+    (
+        renderers.prints_what_the_document_says,
+        {"suffix": ".json", "render": without_values},
+        "does not carry the value of the parameter D",
+    ),
+    (
+        renderers.prints_what_the_document_says,
+        {"suffix": ".json", "render": in_nanometres},
+        "does not carry the value of the parameter D",
     ),
     (renderers.sets_markup_as_text, {"render": unescaped}, "a user's text became an element"),
     (
@@ -95,7 +137,7 @@ def test_all_failures_are_reported_at_once() -> None:
     with pytest.raises(AssertionError) as failure:
         check_renderer(sinner)
     checks = [line.partition(":")[0] for line in str(failure.value).splitlines()]
-    assert checks == ["names_the_certificate", "sets_markup_as_text"]
+    assert checks == ["names_the_certificate", "prints_what_the_document_says", "sets_markup_as_text"]
 
 
 @pytest.mark.parametrize("language", Language)

@@ -19,7 +19,7 @@ from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.plugin.protocols import SourceContext
 from zlmreport.quantities.arrays import read_only_floats, read_only_integers
-from zlmreport.testing import SOURCE_CHECKS, check_source, simulated_test, sources
+from zlmreport.testing import SOURCE_CHECKS, FileContents, check_source, simulated_test, sources
 
 
 class UndescribedOptions(Options):
@@ -67,6 +67,32 @@ def with_provenance(measurements: MeasurementSet, **changes: Any) -> Measurement
     return replace(measurements, provenance=replace(measurements.provenance, **changes))
 
 
+def swapped(measurements: MeasurementSet) -> MeasurementSet:
+    return replace(measurements, approach=read_only_integers(-measurements.approach))
+
+
+def scaled(factor: float) -> Callable[[MeasurementSet], MeasurementSet]:
+    return lambda sound: replace(sound, deviation=read_only_floats(factor * sound.deviation))
+
+
+def shortened(measurements: MeasurementSet) -> MeasurementSet:
+    """Leave one direction out, as a reader does that stops at the first empty line."""
+    kept = measurements.approach == 1
+    return replace(
+        measurements,
+        **{
+            name: read_only_integers(getattr(measurements, name)[kept])
+            for name in ("target", "approach", "run")
+        },
+        deviation=read_only_floats(measurements.deviation[kept]),
+    )
+
+
+def turned(measurements: MeasurementSet) -> MeasurementSet:
+    """Count targets from the wrong end."""
+    return replace(measurements, target=read_only_integers(2 - measurements.target))
+
+
 class Fickle(ExemplarySource):
     factor = 1.0
 
@@ -106,6 +132,16 @@ SINS = [
     ),
     (sources.reads_a_measurement_set, reading(lambda m: replace(m, approach=m.approach * 2)), "1 or -1"),
     (sources.reads_a_measurement_set, reading(lambda m: replace(m, run=m.run - 1)), "numbered from 1"),
+    (
+        sources.reads_what_the_file_holds,
+        reading(swapped),
+        "the reading at 0 + of run 1 is 0.5; the file holds 1.5",
+    ),
+    (sources.reads_what_the_file_holds, reading(scaled(-1)), "is -1.5; the file holds 1.5"),
+    (sources.reads_what_the_file_holds, reading(scaled(1000)), "is 1500; the file holds 1.5"),
+    (sources.reads_what_the_file_holds, reading(scaled(1e-3)), "is 0.0015; the file holds 1.5"),
+    (sources.reads_what_the_file_holds, reading(shortened), "3 readings; the file holds 6"),
+    (sources.reads_what_the_file_holds, reading(turned), "is 3.5; the file holds 1.5"),
     (sources.keeps_the_axis, reading(lambda m: replace(m, axis=Axis("W"))), "expected the job's"),
     (
         sources.values_are_read_only,
@@ -138,9 +174,12 @@ def keys(tmp_path: Path) -> dict[str, Any]:
     return {"file": file}
 
 
+HOLDS = FileContents(6, ((0.0, "+", 1, 1.5), (200.0, "+", 1, 3.5), (0.0, "-", 1, 0.5)))
+
+
 @pytest.mark.parametrize("check", SOURCE_CHECKS)
 def test_the_exemplary_source_passes(check: Callable[..., None], keys: dict[str, Any]) -> None:
-    check(ExemplarySource(), keys, Axis("X"))
+    check(ExemplarySource(), keys, Axis("X"), HOLDS)
 
 
 @pytest.mark.parametrize(
@@ -151,13 +190,13 @@ def test_a_check_finds_its_sin(
 ) -> None:
     sinner = type("Sinner", (ExemplarySource,), sin)()
     with pytest.raises(AssertionError) as failure:
-        check(sinner, keys, Axis("X"))
+        check(sinner, keys, Axis("X"), HOLDS)
     assert sentence in str(failure.value)
 
 
 def test_a_source_that_reads_something_else_the_second_time_is_found(keys: dict[str, Any]) -> None:
     with pytest.raises(AssertionError, match="gives another set"):
-        sources.reads_the_same_again(Fickle(), keys, Axis("X"))
+        sources.reads_the_same_again(Fickle(), keys, Axis("X"), HOLDS)
 
 
 def test_every_check_has_a_sin() -> None:
@@ -168,6 +207,34 @@ def test_all_failures_are_reported_at_once(keys: dict[str, Any]) -> None:
     sin = reading(lambda m: replace(m, axis=Axis("W"), approach=read_only_integers(m.approach * 2)))
     sinner = type("Sinner", (ExemplarySource,), sin)()
     with pytest.raises(AssertionError) as failure:
-        check_source(sinner, keys)
+        check_source(sinner, keys, holds=HOLDS)
     checks = [line.partition(":")[0] for line in str(failure.value).splitlines()]
-    assert checks == ["reads_a_measurement_set", "keeps_the_axis"]
+    assert checks == ["reads_a_measurement_set", "reads_what_the_file_holds", "keeps_the_axis"]
+
+
+ZEROED = FileContents(5, ((0.0, "+", 1, 1.5), (0.0, "-", 1, 0.5)), missing=1)
+
+
+def test_a_missing_reading_that_is_filled_in_is_found(keys: dict[str, Any]) -> None:
+    keys["file"].write_text("1.5 nan 3.5 0.5 1.5 2.5\n", encoding="ascii")
+    sources.reads_what_the_file_holds(ExemplarySource(), keys, Axis("X"), ZEROED)
+    filled = reading(lambda m: replace(m, deviation=read_only_floats(np.nan_to_num(m.deviation))))
+    with pytest.raises(AssertionError, match="6 readings; the file holds 5"):
+        sources.reads_what_the_file_holds(
+            type("Sinner", (ExemplarySource,), filled)(), keys, Axis("X"), ZEROED
+        )
+
+
+@pytest.mark.parametrize(
+    ("holds", "sentence"),
+    [
+        (None, "say what the file holds"),
+        (FileContents(6, ((0.0, "+", 1, 1.5), (200.0, "+", 1, 3.5))), "must show each direction"),
+        (FileContents(6, ((0.0, "+", 1, 1.5), (100.0, "-", 1, 1.5))), "must have different deviations"),
+    ],
+)
+def test_contents_that_would_show_no_mistake_are_not_enough(
+    holds: Any, sentence: str, keys: dict[str, Any]
+) -> None:
+    with pytest.raises(AssertionError, match=sentence):
+        sources.reads_what_the_file_holds(ExemplarySource(), keys, Axis("X"), holds)

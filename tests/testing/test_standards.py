@@ -14,6 +14,7 @@ from pydantic import Field
 from testing.exemplary import ExemplaryOptions, ExemplaryStandard
 from zlmreport.evaluation.evaluation import Arithmetic, Evaluation
 from zlmreport.evaluation.quantity import PositionQuantity
+from zlmreport.evaluation.ranges import largest
 from zlmreport.evaluation.requirements import Finding
 from zlmreport.evaluation.statistics import PositionStatistics
 from zlmreport.figures.figure import Arrow, Figure, Level, Role
@@ -202,6 +203,48 @@ SINS = [
         arithmetic.nothing_gives_nothing,
         {"arithmetic": with_values(lambda _, values: values.update(R=np.nan_to_num(values["R"])))},
         "R of a test without readings is 0.0",
+    ),
+    (
+        arithmetic.gives_every_quantity,
+        {"arithmetic": with_e(lambda s: s.mean_positive[..., 0] * 1j)},
+        "E is complex128, and no real number",
+    ),
+    (
+        arithmetic.defines_what_it_declares,
+        {"arithmetic": with_values(lambda _, values: values.update(R=np.nan * values["R"]))},
+        "R is NaN in every test, complete ones too",
+    ),
+    *(
+        (
+            arithmetic.values_are_lengths_that_readings_have,
+            {
+                "arithmetic": with_values(
+                    lambda _, values, factor=factor: values.update(R=factor * values["R"])
+                )
+            },
+            sentence,
+        )
+        for factor, sentence in (
+            (1e6, "values are metres (radians), not micrometres"),
+            (1e9, "values are metres (radians), not micrometres"),
+            (1e3, "values are metres (radians), not micrometres"),
+            (1e-3, "values are metres (radians)"),
+            (-1.0, "is no negative length"),
+        )
+    ),
+    (
+        arithmetic.directions_are_not_swapped,
+        {
+            "quantities": (E, replace(R, symbol="R_fwd")),
+            "arithmetic": lambda _, statistics, options: Arithmetic(
+                {
+                    "E": EXEMPLARY.arithmetic(statistics, options).parameters["E"],
+                    "R_fwd": largest(statistics.s_negative),
+                },
+                {"width": statistics.s_positive},
+            ),
+        },
+        "R_fwd follows the readings of the other direction",
     ),
     (
         arithmetic.alters_no_input,

@@ -28,7 +28,7 @@ from zlmreport.testing.measurements import bidirectional_test, simulated_test
 from zlmreport.testing.motions import sample_motion
 from zlmreport.testing.part_programs import PART_PROGRAM_CHECKS, check_part_program
 from zlmreport.testing.renderers import RENDERER_CHECKS, check_renderer
-from zlmreport.testing.sources import SOURCE_CHECKS, check_source
+from zlmreport.testing.sources import SOURCE_CHECKS, FileContents, check_source
 from zlmreport.testing.standards import STANDARD_CHECKS, check_standard
 
 __all__ = [
@@ -37,10 +37,10 @@ __all__ = [
     "EXTENSION_CHECKS",
     "INSTRUMENT_CHECKS",
     "PART_PROGRAM_CHECKS",
-    "PROBING_PROGRAM_CHECKS",
     "RENDERER_CHECKS",
     "SOURCE_CHECKS",
     "STANDARD_CHECKS",
+    "FileContents",
     "bidirectional_test",
     "check_controller",
     "check_effect",

@@ -8,19 +8,23 @@ from collections.abc import Mapping
 import numpy as np
 
 from zlmreport.evaluation.evaluation import Arithmetic
+from zlmreport.evaluation.plausibility import is_negative, reach
 from zlmreport.evaluation.statistics import PositionStatistics, position_statistics
 from zlmreport.job.types import Options
 from zlmreport.measurement.approach import Approach
 from zlmreport.plugin.protocols import Standard
 from zlmreport.quantities.arrays import FloatArray
-from zlmreport.testing.expectations import expect, same_value
+from zlmreport.testing.expectations import check, expect, same_value
 
 _POSITIONS, _RUNS = 7, 5
 _SPREAD = 5e-6  # m: readings of a machine tool
+#: How many times as large as the largest of readings with scatter a parameter is at most, and at least.
+_LARGEST, _SMALLEST = 30.0, 2e-3
 #: Between two ways of adding some hundred doubles there are a few units in the last place.
 _RELATIVE, _ABSOLUTE = 1e-9, 1e-9 * _SPREAD
 
 
+@check
 def gives_every_quantity(standard: Standard, options: Options) -> None:
     """Check that there is one value for each parameter, and one at each position for each own column."""
     arithmetic = _arithmetic(standard, options, _readings(3))
@@ -34,12 +38,17 @@ def gives_every_quantity(standard: Standard, options: Options) -> None:
         expect(not unknown, f"{standard.identifier}: arithmetic gives {', '.join(unknown)}, not in {owner}")
         for symbol, value in given.items():
             expect(
+                np.asarray(value).dtype.kind in "iuf",
+                f"{standard.identifier}: {symbol} is {np.asarray(value).dtype}, and no real number",
+            )
+            expect(
                 np.shape(value) == shape,
                 f"{standard.identifier}: {symbol} of a stack of 3 tests at {_POSITIONS} positions has shape "
                 f"{np.shape(value)}; expected {shape}",
             )
 
 
+@check
 def stack_equals_loop(standard: Standard, options: Options) -> None:
     """Check that a stack of tests, complete or not, gives what each test gives alone: batch first."""
     stack = _readings(2, 4)
@@ -59,6 +68,7 @@ def stack_equals_loop(standard: Standard, options: Options) -> None:
             )
 
 
+@check
 def order_of_runs_is_irrelevant(standard: Standard, options: Options) -> None:
     """Check that numbering the runs another way changes nothing."""
     readings = _readings()
@@ -70,6 +80,7 @@ def order_of_runs_is_irrelevant(standard: Standard, options: Options) -> None:
         )
 
 
+@check
 def scales_with_the_readings(standard: Standard, options: Options) -> None:
     """Check that deviations twice as large give parameters twice as large: they are lengths or angles."""
     readings = _readings()
@@ -81,6 +92,7 @@ def scales_with_the_readings(standard: Standard, options: Options) -> None:
         )
 
 
+@check
 def moves_no_more_than_an_offset(standard: Standard, options: Options) -> None:
     """Check that an offset of all readings moves no parameter by more than itself."""
     readings, offset = _readings(), 2 * _SPREAD
@@ -94,6 +106,7 @@ def moves_no_more_than_an_offset(standard: Standard, options: Options) -> None:
         )
 
 
+@check
 def one_missing_reading_takes_nothing_away(standard: Standard, options: Options) -> None:
     """Check that one missing reading leaves every parameter defined that the complete test defines."""
     readings = _readings()
@@ -106,6 +119,7 @@ def one_missing_reading_takes_nothing_away(standard: Standard, options: Options)
         )
 
 
+@check
 def undefined_is_nan(standard: Standard, options: Options) -> None:
     """Check that what a test does not define is NaN: not zero, not infinite, no warning, no exception."""
     for kind, readings in _incomplete().items():
@@ -121,6 +135,7 @@ def undefined_is_nan(standard: Standard, options: Options) -> None:
             )
 
 
+@check
 def nothing_gives_nothing(standard: Standard, options: Options) -> None:
     """Check that a test without a reading defines no parameter."""
     readings = np.full_like(_readings(), np.nan)
@@ -131,6 +146,60 @@ def nothing_gives_nothing(standard: Standard, options: Options) -> None:
         )
 
 
+@check
+def defines_what_it_declares(standard: Standard, options: Options) -> None:
+    """Check that each parameter is defined by a complete test, or at least by some test."""
+    tests = [_readings(), *_incomplete().values(), _readings()[..., :1]]
+    found = [_values(_arithmetic(standard, options, readings)) for readings in tests]
+    for symbol in found[0]:
+        expect(
+            any(not np.all(np.isnan(values[symbol])) for values in found),
+            f"{standard.identifier}: {symbol} is NaN in every test, complete ones too",
+        )
+
+
+@check
+def values_are_lengths_that_readings_have(standard: Standard, options: Options) -> None:
+    """Check that values are of the size of the readings, in metres, and that no spread is negative."""
+    readings = _readings()
+    statistics = position_statistics(readings)
+    arithmetic = _of(standard, options, statistics)
+    largest, farthest = float(np.abs(readings).max()), reach(statistics)
+    for symbol, value in _values(arithmetic).items():
+        size = float(np.max(np.abs(value), initial=0.0, where=~np.isnan(value)))
+        where = f"{standard.identifier}: {symbol} of readings up to {largest:.3g} m is {size:.3g}"
+        expect(size <= _LARGEST * largest, f"{where}; values are metres (radians), not micrometres")
+        expect(
+            size >= _SMALLEST * largest or np.all(np.isnan(value)), f"{where}; values are metres (radians)"
+        )
+    for quantity in standard.quantities:
+        single = float(arithmetic.parameters[quantity.symbol])
+        expect(
+            np.isnan(single) or not is_negative(quantity, single, farthest),
+            f"{standard.identifier}: {quantity.symbol} is {single:.3g} m; what is random or composite is no "
+            "negative length",
+        )
+
+
+@check
+def directions_are_not_swapped(standard: Standard, options: Options) -> None:
+    """Check that symbols with ``_fwd`` follow readings taken upwards, and those with ``_bwd`` the others."""
+    readings = _readings()
+    before = _values(_arithmetic(standard, options, readings))
+    for ending, other in (("_fwd", Approach.NEGATIVE), ("_bwd", Approach.POSITIVE)):
+        moved = readings.copy()
+        moved[other.index] *= 3.0
+        after = _values(_arithmetic(standard, options, moved))
+        for symbol, value in before.items():
+            if symbol.partition(" ")[0].endswith(ending):
+                _expect_close(
+                    after[symbol],
+                    value,
+                    f"{standard.identifier}: {symbol} follows the readings of the other direction",
+                )
+
+
+@check
 def alters_no_input(standard: Standard, options: Options) -> None:
     """Check that the statistics are as they were after the arithmetic has used them."""
     statistics = position_statistics(_readings(3))
@@ -141,6 +210,7 @@ def alters_no_input(standard: Standard, options: Options) -> None:
     )
 
 
+@check
 def gives_the_same_again(standard: Standard, options: Options) -> None:
     """Check that the same readings give the same bits."""
     first, second = (_arithmetic(standard, options, _readings()) for _ in range(2))
@@ -220,6 +290,9 @@ ARITHMETIC_CHECKS = (
     one_missing_reading_takes_nothing_away,
     undefined_is_nan,
     nothing_gives_nothing,
+    defines_what_it_declares,
+    values_are_lengths_that_readings_have,
+    directions_are_not_swapped,
     alters_no_input,
     gives_the_same_again,
 )

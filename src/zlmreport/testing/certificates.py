@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from dataclasses import fields, is_dataclass, replace
 from datetime import date
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -48,6 +51,7 @@ from zlmreport.testing.measurements import simulated_test
 #: Text that a renderer must set as it stands: it would be a tag, an entity, or a template's expression.
 MARKUP = '<zlm-markup a="1">&amp;{{7*7}}{%x%}</zlm-markup>'
 NUMBER = "KIT-2026-0001"
+_PLACE_OF_A_WORD = "Word"
 _PAGE_WORDS = {
     Language.ENGLISH: PageWords("Certificate number", "page", "of", "End", "Figure", "Table"),
     Language.GERMAN: PageWords("Nummer", "Seite", "von", "Ende", "Bild", "Tabelle"),
@@ -88,6 +92,39 @@ def sample_certificate(language: Language = Language.ENGLISH, text: str = "Examp
         plugins={"kit": "1"},
         job=_job(measurements, text),
     )
+
+
+def worded_certificate() -> tuple[Certificate, Mapping[str, str]]:
+    """Return a certificate with a word of its own in each place, and the words by what they are.
+
+    A renderer of documents prints each of them: in the title, the letterhead and the cover, in the headings,
+    notices, tables and formulas of each section. Words within a graph are not among them: it may be drawn.
+    """
+    words: dict[str, str] = {}
+
+    def worded(value: Any, what: str) -> Any:
+        if value == _PLACE_OF_A_WORD:
+            return words.setdefault(f"{what} {len(words) + 1}", f"Wd{len(words) + 1:03d}")
+        if isinstance(value, tuple):
+            return tuple(worded(each, what) for each in value)
+        if isinstance(value, Graph) or not is_dataclass(value):
+            return value
+        within = type(value).__name__.lower()
+        return replace(  # type: ignore[type-var]  # a dataclass is an object of one here
+            value,
+            **{
+                each.name: worded(getattr(value, each.name), f"{within}: {each.name}")
+                for each in fields(value)
+                if each.init
+            },
+        )
+
+    plain = sample_certificate(text=_PLACE_OF_A_WORD)
+    printed = {
+        name: worded(getattr(plain, name), name)
+        for name in ("title", "subtitle", "letterhead", "cover", "sections")
+    }
+    return replace(plain, **printed), words
 
 
 def _job(measurements: MeasurementSet, text: str) -> Job:

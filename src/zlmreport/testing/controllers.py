@@ -14,6 +14,7 @@ from zlmreport.measurement.axis import Axis
 from zlmreport.plugin.protocols import Controller
 from zlmreport.quantities.arrays import read_only_floats
 from zlmreport.testing.expectations import (
+    check,
     expect,
     expect_identifier,
     expect_members,
@@ -43,6 +44,7 @@ def sample_table(rows: int = 11, step: float = 0.03) -> CompensationTable:
     )
 
 
+@check
 def is_named(controller: Controller, _keys: Mapping[str, Any]) -> None:
     """Check its identifier, its title, its notes and its confidence."""
     expect_members(controller, Controller)
@@ -54,6 +56,7 @@ def is_named(controller: Controller, _keys: Mapping[str, Any]) -> None:
     expect(controller.confidence in known, f"{controller.identifier}: confidence is one of {sorted(known)}")
 
 
+@check
 def options_are_described(controller: Controller, _keys: Mapping[str, Any]) -> None:
     """Check that its job keys are described, none is a key of the core, and all have defaults."""
     expect_options(controller.options, controller.identifier)
@@ -61,12 +64,26 @@ def options_are_described(controller: Controller, _keys: Mapping[str, Any]) -> N
     controller.options()
 
 
+@check
 def reads_what_it_writes(controller: Controller, keys: Mapping[str, Any]) -> None:
     """Check that its files, read as the control does, take away what was asked, with the same sign."""
     table, options = sample_table(), controller.options.model_validate(dict(keys))
     files = controller.files(table, options)
-    expect(files and all(text.isascii() for text in files.values()), "files must be plain ASCII")
+    expect(
+        isinstance(files, Mapping) and all(isinstance(text, str) for text in files.values()),
+        f"{controller.identifier}: files must return texts by the ends of their names, not {files!r}",
+    )
+    expect(
+        files and all(text.isascii() for text in files.values()),
+        f"{controller.identifier}: files must be plain ASCII",
+    )
     decoded = controller.read(files, table, options)
+    expect(
+        isinstance(decoded, CompensationTable),
+        f"{controller.identifier}: read must return a CompensationTable, not {decoded!r}",
+    )
+    rows, asked = len(decoded.positions), len(table.positions)
+    expect(rows >= asked, f"{controller.identifier}: read back, the table has {rows} rows instead of {asked}")
     meant = table.at(table.positions)
     if not controller.is_directional:
         meant = np.broadcast_to(meant.mean(axis=0), meant.shape)
@@ -75,6 +92,7 @@ def reads_what_it_writes(controller: Controller, keys: Mapping[str, Any]) -> Non
     expect(off <= _HALF_A_QUANTUM, f"{controller.identifier}: read back, the table is off by {off:.2e} m")
 
 
+@check
 def writes_the_same_again(controller: Controller, keys: Mapping[str, Any]) -> None:
     """Check that the same table gives the same files."""
     options = controller.options.model_validate(dict(keys))
@@ -84,6 +102,7 @@ def writes_the_same_again(controller: Controller, keys: Mapping[str, Any]) -> No
     )
 
 
+@check
 def refuses_rows_that_do_not_rise(controller: Controller, keys: Mapping[str, Any]) -> None:
     """Check that a table whose rows coincide is refused where it is asked for, and not cut off."""
     table, options = sample_table(), controller.options.model_validate(dict(keys))
@@ -110,4 +129,5 @@ CONTROLLER_CHECKS = (
 
 def check_controller(controller: Controller, keys: Mapping[str, Any] | None = None) -> None:
     """Run every check on a controller; raise `AssertionError` with a line for every check that fails."""
+    expect_members(controller, Controller)
     run_all(CONTROLLER_CHECKS, controller, keys or {})

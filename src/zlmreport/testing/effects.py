@@ -12,10 +12,11 @@ from zlmreport.measurement.axis import AxisKind
 from zlmreport.model.design import Design
 from zlmreport.model.effect import Confusion, Dimension, Effect, Parameter, Shape
 from zlmreport.model.observations import of_readings
-from zlmreport.quantities.arrays import FloatArray
+from zlmreport.quantities.arrays import FloatArray, read_only_floats
 from zlmreport.quantities.notation import plain
 from zlmreport.testing.designs import full_designs, poor_designs
 from zlmreport.testing.expectations import (
+    check,
     expect,
     expect_identifier,
     expect_options,
@@ -34,6 +35,7 @@ _MEMBERS = (
 )
 
 
+@check
 def is_complete(effect: Effect, _: Designs) -> None:
     """Check that the protocol is complete."""
     missing = [member for member in _MEMBERS if not hasattr(effect, member)]
@@ -42,6 +44,7 @@ def is_complete(effect: Effect, _: Designs) -> None:
     )
 
 
+@check
 def is_described(effect: Effect, _: Designs) -> None:
     """Check that it has a name that can be typed, and says in every language what it is and looks like."""
     expect_identifier(effect.identifier, repr(effect))
@@ -51,6 +54,7 @@ def is_described(effect: Effect, _: Designs) -> None:
     expect_words(effect.look, f"{effect.identifier}: look")
 
 
+@check
 def names_what_it_is_taken_for(effect: Effect, _: Designs) -> None:
     """Check that each confusion names another effect, once, and the measurement that tells them apart."""
     for confusion in effect.confusions:
@@ -64,6 +68,7 @@ def names_what_it_is_taken_for(effect: Effect, _: Designs) -> None:
     expect(not twice, f"{effect.identifier}: confusions name {', '.join(twice)} twice")
 
 
+@check
 def parameters_are_described(effect: Effect, _: Designs) -> None:
     """Check that parameters have unique ASCII names, units and descriptions, and ranges that are some."""
     for form in effect.forms():
@@ -75,6 +80,7 @@ def parameters_are_described(effect: Effect, _: Designs) -> None:
             _expect_parameter(parameter, f"{effect.identifier}: parameter {parameter.name!r}")
 
 
+@check
 def keys_are_described(effect: Effect, _: Designs) -> None:
     """Check that its own job keys are described, and none is called like a parameter."""
     expect_options(effect.options, effect.identifier)
@@ -87,6 +93,7 @@ def keys_are_described(effect: Effect, _: Designs) -> None:
     expect(not clashes, f"{effect.identifier}: {', '.join(clashes)} is a key and a parameter")
 
 
+@check
 def settings_make_the_form(effect: Effect, _: Designs) -> None:
     """Check that each form can be asked for by its settings, and that all forms have one name."""
     for form in (effect, *effect.forms()):
@@ -100,6 +107,7 @@ def settings_make_the_form(effect: Effect, _: Designs) -> None:
         )
 
 
+@check
 def says_what_it_lacks(effect: Effect, designs: Designs) -> None:
     """Check that `untestable` answers on any test, and that there is a test on which nothing is lacking."""
     testable = False
@@ -116,6 +124,7 @@ def says_what_it_lacks(effect: Effect, designs: Designs) -> None:
     expect(testable, f"{effect.identifier} can be tested on none of: {', '.join(designs)} (give one)")
 
 
+@check
 def grid_is_one(effect: Effect, designs: Designs) -> None:
     """Check that the grid has a finite row for each start, and a column for each searched parameter."""
     for form, kind, design in _tested(effect, designs):
@@ -129,6 +138,7 @@ def grid_is_one(effect: Effect, designs: Designs) -> None:
         expect(np.all(np.isfinite(grid)), f"{where} must be finite")
 
 
+@check
 def columns_are_readings_by_parameters(effect: Effect, designs: Designs) -> None:
     """Check the columns' shape, that they are finite, and that the same question has the same answer."""
     for form, kind, design in _tested(effect, designs):
@@ -143,6 +153,7 @@ def columns_are_readings_by_parameters(effect: Effect, designs: Designs) -> None
             expect(same_value(columns, again), f"{where}: the second answer differs from the first")
 
 
+@check
 def rows_stand_alone(effect: Effect, designs: Designs) -> None:
     """Check that a row depends on its own reading, the axis and the span, and on no other reading."""
     for form, kind, design in _tested(effect, designs):
@@ -157,6 +168,7 @@ def rows_stand_alone(effect: Effect, designs: Designs) -> None:
             )
 
 
+@check
 def plausible_sizes_are_metres(effect: Effect, designs: Designs) -> None:
     """Check that the largest plausible parameters make deviations in metres (radians), not micrometres."""
     for form, kind, design in _tested(effect, designs):
@@ -170,6 +182,7 @@ def plausible_sizes_are_metres(effect: Effect, designs: Designs) -> None:
             )
 
 
+@check
 def is_seen_somewhere(effect: Effect, designs: Designs) -> None:
     """Check that on some test the columns are neither zero nor alike."""
     for form, _, design in _tested(effect, designs):
@@ -181,6 +194,31 @@ def is_seen_somewhere(effect: Effect, designs: Designs) -> None:
     expect(condition=False, sentence=f"{effect.identifier}: its columns are zero, or alike, on every test")
 
 
+@check
+def every_parameter_matters(effect: Effect, designs: Designs) -> None:
+    """Check that another value of each searched parameter makes other columns on some test."""
+    for form in effect.forms():
+        for number, parameter in enumerate(form.searched):
+            expect(
+                any(
+                    _changes_with(tested, design, number)
+                    for tested, _, design in _tested(effect, designs)
+                    if tested is form or tested.settings == form.settings
+                ),
+                f"{effect.identifier}: parameter {parameter.name!r} changes no column on any test",
+            )
+
+
+def _changes_with(form: Effect, design: Design, number: int) -> bool:
+    for theta in _some(form.grid(design)):
+        other = np.array(theta)
+        other[number] = 1.25 * theta[number] if theta[number] else 1.0
+        if not np.array_equal(form.columns(design, read_only_floats(other)), form.columns(design, theta)):
+            return True
+    return False
+
+
+@check
 def expected_values_are_of_parameters(effect: Effect, designs: Designs) -> None:
     """Check that values which follow from the axis are finite, and those of its parameters."""
     for kind, design in designs.items():
@@ -215,8 +253,8 @@ def _tested(effect: Effect, designs: Designs) -> Iterator[tuple[Effect, str, Des
 
 
 def _some(grid: FloatArray) -> FloatArray:
-    """Return the first, the middle and the last row."""
-    return np.asarray(grid[np.unique([0, len(grid) // 2, len(grid) - 1])])
+    """Return the first, the middle and the last row, which no effect may alter."""
+    return read_only_floats(grid[np.unique([0, len(grid) // 2, len(grid) - 1])])
 
 
 #: Every check of an effect, each called with the effect and designs on which it may be tested.
@@ -233,6 +271,7 @@ EFFECT_CHECKS = (
     rows_stand_alone,
     plausible_sizes_are_metres,
     is_seen_somewhere,
+    every_parameter_matters,
     expected_values_are_of_parameters,
 )
 

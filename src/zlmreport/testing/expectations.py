@@ -2,15 +2,22 @@
 
 from __future__ import annotations
 
+import functools
 import re
+import threading
 from collections.abc import Callable, Iterable
 from dataclasses import fields, is_dataclass
 from typing import Any
 
 import numpy as np
 
+from zlmreport.boundary.guard import told
+from zlmreport.errors import ZlmreportError
 from zlmreport.job.types import Options
 from zlmreport.language import Language, Words
+
+#: How long a check may take, s: on a busy computer a renderer of pages needs some of them.
+PATIENCE = 120.0
 
 _IDENTIFIER = re.compile(r"[a-z0-9]+([-.:][a-z0-9]+)*")
 
@@ -19,6 +26,37 @@ def expect(condition: object, sentence: str) -> None:
     """Raise an `AssertionError` with the sentence unless the condition holds."""
     if not condition:
         raise AssertionError(sentence)
+
+
+def check(body: Callable[..., None]) -> Callable[..., None]:
+    """Make a check of what says in its body what it expects of a plugin, which is its first argument.
+
+    Whatever the plugin raises is a sentence then, and one that never comes back fails too: so no check ends
+    the others.
+    """
+
+    @functools.wraps(body)
+    def checked(*subject: Any, **keywords: Any) -> None:
+        raised: list[BaseException] = []
+
+        def run() -> None:
+            try:
+                body(*subject, **keywords)
+            except BaseException as error:  # noqa: BLE001 - it is raised again below
+                raised.append(error)
+
+        thread = threading.Thread(target=run, daemon=True)
+        thread.start()
+        thread.join(PATIENCE)
+        name = getattr(subject[0], "identifier", subject[0])
+        expect(not thread.is_alive(), f"{name}: does not come back within {PATIENCE:g} s")
+        for error in raised:
+            if isinstance(error, AssertionError):
+                raise error
+            sentence = str(error) if isinstance(error, ZlmreportError) else told(error, subject[0])
+            raise AssertionError(f"{name}: {sentence}") from error
+
+    return checked
 
 
 def run_all(checks: Iterable[Callable[..., None]], *subject: object) -> None:
@@ -32,6 +70,7 @@ def run_all(checks: Iterable[Callable[..., None]], *subject: object) -> None:
     expect(not failures, "\n".join(failures))
 
 
+@check
 def expect_members(offered: object, protocol: type) -> None:
     """Expect that an object has every member of a protocol."""
     members = (name for name in (*protocol.__annotations__, *vars(protocol)) if not name.startswith("_"))

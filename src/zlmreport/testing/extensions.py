@@ -7,9 +7,17 @@ from zlmreport.job.fields import keys_in, model_at
 from zlmreport.job.keys import JobKeys
 from zlmreport.job.tree import Step
 from zlmreport.plugin.extension import Extension
-from zlmreport.testing.expectations import expect, expect_members, expect_options, expect_words, run_all
+from zlmreport.testing.expectations import (
+    check,
+    expect,
+    expect_members,
+    expect_options,
+    expect_words,
+    run_all,
+)
 
 
+@check
 def is_named(extension: Extension) -> None:
     """Check that its identifier is a key that a job can have and the core has not, and its title."""
     expect_members(extension, Extension)
@@ -23,6 +31,7 @@ def is_named(extension: Extension) -> None:
     expect(extension.description.strip(), f"{name}: description says nothing")
 
 
+@check
 def keys_are_described(extension: Extension) -> None:
     """Check that its keys are described, and that its example uses no others."""
     expect_options(extension.options, extension.identifier)
@@ -30,6 +39,7 @@ def keys_are_described(extension: Extension) -> None:
     expect(not unknown, f"{extension.identifier}: the example has the unknown keys {', '.join(unknown)}")
 
 
+@check
 def lists_part_programs_where_it_says(extension: Extension) -> None:
     """Check that the keys which list part programs are there, and that it says what these are written of."""
     if not extension.programs:
@@ -41,6 +51,7 @@ def lists_part_programs_where_it_says(extension: Extension) -> None:
     expect(extension.takes, f"{where} lists part programs, and takes says not what they are written of")
 
 
+@check
 def commands_are_described(extension: Extension) -> None:
     """Check that its commands and their options have a help, and that each option is there once."""
     for command in extension.commands:

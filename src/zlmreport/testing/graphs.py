@@ -16,7 +16,7 @@ from zlmreport.plugin.protocols import Standard
 from zlmreport.quantities.arrays import FloatArray
 from zlmreport.quantities.notation import plain
 from zlmreport.quantities.units import ANGLES, LENGTHS, Unit
-from zlmreport.testing.expectations import expect, expect_identifier, expect_words, same_value
+from zlmreport.testing.expectations import check, expect, expect_identifier, expect_words, same_value
 from zlmreport.testing.measurements import good_tests, poor_tests
 
 _UNITS = {unit.symbol: unit for unit in (*LENGTHS, *ANGLES)}
@@ -24,6 +24,7 @@ _UNITS = {unit.symbol: unit for unit in (*LENGTHS, *ANGLES)}
 _RELATIVE = 1e-9
 
 
+@check
 def figures_of_any_test(standard: Standard, options: Options) -> None:
     """Check that a complete test gives graphs, and a poor test graphs of what there is, or none."""
     good, poor = good_tests(), poor_tests()
@@ -42,6 +43,7 @@ def figures_of_any_test(standard: Standard, options: Options) -> None:
         expect(same_value(figures, again), f"{where}: the second time they differ from the first")
 
 
+@check
 def figures_are_worded(standard: Standard, options: Options) -> None:
     """Check that a graph has its caption, its axes, and a description with its values, in every language."""
     for where, figure, _ in _figures(standard, options):
@@ -65,6 +67,7 @@ def figures_are_worded(standard: Standard, options: Options) -> None:
                 )
 
 
+@check
 def marks_stand_at_targets(standard: Standard, options: Options) -> None:
     """Check that curves, bands, arrows and brackets stand at target positions of the test."""
     for where, figure, evaluation in _figures(standard, options):
@@ -88,6 +91,7 @@ def marks_stand_at_targets(standard: Standard, options: Options) -> None:
                     )
 
 
+@check
 def curves_have_a_value_at_each_position(standard: Standard, options: Options) -> None:
     """Check that curves and bands have a value at each position, and a band its limits in order."""
     for where, figure, _ in _figures(standard, options):
@@ -106,6 +110,7 @@ def curves_have_a_value_at_each_position(standard: Standard, options: Options) -
                 )
 
 
+@check
 def marks_have_finite_ends(standard: Standard, options: Options) -> None:
     """Check that arrows, brackets and levels have finite ends, the lower one first."""
     for where, figure, _ in _figures(standard, options):
@@ -121,6 +126,7 @@ def marks_have_finite_ends(standard: Standard, options: Options) -> None:
                 expect(np.isfinite(level.y), f"{where}: level {plain(level.notation)} is at {level.y}")
 
 
+@check
 def brackets_span_what_is_drawn(standard: Standard, options: Options) -> None:
     """Check that a bracket's ends are values that the panel shows at their targets, or its zero line."""
     for where, figure, _ in _figures(standard, options):
@@ -138,6 +144,7 @@ def brackets_span_what_is_drawn(standard: Standard, options: Options) -> None:
                     )
 
 
+@check
 def brackets_are_as_long_as_their_parameter(standard: Standard, options: Options) -> None:
     """Check that a bracket that carries a parameter's notation spans exactly the parameter's value."""
     for where, figure, evaluation in _figures(standard, options):

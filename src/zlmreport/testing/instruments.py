@@ -19,6 +19,7 @@ from zlmreport.errors import AccessError, ZlmreportError
 from zlmreport.live.reading import LiveReading
 from zlmreport.plugin.protocols import Instrument
 from zlmreport.testing.expectations import (
+    check,
     expect,
     expect_identifier,
     expect_members,
@@ -33,6 +34,10 @@ _CORE_KEYS = frozenset({"plugin"})
 _HASTE = 5.0
 #: How far the axis of the checks goes, m, and how long it rests, emulated s.
 _STEP, _DWELL = 0.01, 2.0
+#: Where an axis rests whose readings have many digits, m, and how fast it gets there, m/s.
+_FAR, _AT_ONCE = 0.1234567, 1e3
+#: How many sendings arrive whole before the first is cut off.
+_SOUND_FIRST = 12
 #: No instrument that calibrates an axis resolves less, m.
 _COARSEST = 1e-6
 #: When something goes wrong, emulated s from the start: by then every instrument has begun.
@@ -41,6 +46,7 @@ _TROUBLE_AT = 6.0
 _WATCHED, _PATIENCE = 1.6, 20.0
 
 
+@check
 def is_named(instrument: Instrument) -> None:
     """Check that it has an identifier that can be typed, and a title in every language."""
     expect_members(instrument, Instrument)
@@ -48,6 +54,7 @@ def is_named(instrument: Instrument) -> None:
     expect_words(instrument.title, f"{instrument.identifier}: title")
 
 
+@check
 def options_are_described(instrument: Instrument) -> None:
     """Check that its keys are described, that a port is one of them, and that nothing else is required."""
     expect_options(instrument.options, instrument.identifier)
@@ -58,6 +65,7 @@ def options_are_described(instrument: Instrument) -> None:
     expect(not required, f"{instrument.identifier}: keys {', '.join(required)} need defaults")
 
 
+@check
 def follows_the_axis(instrument: Instrument) -> None:
     """Check that readings go where the axis goes, and are sound, in order and stamped with their arrival."""
     name = instrument.identifier
@@ -77,6 +85,7 @@ def follows_the_axis(instrument: Instrument) -> None:
     expect(abs(times[-1] - time.monotonic()) < _PATIENCE, f"{name}: time must be that of time.monotonic")
 
 
+@check
 def sign_turns_it_round(instrument: Instrument) -> None:
     """Check that the sign, if there is such a key, is applied to the readings."""
     if "sign" not in instrument.options.model_fields:
@@ -91,6 +100,7 @@ def sign_turns_it_round(instrument: Instrument) -> None:
         )
 
 
+@check
 def no_wrong_reading_is_usable(instrument: Instrument) -> None:
     """Check that whatever goes wrong, what is called usable is right until the zero is called lost."""
     for trouble in ((Trouble.SKIPPED, Trouble.ERROR), (Trouble.LOST_BEAM,)):
@@ -111,24 +121,49 @@ def no_wrong_reading_is_usable(instrument: Instrument) -> None:
                     )
 
 
+@check
+def no_cut_answer_is_usable(instrument: Instrument) -> None:
+    """Check that what arrives with its end cut off is no reading: 1 is not 1.234 with the rest lost."""
+    name = instrument.identifier
+    axis = MovingAxis((0.0, _FAR), feed=_AT_ONCE, dwell=_DWELL)
+    troubles = Troubles()
+    cut = _CutOff(instrument.emulator(Scene(axis, troubles)))
+    try:
+        with _served(cut, troubles) as port:
+            readings = _watched(instrument, port)
+    except AccessError:
+        return  # it gave up, and said so
+    for reading in readings:
+        is_there = any(abs(reading.value - at) < _COARSEST for at in (0.0, _FAR))
+        expect(
+            is_there or not reading.is_usable,
+            f"{name}: the axis rests at 0 and at {_FAR} m, some of what the instrument sends is cut off, and "
+            f"{reading.value} m is called usable",
+        )
+
+
+@check
 def notices_the_cable(instrument: Instrument) -> None:
     """Check that readings end with an `AccessError` when the instrument is unplugged."""
     with _emulated(instrument, None, Trouble.UNPLUGGED) as port:
         _expect_end(instrument, port, "it was unplugged")
 
 
+@check
 def refuses_silence(instrument: Instrument) -> None:
     """Check that a port at which nothing speaks ends with an `AccessError`."""
     with socket.create_server(("127.0.0.1", 0)) as silent:
         _expect_end(instrument, f"socket://127.0.0.1:{silent.getsockname()[1]}", "nothing speaks")
 
 
+@check
 def refuses_another_device(instrument: Instrument) -> None:
     """Check that what another device sends ends with an `AccessError`."""
     with _served(_Babble(), Troubles()) as port:
         _expect_end(instrument, port, "another device speaks")
 
 
+@check
 def refuses_a_port_that_is_not_there(instrument: Instrument) -> None:
     """Check that a port that is not there, and a word that is none, are refused."""
     for port in ("/dev/there-is-no-such-port", "socket://127.0.0.1:1", "no-such-scheme://x"):
@@ -167,6 +202,25 @@ def _watched(instrument: Instrument, port: str, **keys: Any) -> list[LiveReading
             if time.monotonic() > until:
                 return found
     return found
+
+
+class _CutOff:
+    """An instrument of whose sendings some lose their second half, as on a line that loses bytes."""
+
+    def __init__(self, emulator: Any) -> None:
+        self._emulator = emulator
+        self._sent = 0
+
+    def unasked(self, time: float) -> bytes:
+        return self._cut(self._emulator.unasked(time))
+
+    def answer(self, data: bytes, time: float) -> bytes:
+        return self._cut(self._emulator.answer(data, time))
+
+    def _cut(self, sending: bytes) -> bytes:
+        self._sent += bool(sending)
+        is_cut = sending and self._sent > _SOUND_FIRST and self._sent % 4 == 0
+        return sending[: len(sending) // 2] if is_cut else sending
 
 
 class _Babble:
@@ -219,6 +273,7 @@ INSTRUMENT_CHECKS = (
     follows_the_axis,
     sign_turns_it_round,
     no_wrong_reading_is_usable,
+    no_cut_answer_is_usable,
     notices_the_cable,
     refuses_silence,
     refuses_another_device,
@@ -239,5 +294,5 @@ def check_instrument(instrument: Instrument) -> None:
     AssertionError
         With a line for every check that fails.
     """
-    is_named(instrument)
+    expect_members(instrument, Instrument)
     run_all(INSTRUMENT_CHECKS, instrument)

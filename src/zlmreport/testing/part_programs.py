@@ -15,7 +15,7 @@ from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.planning.methods import Method
 from zlmreport.planning.programs import Motion
 from zlmreport.plugin.protocols import PartProgram
-from zlmreport.testing.expectations import expect, run_all
+from zlmreport.testing.expectations import check, expect, expect_members, run_all
 from zlmreport.testing.motions import NUMBER, PLACE, sample_motion
 from zlmreport.testing.program_expectations import (
     expect_defaults,
@@ -31,16 +31,19 @@ Interpreter: TypeAlias = Callable[[str], Sequence[tuple[float, float]]]
 _HOSTILE = ("X) G0 X9999 (", "X\nG0 X9999\n", "X;G0 X9999", "MSG,%\rM3 S9999", "Ä" * 300)
 
 
+@check
 def is_named(program: PartProgram, _interpreter: Interpreter, _keys: Mapping[str, Any]) -> None:
     """Check that it has an identifier that can be typed, a title in every language, and a file suffix."""
     expect_named(program, PartProgram, ".ngc")
 
 
+@check
 def options_are_described(program: PartProgram, _interpreter: Interpreter, _keys: Mapping[str, Any]) -> None:
     """Check that its job keys are described, none is a key of the core, and all have defaults."""
     expect_defaults(program)
 
 
+@check
 def leads_to_every_reading_from_its_side(
     program: PartProgram, interpreter: Interpreter, keys: Mapping[str, Any]
 ) -> None:
@@ -59,11 +62,13 @@ def leads_to_every_reading_from_its_side(
             )
 
 
+@check
 def is_plain_text(program: PartProgram, _interpreter: Interpreter, keys: Mapping[str, Any]) -> None:
     """Check that the program is ASCII in lines that a control can hold, and ends with a line."""
     expect_plain_text(_written(program, sample_motion(), keys), program.identifier)
 
 
+@check
 def names_the_job(program: PartProgram, _interpreter: Interpreter, keys: Mapping[str, Any]) -> None:
     """Check that the number of the job stands in the program."""
     expect(
@@ -72,12 +77,14 @@ def names_the_job(program: PartProgram, _interpreter: Interpreter, keys: Mapping
     )
 
 
+@check
 def writes_the_same_again(program: PartProgram, _interpreter: Interpreter, keys: Mapping[str, Any]) -> None:
     """Check that the same motion gives the same program."""
     first, second = (_written(program, sample_motion(Method.PENDULUM), keys) for _ in range(2))
     expect(first == second, f"{program.identifier}: writing the same motion again gives another program")
 
 
+@check
 def takes_no_name_for_a_command(
     program: PartProgram, interpreter: Interpreter, keys: Mapping[str, Any]
 ) -> None:
@@ -96,6 +103,7 @@ def takes_no_name_for_a_command(
         expect_same_deeds(text, interpreter, plain, where, "run")
 
 
+@check
 def refuses_what_it_cannot_program(
     program: PartProgram, _interpreter: Interpreter, keys: Mapping[str, Any]
 ) -> None:
@@ -117,6 +125,7 @@ def refuses_what_it_cannot_program(
             raise AssertionError(message)
 
 
+@check
 def writes_rotary_axes(program: PartProgram, interpreter: Interpreter, keys: Mapping[str, Any]) -> None:
     """Check that an axis C is led over its angles, in degrees, or refused by a control that has none."""
     motion = sample_motion(axis=Axis("C", AxisKind.ROTARY), targets=(0.0, 90.0, 180.0, 270.0))
@@ -174,5 +183,5 @@ def check_part_program(
         With a line for every check that fails.
     """
     keys = keys or {}
-    is_named(program, interpreter, keys)
+    expect_members(program, PartProgram)
     run_all(PART_PROGRAM_CHECKS, program, interpreter, keys)

@@ -5,23 +5,33 @@ from __future__ import annotations
 import contextlib
 import io
 import json
+import math
 import os
 import re
 import time
+import zipfile
 from collections.abc import Callable, Iterator, Mapping
 from html.parser import HTMLParser
 from xml.etree import ElementTree as ET
 
 from zlmreport.language import Language
 from zlmreport.plugin.protocols import Renderer
-from zlmreport.testing.certificates import MARKUP, NUMBER, sample_certificate
-from zlmreport.testing.expectations import expect, expect_identifier, expect_members, expect_words, run_all
+from zlmreport.testing.certificates import MARKUP, NUMBER, sample_certificate, worded_certificate
+from zlmreport.testing.expectations import (
+    check,
+    expect,
+    expect_identifier,
+    expect_members,
+    expect_words,
+    run_all,
+)
 
 _SUFFIX = re.compile(r"\.[a-z0-9]+(\.[a-z0-9]+)*")
 #: 26 hours apart: in these two zones it is never the same date.
 _ZONES = ("UTC-14", "UTC+12")
 
 
+@check
 def is_named(renderer: Renderer) -> None:
     """Check that it has an identifier that can be typed, a title in every language, and a file suffix."""
     expect_members(renderer, Renderer)
@@ -33,6 +43,7 @@ def is_named(renderer: Renderer) -> None:
     )
 
 
+@check
 def writes_every_block(renderer: Renderer) -> None:
     """Check that a certificate with one of everything becomes a file, in every language."""
     for language in Language:
@@ -43,6 +54,7 @@ def writes_every_block(renderer: Renderer) -> None:
         )
 
 
+@check
 def reads_no_clock(renderer: Renderer) -> None:
     """Check that the same certificate gives the same bytes, in the next second and on another date."""
     certificate = sample_certificate()
@@ -58,6 +70,7 @@ def reads_no_clock(renderer: Renderer) -> None:
     )
 
 
+@check
 def names_the_certificate(renderer: Renderer) -> None:
     """Check that the file carries the certificate's number."""
     content = renderer.render(sample_certificate())
@@ -69,6 +82,27 @@ def names_the_certificate(renderer: Renderer) -> None:
         )
 
 
+@check
+def prints_what_the_document_says(renderer: Renderer) -> None:
+    """Check that nothing is dropped: no word of a document, and no value where the format is one of data."""
+    certificate, words = worded_certificate()
+    content = renderer.render(certificate)
+    text = _READERS.get(renderer.suffix, _plain_text)(content)
+    if renderer.suffix in _DATA:
+        (parameter,) = certificate.evaluations[0].parameters
+        wanted = [certificate.measurements.axis.deviation_unit.from_si(parameter.value), parameter.value]
+        found = [float(number) for number in _NUMBER.findall(text)]
+        expect(
+            any(math.isclose(one, other, rel_tol=1e-3) for one in found for other in wanted),
+            f"{renderer.identifier}: the file does not carry the value of the parameter "
+            f"{parameter.quantity.symbol}, {wanted[0]:.6g}",
+        )
+        return
+    missing = [f"{word} ({what})" for what, word in words.items() if word not in _unspaced(text)]
+    expect(not missing, f"{renderer.identifier}: the file does not print {', '.join(missing)}")
+
+
+@check
 def sets_markup_as_text(renderer: Renderer) -> None:
     """Check that tags, entities and template expressions in a user's words come out as they were typed."""
     content = renderer.render(sample_certificate(text=MARKUP))
@@ -82,6 +116,9 @@ def sets_markup_as_text(renderer: Renderer) -> None:
 
 @contextlib.contextmanager
 def _time_zone(zone: str) -> Iterator[None]:
+    if not hasattr(time, "tzset"):  # there, no process can be told that it is elsewhere
+        yield
+        return
     before = os.environ.get("TZ")
     os.environ["TZ"] = zone
     time.tzset()
@@ -144,16 +181,39 @@ def _xml_text(content: bytes) -> str:
     return "".join(ET.fromstring(content).itertext())  # noqa: S314 - written by the renderer just now
 
 
+def _workbook_text(content: bytes) -> str:
+    """Return the text of a file that is an archive of XML, as workbooks and text documents are."""
+    with zipfile.ZipFile(io.BytesIO(content)) as archive:
+        parts = [archive.read(name) for name in archive.namelist() if name.endswith(".xml")]
+    return " ".join(" ".join(ET.fromstring(part).itertext()) for part in parts)  # noqa: S314 - as above
+
+
+def _plain_text(content: bytes) -> str:
+    """Return what somebody reads of a file of a kind that the kit does not know."""
+    return content.decode("utf-8", "replace")
+
+
 #: How to read the text of a file again, where the kit knows.
 _READERS: Mapping[str, Callable[[bytes], str]] = {
     ".html": _html_text,
     ".json": _json_text,
     ".pdf": _pdf_text,
     ".xml": _xml_text,
+    ".xlsx": _workbook_text,
 }
+#: Formats that carry results and no document.
+_DATA = frozenset({".json", ".xml", ".xlsx", ".csv"})
+_NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:[eE][-+]?\d+)?")
 
 #: Every check of a renderer, each called with the renderer.
-RENDERER_CHECKS = (is_named, writes_every_block, reads_no_clock, names_the_certificate, sets_markup_as_text)
+RENDERER_CHECKS = (
+    is_named,
+    writes_every_block,
+    reads_no_clock,
+    names_the_certificate,
+    prints_what_the_document_says,
+    sets_markup_as_text,
+)
 
 
 def check_renderer(renderer: Renderer) -> None:
@@ -164,5 +224,5 @@ def check_renderer(renderer: Renderer) -> None:
     AssertionError
         With a line for every check that fails.
     """
-    is_named(renderer)
+    expect_members(renderer, Renderer)
     run_all(RENDERER_CHECKS, renderer)

@@ -5,16 +5,19 @@ from __future__ import annotations
 import hashlib
 import tempfile
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 
 from zlmreport.errors import Place, ZlmreportError
+from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.plugin.protocols import DataSource, SourceContext
 from zlmreport.testing.expectations import (
+    check,
     expect,
     expect_identifier,
     expect_members,
@@ -26,22 +29,53 @@ from zlmreport.testing.expectations import (
 )
 
 _CORE_KEYS = frozenset({"plugin"})
+_DIRECTIONS = {"+": Approach.POSITIVE, "-": Approach.NEGATIVE}
+#: What a file's own digits leave open, µm or ″.
+_DIGITS = 5e-4
 
 
-def is_named(source: DataSource, _keys: Mapping[str, Any], _axis: Axis | SourceContext) -> None:
+#: The axis that the data are of, or the whole context of a source that needs more of the job than that.
+OfAxis: TypeAlias = Axis | SourceContext
+
+
+@dataclass(frozen=True, slots=True)
+class FileContents:
+    """What the author of a data source knows that a file holds, as somebody reads it who looks into it.
+
+    Attributes
+    ----------
+    readings
+        How many readings there are; those that are missing are not counted.
+    samples
+        Some of them, each with its target (mm, °), its direction (``+`` or ``-``), the number of its run and
+        its deviation (µm, ″): at least one of each direction and one of the last run, so that a swapped
+        direction, a wrong sign or unit and a lost run show.
+    missing
+        How many readings a full test would have beside these.
+    """
+
+    readings: int
+    samples: tuple[tuple[float, str, int, float], ...]
+    missing: int = 0
+
+
+@check
+def is_named(source: DataSource, _keys: Mapping[str, Any], _axis: OfAxis, *_: Any) -> None:
     """Check that it has an identifier that can be typed, and a title in every language."""
     expect_members(source, DataSource)
     expect_identifier(source.identifier, repr(source))
     expect_words(source.title, f"{source.identifier}: title")
 
 
-def options_are_described(source: DataSource, _keys: Mapping[str, Any], _axis: Axis | SourceContext) -> None:
+@check
+def options_are_described(source: DataSource, _keys: Mapping[str, Any], _axis: OfAxis, *_: Any) -> None:
     """Check that its job keys are described, and none is a key of the core."""
     expect_options(source.options, source.identifier)
     expect_own_keys(source.options, _CORE_KEYS, source.identifier)
 
 
-def reads_a_measurement_set(source: DataSource, keys: Mapping[str, Any], axis: Axis | SourceContext) -> None:
+@check
+def reads_a_measurement_set(source: DataSource, keys: Mapping[str, Any], axis: OfAxis, *_: Any) -> None:
     """Check that what it reads is whole: rising targets, directions, runs from 1, arrays of one length."""
     measurements = _read(source, keys, axis)
     where = source.identifier
@@ -69,13 +103,63 @@ def reads_a_measurement_set(source: DataSource, keys: Mapping[str, Any], axis: A
     expect(np.all(measurements.run >= 1), f"{where}: runs are numbered from 1")
 
 
-def keeps_the_axis(source: DataSource, keys: Mapping[str, Any], axis: Axis | SourceContext) -> None:
+@check
+def reads_what_the_file_holds(
+    source: DataSource,
+    keys: Mapping[str, Any],
+    axis: OfAxis,
+    holds: FileContents | None = None,
+) -> None:
+    """Check that the readings are those of the file: their number, and the samples that the author knows."""
+    where = source.identifier
+    expect(
+        holds,
+        f"{where}: say what the file holds: check_source(…, holds=FileContents(readings, samples, missing)); "
+        "nobody else can see a swapped direction, a wrong sign or a lost run",
+    )
+    assert holds is not None  # noqa: S101  # said above; for type checkers
+    read = _read(source, keys, axis)
+    found, missing = int(np.isfinite(read.deviation).sum()), len(read.missing())
+    expect(found == holds.readings, f"{where}: {found} readings; the file holds {holds.readings}")
+    expect(missing == holds.missing, f"{where}: {missing} readings are missing; expected {holds.missing}")
+    _expect_telling(read, holds, where)
+    positions = read.axis.position_unit.from_si(read.target_positions[read.target])
+    deviations = read.axis.deviation_unit.from_si(read.deviation)
+    for target, direction, run, deviation in holds.samples:
+        is_it = np.isclose(positions, target, rtol=0.0, atol=1e-6)
+        is_it &= (read.approach == _DIRECTIONS[direction]) & (read.run == run)
+        which = f"{where}: the reading at {target:g} {direction} of run {run}"
+        expect(is_it.any(), f"{which} is not read")
+        got = float(deviations[is_it][0])
+        expect(abs(got - deviation) <= _DIGITS, f"{which} is {got:.6g}; the file holds {deviation:.6g}")
+
+
+def _expect_telling(read: MeasurementSet, holds: FileContents, where: str) -> None:
+    """Expect samples of which the usual mistakes would change one."""
+    directions = {_DIRECTIONS[direction] for _, direction, _, _ in holds.samples}
+    expect(
+        directions >= set(read.approaches),
+        f"{where}: samples of the file's contents must show each direction that was measured",
+    )
+    expect(
+        any(run == read.runs.max() for _, _, run, _ in holds.samples),
+        f"{where}: samples of the file's contents must show the last run, {read.runs.max()}",
+    )
+    expect(
+        len({deviation for *_, deviation in holds.samples} - {0.0}) > 1,
+        f"{where}: samples of the file's contents must have different deviations, for a swap to show",
+    )
+
+
+@check
+def keeps_the_axis(source: DataSource, keys: Mapping[str, Any], axis: OfAxis, *_: Any) -> None:
     """Check that the measurement set is of the axis that the job describes."""
     read, stated = _read(source, keys, axis).axis, _context(axis).axis
     expect(read == stated, f"{source.identifier}: the axis read is {read}; expected the job's, {stated}")
 
 
-def values_are_read_only(source: DataSource, keys: Mapping[str, Any], axis: Axis | SourceContext) -> None:
+@check
+def values_are_read_only(source: DataSource, keys: Mapping[str, Any], axis: OfAxis, *_: Any) -> None:
     """Check that nobody can alter a reading."""
     measurements = _read(source, keys, axis)
     arrays = {
@@ -90,13 +174,15 @@ def values_are_read_only(source: DataSource, keys: Mapping[str, Any], axis: Axis
         expect(not values.flags.writeable, f"{source.identifier}: {name} can be altered; make it read-only")
 
 
-def reads_the_same_again(source: DataSource, keys: Mapping[str, Any], axis: Axis | SourceContext) -> None:
+@check
+def reads_the_same_again(source: DataSource, keys: Mapping[str, Any], axis: OfAxis, *_: Any) -> None:
     """Check that the same file gives the same measurement set."""
     first, second = (_read(source, keys, axis) for _ in range(2))
     expect(same_value(first, second), f"{source.identifier}: reading the same data again gives another set")
 
 
-def names_its_files(source: DataSource, keys: Mapping[str, Any], axis: Axis | SourceContext) -> None:
+@check
+def names_its_files(source: DataSource, keys: Mapping[str, Any], axis: OfAxis, *_: Any) -> None:
     """Check that the provenance names the source, and each file read, without its folder, with its bytes."""
     provenance = _read(source, keys, axis).provenance
     expect(
@@ -119,15 +205,15 @@ def names_its_files(source: DataSource, keys: Mapping[str, Any], axis: Axis | So
         )
 
 
-def remarks_are_worded(source: DataSource, keys: Mapping[str, Any], axis: Axis | SourceContext) -> None:
+@check
+def remarks_are_worded(source: DataSource, keys: Mapping[str, Any], axis: OfAxis, *_: Any) -> None:
     """Check that what it has to say of the file is said in every language."""
     for number, remark in enumerate(_read(source, keys, axis).provenance.remarks, 1):
         expect_words(remark, f"{source.identifier}: provenance: remark {number}")
 
 
-def damaged_files_are_refused(
-    source: DataSource, keys: Mapping[str, Any], axis: Axis | SourceContext
-) -> None:
+@check
+def damaged_files_are_refused(source: DataSource, keys: Mapping[str, Any], axis: OfAxis, *_: Any) -> None:
     """Check that a file that is no such file is refused by name: no other exception, no measurement set."""
     for key, path in _files(source, keys):
         for damage, content in _damaged(path.read_bytes()).items():
@@ -176,21 +262,21 @@ def _files(source: DataSource, keys: Mapping[str, Any]) -> Iterator[tuple[str, P
             yield key, value
 
 
-def _read(source: DataSource, keys: Mapping[str, Any], axis: Axis | SourceContext) -> MeasurementSet:
+def _read(source: DataSource, keys: Mapping[str, Any], axis: OfAxis) -> MeasurementSet:
     options = source.options.model_validate(dict(keys))
     return source.read(options, _context(axis))
 
 
-def _context(axis: Axis | SourceContext) -> SourceContext:
+def _context(axis: OfAxis) -> SourceContext:
     return axis if isinstance(axis, SourceContext) else SourceContext(axis, Place("job.yaml", 1, 1))
 
 
-#: Every check of a data source, each called with the source, its job keys, and the axis, or the whole context
-#: where the source needs more of the job than the axis.
+#: Every check of a data source, each called with the source, its job keys, the axis, and what the file holds.
 SOURCE_CHECKS = (
     is_named,
     options_are_described,
     reads_a_measurement_set,
+    reads_what_the_file_holds,
     keeps_the_axis,
     values_are_read_only,
     reads_the_same_again,
@@ -201,7 +287,11 @@ SOURCE_CHECKS = (
 
 
 def check_source(
-    source: DataSource, keys: Mapping[str, Any], *, axis: Axis | SourceContext | None = None
+    source: DataSource,
+    keys: Mapping[str, Any],
+    *,
+    axis: OfAxis | None = None,
+    holds: FileContents | None = None,
 ) -> None:
     """Run every check on a data source.
 
@@ -214,6 +304,9 @@ def check_source(
     axis
         The axis that the data are of; a linear one, X, if it is not given. Or the whole context of a source
         that needs more of the job.
+    holds
+        What the data are, as the author knows them from elsewhere; without it the kit cannot tell a right
+        reader from a wrong one, and does not pass.
 
     Raises
     ------
@@ -221,5 +314,5 @@ def check_source(
         With a line for every check that fails.
     """
     axis = axis or Axis("X")
-    is_named(source, keys, axis)
-    run_all(SOURCE_CHECKS, source, keys, axis)
+    expect_members(source, DataSource)
+    run_all(SOURCE_CHECKS, source, keys, axis, holds)

@@ -13,6 +13,7 @@ from zlmreport.plugin.protocols import Standard
 from zlmreport.quantities.notation import plain
 from zlmreport.testing.arithmetic import ARITHMETIC_CHECKS
 from zlmreport.testing.expectations import (
+    check,
     expect,
     expect_identifier,
     expect_members,
@@ -31,11 +32,13 @@ _CORE_COLUMNS = frozenset({"target", "mean_fwd", "mean_bwd", "mean", "s_fwd", "s
 _CORE_KEYS = frozenset({"standard", "tolerances"})
 
 
+@check
 def has_all_members(standard: Standard, _: Options) -> None:
     """Check that the protocol is complete."""
     expect_members(standard, Standard)
 
 
+@check
 def is_named(standard: Standard, _: Options) -> None:
     """Check that it has an identifier that can be typed, a designation, and a title in every language."""
     expect_identifier(standard.identifier, repr(standard))
@@ -50,12 +53,14 @@ def is_named(standard: Standard, _: Options) -> None:
         expect_words(note, f"{standard.identifier}: note {number}")
 
 
+@check
 def options_are_described(standard: Standard, _: Options) -> None:
     """Check that its job keys are described, and none is a key of the core."""
     expect_options(standard.options, standard.identifier)
     expect_own_keys(standard.options, _CORE_KEYS, standard.identifier)
 
 
+@check
 def symbols_are_unique(standard: Standard, _: Options) -> None:
     """Check that symbols are ASCII, unique, and none is that of a column which every table has."""
     expect(standard.quantities, f"{standard.identifier} reports no parameter: quantities is empty")
@@ -74,6 +79,7 @@ def symbols_are_unique(standard: Standard, _: Options) -> None:
         )
 
 
+@check
 def quantities_are_worded(standard: Standard, _: Options) -> None:
     """Check that each quantity has its notation, and says in every language what it is and what it means."""
     described: Iterable[Quantity | PositionQuantity] = (*standard.quantities, *standard.position_quantities)
@@ -88,6 +94,7 @@ def quantities_are_worded(standard: Standard, _: Options) -> None:
         expect_words(parameter.meaning, f"{where}: meaning")
 
 
+@check
 def requirements_never_refuse(standard: Standard, options: Options) -> None:
     """Check that requirements answer with findings, however poor the test is, and answer the same again."""
     for kind, measurements in {**good_tests(), **poor_tests()}.items():
@@ -142,5 +149,5 @@ def check_standard(standard: Standard, keys: Mapping[str, Any] | None = None) ->
     AssertionError
         With a line for every check that fails.
     """
-    has_all_members(standard, Options())
+    expect_members(standard, Standard)
     run_all(STANDARD_CHECKS, standard, standard.options.model_validate(keys or {}))

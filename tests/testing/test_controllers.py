@@ -1,0 +1,164 @@
+"""Each check of a controller passes the exemplary one, and finds the sin it is there for."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+from pydantic import Field
+
+from zlmreport.compensation.curve import CompensationTable
+from zlmreport.errors import InputError, Place
+from zlmreport.job.types import Options
+from zlmreport.language import Words
+from zlmreport.quantities.arrays import read_only_floats
+from zlmreport.testing import CONTROLLER_CHECKS, check_controller, controllers
+
+COUNTER = itertools.count()
+
+
+class ExemplaryController:
+    """Rows of position (mm) and correction in both directions (µm), which the control adds."""
+
+    identifier = "exemplary-control"
+    title = Words(en="An exemplary control", de="Eine vorbildliche Steuerung")
+    options: Any = Options
+    confidence = "documented"
+    is_directional = True
+    is_equidistant = False
+    notes: Any = (Words(en="Copy the file.", de="Datei kopieren."),)
+
+    def files(self, table: CompensationTable, _options: Any) -> Mapping[str, str]:
+        if np.any(np.diff(table.positions) <= 0):
+            raise InputError.at(table.place, "rows must rise")
+        rows = zip(table.positions, table.forward, table.reverse, strict=True)
+        return {".tab": "".join(f"{p * 1e3:.4f} {-f * 1e6:.2f} {-r * 1e6:.2f}\n" for p, f, r in rows)}
+
+    def read(self, files: Mapping[str, str], table: CompensationTable, _options: Any) -> CompensationTable:
+        rows = np.array([[float(word) for word in line.split()] for line in files[".tab"].splitlines()])
+        return replace(
+            table,
+            positions=read_only_floats(rows[:, 0] / 1e3),
+            forward=read_only_floats(-rows[:, 1] / 1e6),
+            reverse=read_only_floats(-rows[:, 2] / 1e6),
+        )
+
+
+EXEMPLARY = ExemplaryController()
+
+
+def written(change: Callable[[str], Any]) -> dict[str, Any]:
+    """Return the sin of a controller whose file is another one."""
+    return {"files": lambda _, table, options: {".tab": change(EXEMPLARY.files(table, options)[".tab"])}}
+
+
+def meaning(change: Callable[[CompensationTable], CompensationTable]) -> dict[str, Any]:
+    """Return the sin of a controller that writes another table."""
+    return {"files": lambda _, table, options: EXEMPLARY.files(change(table), options)}
+
+
+def careless(_self: object, table: CompensationTable, options: Any) -> Mapping[str, str]:
+    try:
+        return EXEMPLARY.files(table, options)
+    except InputError:
+        return {".tab": "0 0 0\n"}
+
+
+def elsewhere(_self: object, table: CompensationTable, options: Any) -> Mapping[str, str]:
+    try:
+        return EXEMPLARY.files(table, options)
+    except InputError as error:
+        raise InputError.at(Place("somewhere"), "no") from error
+
+
+def crossed(table: CompensationTable) -> CompensationTable:
+    return replace(table, forward=table.reverse, reverse=table.forward)
+
+
+class Undescribed(Options):
+    grid: float = 1.0
+
+
+class Greedy(Options):
+    controller: str = Field("", description="Taken.")
+
+
+class Demanding(Options):
+    grid: float = Field(description="Without a default.")
+
+
+SINS = [
+    (controllers.is_named, {"identifier": "A control"}, "must be lower-case ASCII"),
+    (controllers.is_named, {"title": "A control"}, "title must be Words"),
+    (controllers.is_named, {"notes": (Words(en="", de="x"),)}, "a note says nothing in 'en'"),
+    (controllers.is_named, {"confidence": "sure"}, "confidence is one of"),
+    (controllers.options_are_described, {"options": Undescribed}, "'grid' needs a description"),
+    (controllers.options_are_described, {"options": Greedy}, "controller belong to the core"),
+    (controllers.options_are_described, {"options": Demanding}, "raised ValidationError"),
+    (controllers.reads_what_it_writes, {"files": lambda *_: None}, "must return texts"),
+    (controllers.reads_what_it_writes, {"files": lambda *_: {}}, "must be plain ASCII"),
+    (controllers.reads_what_it_writes, {"read": lambda *_: None}, "must return a CompensationTable"),
+    (controllers.reads_what_it_writes, written(lambda text: text + "µ"), "must be plain ASCII"),
+    (controllers.reads_what_it_writes, written(lambda text: text.replace(" -", " ")), "is off by"),
+    (
+        controllers.reads_what_it_writes,
+        meaning(lambda table: replace(table, forward=-table.forward, reverse=-table.reverse)),
+        "is off by",
+    ),
+    (
+        controllers.reads_what_it_writes,
+        meaning(lambda table: replace(table, forward=1e3 * table.forward)),
+        "is off by",
+    ),
+    (controllers.reads_what_it_writes, meaning(crossed), "is off by"),
+    (
+        controllers.reads_what_it_writes,
+        meaning(lambda table: replace(table, reverse=table.forward)),
+        "is off by",
+    ),
+    (
+        controllers.reads_what_it_writes,
+        written(lambda text: "".join(text.splitlines(keepends=True)[:-1])),
+        "has 10 rows instead of 11",
+    ),
+    (controllers.reads_what_it_writes, {"read": lambda *_: {}["x"]}, "raised KeyError: 'x'"),
+    (controllers.writes_the_same_again, written(lambda text: f"{text}{next(COUNTER)}"), "gives other files"),
+    (controllers.refuses_rows_that_do_not_rise, {"files": careless}, "are not refused"),
+    (controllers.refuses_rows_that_do_not_rise, {"files": elsewhere}, "elsewhere than at table.place"),
+]
+
+
+def sinner(sin: dict[str, Any]) -> Any:
+    return type("Sinner", (ExemplaryController,), sin)()
+
+
+@pytest.mark.parametrize("check", CONTROLLER_CHECKS)
+def test_the_exemplary_controller_passes(check: Callable[..., None]) -> None:
+    check(EXEMPLARY, {})
+
+
+@pytest.mark.parametrize(
+    ("check", "sin", "sentence"), SINS, ids=lambda value: getattr(value, "__name__", None)
+)
+def test_a_check_finds_its_sin(check: Callable[..., None], sin: dict[str, Any], sentence: str) -> None:
+    with pytest.raises(AssertionError) as failure:
+        check(sinner(sin), {})
+    assert sentence in str(failure.value)
+
+
+def test_every_check_has_a_sin() -> None:
+    assert {check for check, *_ in SINS} == set(CONTROLLER_CHECKS)
+
+
+def test_all_failures_are_reported_at_once() -> None:
+    with pytest.raises(AssertionError) as failure:
+        check_controller(sinner({"confidence": "sure", "read": lambda *_: {}["x"]}))
+    lines = str(failure.value).splitlines()
+    assert [line.split(": ")[:2] for line in lines] == [
+        ["is_named", "exemplary-control"],
+        ["reads_what_it_writes", "exemplary-control"],
+    ]

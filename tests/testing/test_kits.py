@@ -1,0 +1,46 @@
+"""Of every kit: no plugin ends it, none keeps it for ever, and what it says is a sentence."""
+
+from __future__ import annotations
+
+import sys
+import threading
+from typing import Any
+
+import pytest
+
+from testing.exemplary import ExemplaryStandard
+from zlmreport.testing import check_standard, expectations
+
+
+def _sinful(**members: Any) -> Any:
+    return type("Sinful", (ExemplaryStandard,), members)()
+
+
+def test_exit_in_one_check_ends_no_other() -> None:
+    def leave(*_: Any) -> Any:
+        sys.exit(0)
+
+    with pytest.raises(AssertionError) as failure:
+        check_standard(_sinful(requirements=leave, designation=""))
+    lines = str(failure.value).splitlines()
+    assert lines[0].startswith("is_named: exemplary:1: designation")
+    assert any(line.startswith("figures_of_any_test: exemplary:1: raised SystemExit: 0") for line in lines)
+    assert "Traceback" not in str(failure.value)
+
+
+def test_raw_error_becomes_a_sentence_with_its_line() -> None:
+    with pytest.raises(AssertionError, match=r"exemplary:1: raised KeyError: 'A' \(test_kits.py, line \d+\)"):
+        check_standard(_sinful(figures=property(lambda _: {}["A"])))
+
+
+def test_check_that_does_not_come_back_fails(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(expectations, "PATIENCE", 0.05)
+    released = threading.Event()
+
+    @expectations.check
+    def waits(_standard: object) -> None:
+        released.wait()
+
+    with pytest.raises(AssertionError, match=r"exemplary:1: does not come back within 0.05 s"):
+        waits(ExemplaryStandard())
+    released.set()
