@@ -74,6 +74,32 @@ def test_the_hidden_effect_is_found_by_clicks_alone(address: str, job: Path, win
     assert "screw-pitch" not in job.read_text(encoding="utf-8").partition("model:")[2]
 
 
+def test_from_a_job_without_pitch_to_table_and_certificate_by_clicks_alone(
+    address: str, job: Path, window: Window
+) -> None:
+    text = job.read_text(encoding="utf-8")
+    job.write_text(text.replace(", screw_pitch: 10", ""), encoding="utf-8")
+    page = window(address, viewport={"width": 1440, "height": 900})
+    diagnosed(page, "unexplained")
+    picture(page, "asks")
+    page.get_by_label("Screw pitch").fill("10")
+    page.get_by_label("Screw pitch").press("Enter")
+    diagnosed(page, "missing")
+    page.get_by_role("button", name="Add screw-pitch to the model").click()
+    diagnosed(page, "adequate")
+    page.get_by_role("button", name="None was active").click()
+    page.get_by_label("Control", exact=True).select_option("csv")
+    page.get_by_role("button", name="Write the table").click()
+    expect(page.get_by_role("link", name="EXAMPLE-2026-0007-compensation.csv")).to_be_visible()
+    expect(page.get_by_label("Control", exact=True)).to_have_value("csv")
+    page.get_by_role("button", name="Make the certificate").click()
+    expect(page.locator(".preview img")).to_have_js_property("complete", value=True)
+    assert page.locator(".preview img").evaluate("picture => picture.naturalWidth") > 500
+    page.get_by_role("button", name="The next page").click()
+    expect(page.get_by_text("Page 2 of")).to_be_visible()
+    picture(page, "table")
+
+
 def test_the_page_asks_for_the_pitch_that_nobody_stated(address: str, job: Path, window: Window) -> None:
     text = job.read_text(encoding="utf-8")
     job.write_text(text.replace(", screw_pitch: 10", ""), encoding="utf-8")

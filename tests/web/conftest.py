@@ -41,7 +41,7 @@ def workbench(job: Path) -> Iterator[Workbench]:
     made = Workbench.of(job, registry())
     yield made
     made.diagnoses.end()
-    made.certificates.end()
+    made.commands.end()
 
 
 @pytest.fixture

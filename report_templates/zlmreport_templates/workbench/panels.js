@@ -1,9 +1,11 @@
 // What stands beside and below the graphs. Each panel is a function from values to elements.
 
 import { h, s, said, symbol } from "./dom.js";
+import { fixed } from "./number.js";
 
 const SIGNS = { adequate: "✓", missing: "?", unexplained: "!" };
 const LIKELY = 0.5;
+const CONFIRMED = { held: "held", "wrong-sign": "wrongSign", half: "half", shifted: "shifted", other: "otherTable" };
 const DOUBTS = { doubtful: "doubtful", implausible: "implausible" };
 
 /** The verdict in words, with the error of the model and what is asked for; while a diagnosis is under way, for how long. */
@@ -197,18 +199,91 @@ export function excluded(texts, job, actions) {
   ];
 }
 
-/** The certificate: made from the page, and its files. */
-export function certificate(texts, made, number, actions) {
-  const making = made?.state === "making";
+/** The certificate: its formats, made from the page, its files, and its pages as pictures. */
+export function certificate(texts, job, made, wanted, number, actions) {
+  const chosen = (each) => wanted.certificate?.formats.includes(each.format) ?? each.chosen;
   return [
     h("h2", {}, texts.certificate),
-    making
-      ? h("p", { class: "progress" }, h("progress", { "aria-label": texts.making }), ` ${texts.making} `, h("span", { "aria-hidden": "true" }, said(texts.seconds, { seconds: number(made.seconds) })))
-      : button(texts.makeCertificate, texts.makeCertificate, "certificate", actions.certificate),
+    h("form", { class: "making", submit: (event) => { event.preventDefault(); actions.make("certificate", { formats: new FormData(event.target).getAll("format") }); } },
+      h("fieldset", {}, h("legend", {}, texts.formats), job.offered.formats.map((each) => h("label", {},
+        h("input", { type: "checkbox", name: "format", value: each.format, checked: chosen(each) }), ` ${each.format}`))),
+      h("button", { type: "submit", "data-key": "certificate", disabled: made?.state === "making" }, texts.makeCertificate)),
+    ...progress(texts, made, number, texts.making),
+    made?.state === "made" && Object.entries(made.pages).slice(0, 1).map(([name, pages]) => preview(texts, name, pages, made.stamp)),
+  ];
+}
+
+/** Return how far something is that is being made, or its files, or what stood against it. */
+function progress(texts, made, number, words) {
+  if (made?.state === "making") {
+    return [h("p", { class: "progress" }, h("progress", { "aria-label": words }), ` ${words} `, h("span", { "aria-hidden": "true" }, said(texts.seconds, { seconds: number(made.seconds) })))];
+  }
+  return [
     made?.state === "made" && h("ul", { class: "files" }, made.files.map((name) => h("li", {}, h("a", { href: `/documents/${name}`, download: name }, name)))),
     made?.state === "made" && !made.current && h("p", { class: "quiet" }, texts.outOfDate),
     made?.state === "failed" && h("ul", { class: "problems" }, made.problems.map((each) => h("li", {}, each))),
   ];
+}
+
+function preview(texts, name, pages, stamp) {
+  const picture = h("img", { class: "page", alt: "" });
+  const place = h("span", { role: "status" });
+  let shown = 0;
+  const turn = (to) => {
+    shown = Math.max(1, Math.min(pages, to));
+    picture.src = `/documents/${name}/${shown}.png?of=${stamp}`;
+    picture.alt = said(texts.page, { page: shown, pages });
+    place.textContent = said(texts.page, { page: shown, pages });
+  };
+  turn(1);
+  return h("div", { class: "preview" },
+    h("p", {}, button("←", texts.pageBefore, "page-before", () => turn(shown - 1)), " ", place, " ", button("→", texts.pageAfter, "page-after", () => turn(shown + 1))),
+    picture);
+}
+
+/** The table for a control: written, its forecast, and a second test held against it. */
+export function compensation(texts, job, made, wanted, number, actions) {
+  const { offered } = job;
+  const before = wanted.table ?? { controller: (offered.controllers.find((each) => each.chosen) ?? offered.controllers.find((each) => each.isVerified))?.controller };
+  if (!offered.tableIsStated) {
+    return [h("h2", {}, texts.compensation), h("p", {}, texts.whichTable), button(texts.noTable, texts.noTable, "no-table", actions.noTable)];
+  }
+  const chosen = (form) => {
+    const values = new FormData(form);
+    return { controller: values.get("controller"), step: values.get("step") ? Number(values.get("step")) : null, unconfirmed: values.has("unconfirmed") };
+  };
+  const { table, confirmation } = made;
+  const form = h("form", { class: "making", submit: (event) => { event.preventDefault(); actions.make("table", chosen(form)); } },
+    h("label", { for: "controller" }, texts.controller),
+    h("select", { id: "controller", name: "controller", "data-key": "controller" }, offered.controllers.map((each) =>
+      h("option", { value: each.controller, selected: each.controller === before.controller }, each.isVerified ? each.title : said(texts.untried, { controller: each.title })))),
+    h("label", { for: "step" }, texts.step), h("input", { id: "step", name: "step", type: "number", step: "any", min: 0, value: before.step, placeholder: texts.atTargets, "data-key": "step" }), h("span", {}, offered.unit),
+    h("label", {}, h("input", { type: "checkbox", name: "unconfirmed", checked: before.unconfirmed }), ` ${texts.unconfirmed}`),
+    h("button", { type: "submit", "data-key": "table", disabled: table?.state === "making" }, texts.writeTable));
+  const second = h("form", { class: "making", submit: (event) => { event.preventDefault(); actions.make("confirmation", { controller: chosen(form).controller, unconfirmed: true, after: event.target.elements.after.value }); } },
+    h("label", { for: "after" }, texts.secondTest),
+    h("select", { id: "after", name: "after", "data-key": "after" }, offered.jobs.map((name) => h("option", { value: name, selected: name === wanted.confirmation?.after }, name))),
+    h("button", { type: "submit", "data-key": "confirm" }, texts.hold));
+  return [
+    h("h2", {}, texts.compensation), form,
+    ...progress(texts, table, number, texts.writing),
+    table?.values?.forecast && forecast(texts, table.values, offered.unit),
+    offered.jobs.length > 0 && second,
+    ...progress(texts, confirmation, number, texts.holding),
+    confirmation?.values?.verdict && h("p", { class: `verdict ${confirmation.values.verdict === "held" ? "adequate" : "unexplained"}` },
+      said(texts[CONFIRMED[confirmation.values.verdict]], { share: number(Math.round(1000 * confirmation.values.ratio) / 10) })),
+  ];
+}
+
+function forecast(texts, values, position) {
+  const { before, after, between_grid_points: between } = values.forecast;
+  const unit = values.unit === "um" ? "µm" : values.unit;
+  const rounded = (value) => fixed(value, 2);
+  return h("div", {},
+    h("table", {},
+      h("thead", {}, h("tr", {}, h("td", {}), h("th", { scope: "col", class: "number" }, `${texts.now} (${unit})`), h("th", { scope: "col", class: "number" }, `${texts.withTable} (${unit})`))),
+      h("tbody", {}, Object.keys(before).map((name) => h("tr", {}, h("th", { scope: "row" }, h("i", {}, name)), h("td", { class: "number" }, rounded(before[name])), h("td", { class: "number" }, rounded(after[name])))))),
+    h("p", { class: "quiet" }, said(texts.betweenRows, { rows: values.rows, largest: `${rounded(between.largest)} ${unit}`, at: `${rounded(between.at)} ${position}` }), " ", texts.noMeasurement));
 }
 
 /** What was done so far, the last step first. */

@@ -14,6 +14,8 @@ class Page {
   constructor(texts) {
     this.texts = texts;
     this.number = written;
+    this.made = new Map();
+    this.wanted = {};
     this.actions = {
       add: (effect) => this.#change({ action: "add", effect }),
       remove: (effect) => this.#change({ action: "remove", effect }),
@@ -22,17 +24,18 @@ class Page {
       include: (listed) => this.#change({ action: "include", listed }),
       state: (parameter, value) => this.#change({ action: "state", parameter, value }),
       preview: (step, name) => this.#preview(step, name),
-      certificate: () => this.#make(),
+      make: (name, wanted) => { this.wanted[name] = wanted; this.#make(name, wanted); },
+      noTable: () => this.#change({ action: "state", parameter: "compensation_table" }),
     };
     this.graphs = new Graphs(texts, this.number, (readings, reason) => this.#change({ action: "exclude", readings, reason }));
     this.notice = h("div", { class: "notice", role: "alert", hidden: true });
     this.header = h("header", {}, h("p", { role: "status" }, texts.working));
-    this.parts = Object.fromEntries(["verdict", "fall", "faults", "failures", "candidates", "hidden", "certificate", "effects", "standards", "excluded", "steps"]
+    this.parts = Object.fromEntries(["verdict", "fall", "faults", "failures", "candidates", "hidden", "compensation", "certificate", "effects", "standards", "excluded", "steps"]
       .map((name) => [name, h("section", { class: "panel", id: `part-${name}` })]));
-    const { verdict, fall, faults, failures, candidates, hidden, certificate, effects, standards, excluded, steps } = this.parts;
+    const { verdict, fall, faults, failures, candidates, hidden, compensation, certificate, effects, standards, excluded, steps } = this.parts;
     document.body.replaceChildren(this.header, this.notice, h("main", {},
-      h("div", { class: "bench" }, h("div", { class: "always" }, verdict, fall), h("div", { class: "seen" }, this.graphs.element, effects), h("div", { class: "findings" }, faults, failures, candidates, hidden, certificate)),
-      h("div", { class: "results" }, standards, h("div", {}, excluded, steps))));
+      h("div", { class: "bench" }, h("div", { class: "always" }, verdict, fall), h("div", { class: "seen" }, this.graphs.element, effects, standards),
+      h("div", { class: "findings" }, faults, failures, candidates, hidden, compensation, certificate, excluded, steps))));
   }
 
   /** Show the job as it is, and go on looking whether it still is. */
@@ -67,7 +70,7 @@ class Page {
     fill(parts.standards, panels.standards(texts, job));
     fill(parts.excluded, panels.excluded(texts, job, this.actions));
     fill(parts.steps, panels.steps(texts, job));
-    this.#showCertificate();
+    this.#showMade();
     this.#showDiagnosis();
     this.#diagnose(job.stamp);
   }
@@ -97,26 +100,34 @@ class Page {
     document.body.dataset.state = found ? found.verdict : "working";
   }
 
-  #showCertificate() {
-    const made = this.made && { ...this.made, current: this.made.stamp === this.stamp };
-    fill(this.parts.certificate, panels.certificate(this.texts, made, this.number, this.actions));
+  #showMade() {
+    const { texts, parts, job, actions } = this;
+    const made = Object.fromEntries([...this.made].map(([name, each]) => [name, { ...each, current: each.stamp === this.stamp }]));
+    fill(parts.certificate, panels.certificate(texts, job, made.certificate, this.wanted, this.number, actions));
+    fill(parts.compensation, panels.compensation(texts, job, made, this.wanted, this.number, actions));
   }
 
-  /** Have the documents made, and show how far they are. */
-  async #make() {
+  /** Have something made, and show how far it is. */
+  async #make(name, wanted) {
     try {
-      let found = await post("/api/certificate", {});
+      let found = await post(`/api/made/${name}`, wanted);
       while (found.state === "making") {
-        this.made = found;
-        this.#showCertificate();
+        this.#keep(name, found);
         await new Promise((resolve) => { setTimeout(resolve, ASK); });
-        found = await get("/api/certificate");
+        found = await get(`/api/made/${name}`);
       }
-      this.made = found;
-      this.#showCertificate();
+      this.#keep(name, found);
     } catch (error) {
       this.#tell(error);
     }
+  }
+
+  #keep(name, found) {
+    const before = this.made.get(name)?.state;
+    this.made.set(name, found);
+    const waits = this.parts[name === "certificate" ? "certificate" : "compensation"].querySelector(".progress span");
+    if (before === "making" && found.state === "making" && waits) waits.textContent = said(this.texts.seconds, { seconds: this.number(found.seconds) });
+    else this.#showMade();
   }
 
   async #diagnose(stamp) {

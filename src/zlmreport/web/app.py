@@ -24,15 +24,17 @@ from zlmreport.typesetting.contexts import WorkbenchContext
 from zlmreport.typesetting.resources import page_file
 from zlmreport.typesetting.templates import render
 from zlmreport.web.bench import Bench
-from zlmreport.web.certificates import Certificates
 from zlmreport.web.changes import ConflictError, NothingToUndoError, Request, change
+from zlmreport.web.commands import Commands, Wanted
 from zlmreport.web.diagnoses import Diagnoses
 from zlmreport.web.effect_page import effect_page
 from zlmreport.web.guard import HOST, Door, Guard
+from zlmreport.web.pictures import page_picture
 from zlmreport.web.remembered import Answers
 from zlmreport.web.texts import texts
 from zlmreport.web.view import before_and_after, view
 
+_OTHER_PAGE = "the request is none of a page of this version"
 _TITLE = Words(en="Workbench", de="Werkbank")
 _NO_SCRIPT = Words(
     en="The workbench needs JavaScript, which comes from this computer alone.",
@@ -48,13 +50,13 @@ class Workbench:
     ----------
     bench
         The job.
-    diagnoses, certificates
+    diagnoses, commands
         Made beside, each in a process of its own.
     """
 
     bench: Bench
     diagnoses: Diagnoses
-    certificates: Certificates
+    commands: Commands
 
     @classmethod
     def of(cls, job: Path, registry: Registry, plugins: Sequence[Path] = ()) -> Workbench:
@@ -62,7 +64,7 @@ class Workbench:
         bench = Bench(job, registry)
         bench.loaded()
         diagnoses = Diagnoses(job, Answers.of_user(registry.effects), plugins)
-        return cls(bench, diagnoses, Certificates(job, plugins))
+        return cls(bench, diagnoses, Commands.of(bench, plugins))
 
     def app(self, door: Door) -> Guard:
         """Return the application behind its guard."""
@@ -71,6 +73,7 @@ class Workbench:
             Route("/effects/{effect}", self.page),
             Route("/files/{name}", self.file),
             Route("/documents/{name}", self.document),
+            Route("/documents/{name}/{page:int}.png", self.picture),
             Route("/api/texts", self.texts),
             Route("/api/stamp", self.stamp),
             Route("/api/job", self.job),
@@ -78,8 +81,8 @@ class Workbench:
             Route("/api/diagnosis", self.diagnosis),
             Route("/api/effects/{effect}", self.effect),
             Route("/api/change", self.change, methods=["POST"]),
-            Route("/api/certificate", self.certificate),
-            Route("/api/certificate", self.make_certificate, methods=["POST"]),
+            Route("/api/made/{name}", self.made),
+            Route("/api/made/{name}", self.make, methods=["POST"]),
         ]
         return Guard(Starlette(routes=routes), door)
 
@@ -101,11 +104,17 @@ class Workbench:
         return Response(found.content, media_type=found.media_type)
 
     async def document(self, request: HttpRequest) -> Response:
-        """Answer with a document that was made from the page, by its name."""
-        path = self.certificates.file(request.path_params["name"])
-        if path is None or not path.is_file():
+        """Answer with a file that was made from the page, by its name."""
+        path = self.commands.file(request.path_params["name"])
+        return Response(status_code=404) if path is None else FileResponse(path, filename=path.name)
+
+    async def picture(self, request: HttpRequest) -> Response:
+        """Answer with a page of a PDF that was made from the page, as a picture."""
+        path = self.commands.file(request.path_params["name"])
+        if path is None or path.suffix != ".pdf":
             return Response(status_code=404)
-        return FileResponse(path, filename=path.name)
+        found = await run_in_threadpool(page_picture, path, request.path_params["page"])
+        return Response(status_code=404) if found is None else Response(found, media_type="image/png")
 
     async def texts(self, request: HttpRequest) -> Response:
         """Answer with the words of the page."""
@@ -151,25 +160,30 @@ class Workbench:
 
         return await self._answered(request, found)
 
-    async def certificate(self, request: HttpRequest) -> Response:
-        """Answer with how far the documents are."""
-        return await self._answered(request, self.certificates.state)
+    async def made(self, request: HttpRequest) -> Response:
+        """Answer with how far something is that is being made."""
+        making = self.commands.making.get(request.path_params["name"])
+        if making is None:
+            return Response(status_code=404)
+        return await self._answered(request, making.state)
 
-    async def make_certificate(self, request: HttpRequest) -> Response:
-        """Begin to make the documents."""
-
-        def begun() -> dict[str, Any]:
-            self.certificates.make(self.bench.loaded().stamp)
-            return self.certificates.state()
-
-        return await self._answered(request, begun)
+    async def make(self, request: HttpRequest) -> Response:
+        """Begin to make something."""
+        name = request.path_params["name"]
+        if name not in self.commands.making:
+            return Response(status_code=404)
+        try:
+            wanted = Wanted.model_validate_json(await request.body())
+        except ValidationError:
+            return JSONResponse({"problems": [_OTHER_PAGE]}, 400)
+        return await self._answered(request, lambda: self.commands.begin(name, wanted))
 
     async def change(self, request: HttpRequest) -> Response:
         """Do what a click asks for, and answer with the job as it is then."""
         try:
             wanted = Request.model_validate_json(await request.body())
         except ValidationError:
-            return JSONResponse({"problems": ["the request is none of a page of this version"]}, 400)
+            return JSONResponse({"problems": [_OTHER_PAGE]}, 400)
 
         def changed() -> dict[str, Any]:
             change(self.bench, wanted)
@@ -228,7 +242,7 @@ def serve(workbench: Workbench, port: int, ready: Callable[[str], None], *, open
             server.run(sockets=[listener])
         finally:
             workbench.diagnoses.end()
-            workbench.certificates.end()
+            workbench.commands.end()
 
 
 def _listening(port: int) -> socket.socket:

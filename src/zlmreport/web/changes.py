@@ -29,6 +29,7 @@ from zlmreport.web.journal import REDO, UNDO, Entry, Journal, entry, redoable, u
 
 _PLACE = Place("workbench")
 _KEY = "model.effects"
+_TABLE = "compensation_table"
 #: Of a target position in mm or degrees: finer than any control is told.
 _DECIMALS = 6
 
@@ -204,13 +205,17 @@ def _include(bench: Bench, loaded: Loaded, request: Request) -> _Step:
 
 
 def _state(bench: Bench, loaded: Loaded, request: Request) -> _Step:
-    if request.value is None or not math.isfinite(request.value) or request.value <= 0:
+    key = request.parameter
+    if key == _TABLE and loaded.job.keys.axis.compensation_table is None:
+        edit = edit_axis(bench.path, loaded.job, bench.registry, key, "none")
+    elif key not in {each.key for each in asked(loaded, bench.registry.effects)}:
+        raise InputError.at(_PLACE, f"the job is not asked for {key[:60]!r}")
+    elif request.value is None or not math.isfinite(request.value) or request.value <= 0:
         raise InputError.at(_PLACE, "write the length as a number above zero, such as 10")
-    if request.parameter not in {each.key for each in asked(loaded, bench.registry.effects)}:
-        raise InputError.at(_PLACE, f"the job is not asked for {request.parameter[:60]!r}")
-    edit = edit_axis(bench.path, loaded.job, bench.registry, request.parameter, request.value)
+    else:
+        edit = edit_axis(bench.path, loaded.job, bench.registry, key, request.value)
     _tried(bench, loaded, edit)
-    return _Step(edit, f"axis.{request.parameter}")
+    return _Step(edit, f"axis.{key}")
 
 
 def _undo(bench: Bench, loaded: Loaded, _: Request) -> _Step:

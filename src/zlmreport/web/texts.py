@@ -24,6 +24,59 @@ TEXTS: Mapping[str, Words] = MappingProxyType(
         "certificate": Words(en="Certificate", de="Kalibrierschein"),
         "makeCertificate": Words(en="Make the certificate", de="Kalibrierschein erstellen"),
         "making": Words(en="The certificate is being made …", de="Der Kalibrierschein entsteht …"),
+        "formats": Words(en="Formats", de="Formate"),
+        "page": Words(en="Page {page} of {pages}", de="Seite {page} von {pages}"),
+        "pageBefore": Words(en="The page before", de="Die Seite davor"),
+        "pageAfter": Words(en="The next page", de="Die nächste Seite"),
+        "compensation": Words(en="Compensation table", de="Kompensationstabelle"),
+        "whichTable": Words(
+            en="Which table was active during this test? A new one on top of one that nobody knows corrects "
+            "twice. Name its file as axis.compensation_table in the job, or:",
+            de="Welche Tabelle war bei dieser Prüfung wirksam? Eine neue über einer unbekannten korrigiert "
+            "doppelt. Nennen Sie ihre Datei im Auftrag als axis.compensation_table, oder:",
+        ),
+        "noTable": Words(en="None was active", de="Keine war wirksam"),
+        "controller": Words(en="Control", de="Steuerung"),
+        "untried": Words(en="{controller} (never tried on it)", de="{controller} (nie an ihr erprobt)"),
+        "step": Words(en="Rows every", de="Zeilen alle"),
+        "atTargets": Words(en="at targets", de="wie Messung"),
+        "unconfirmed": Words(en="write it even if never tried", de="auch schreiben, wenn nie erprobt"),
+        "writeTable": Words(en="Write the table", de="Tabelle schreiben"),
+        "writing": Words(en="The table is being written …", de="Die Tabelle entsteht …"),
+        "withTable": Words(en="With the table", de="Mit der Tabelle"),
+        "betweenRows": Words(
+            en="Between its {rows} rows up to {largest} are left, at {at}.",
+            de="Zwischen ihren {rows} Zeilen bleiben bis zu {largest}, bei {at}.",
+        ),
+        "noMeasurement": Words(
+            en="A forecast is no measurement: the axis with its table needs a test of its own.",
+            de="Eine Vorhersage ist keine Messung: Die Achse mit ihrer Tabelle braucht eine eigene Prüfung.",
+        ),
+        "secondTest": Words(en="Second test", de="Zweite Prüfung"),
+        "hold": Words(en="Hold it against the table", de="Gegen die Tabelle halten"),
+        "holding": Words(en="The two tests are being compared …", de="Die Prüfungen werden verglichen …"),
+        "held": Words(
+            en="The second test holds the forecast: E is {share} % of what it was.",
+            de="Die zweite Prüfung hält die Vorhersage: E beträgt {share} % von vorher.",
+        ),
+        "wrongSign": Words(
+            en="The table acts with the wrong sign: turn it. E is {share} % of what it was.",
+            de="Die Tabelle wirkt mit falschem Vorzeichen: Kehren Sie es um. E beträgt {share} % von vorher.",
+        ),
+        "half": Words(
+            en="Half of the table acts; look for a factor of two. E is {share} % of what it was.",
+            de="Die Tabelle wirkt zur Hälfte; suchen Sie einen Faktor zwei. E beträgt {share} % von vorher.",
+        ),
+        "shifted": Words(
+            en="The table acts at other positions; look at its start. E is {share} % of what it was.",
+            de="Die Tabelle wirkt an anderen Positionen; prüfen Sie ihren Anfang. E beträgt {share} % von "
+            "vorher.",
+        ),
+        "otherTable": Words(
+            en="The second test does not show this table; is it active? E is {share} % of what it was.",
+            de="Die zweite Prüfung zeigt diese Tabelle nicht; ist sie wirksam? E beträgt {share} % von "
+            "vorher.",
+        ),
         "excluded": Words(en="Readings set aside", de="Beiseite gelegte Messwerte"),
         "changes": Words(en="Steps so far", de="Bisherige Schritte"),
         "noChanges": Words(en="None on this page yet.", de="Auf dieser Seite noch keine."),

@@ -15,6 +15,7 @@ from zlmreport.model.study import Study
 from zlmreport.presenting.diagnosis import CandidateRow, DiagnosisRows
 from zlmreport.web.asked import asked
 from zlmreport.web.bench import Bench, Loaded
+from zlmreport.web.commands import offered
 from zlmreport.web.journal import REDO, UNDO, Entry, Journal, redoable, undoable
 from zlmreport.web.panels import Panels, error_values, parameter_values
 
@@ -66,6 +67,7 @@ def view(bench: Bench, loaded: Loaded, language: Language) -> dict[str, Any]:
         "standards": panels.standards(),
         "moving": panels.moving(),
         "excluded": panels.excluded(),
+        "offered": offered(bench, loaded, language),
         "steps": [step(each, language) for each in reversed(entries[-_SHOWN:])],
         "asked": [
             {

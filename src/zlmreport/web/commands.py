@@ -1,0 +1,155 @@
+"""What a page can have made: the job's documents, a compensation table, a second test held against it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Any
+
+from pydantic import BaseModel, ConfigDict, Field, StringConstraints
+
+from zlmreport.errors import InputError, Place
+from zlmreport.language import Language
+from zlmreport.web.bench import Bench, Loaded
+from zlmreport.web.making import Making, compensation, documents
+
+_PLACE = Place("workbench")
+_SUFFIXES = {".yaml", ".yml"}
+#: Jobs beside this one that are offered as its second test.
+_MOST = 200
+
+ShortText = Annotated[str, StringConstraints(max_length=500)]
+
+
+class Wanted(BaseModel):
+    """What a page wants made, as it sends it.
+
+    Attributes
+    ----------
+    formats
+        Of the certificate: identifiers of renderers.
+    controller
+        Of the table and its confirmation: for which control.
+    step
+        Of the table: between its rows, mm or degrees; the targets without it.
+    unconfirmed
+        Of the table: whether a format that nobody tried on its control may be written.
+    after
+        Of the confirmation: the file of the second test's job, in the folder of this one.
+    """
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    formats: tuple[ShortText, ...] = ()
+    controller: ShortText = ""
+    step: float | None = Field(None, gt=0, allow_inf_nan=False)
+    unconfirmed: bool = False
+    after: ShortText = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Commands:
+    """The commands of a page, each in a process of its own.
+
+    Attributes
+    ----------
+    bench
+        The job.
+    making
+        What is under way or done, by its name: ``certificate``, ``table`` or ``confirmation``.
+    """
+
+    bench: Bench
+    making: Mapping[str, Making]
+
+    @classmethod
+    def of(cls, bench: Bench, plugins: Sequence[Path]) -> Commands:
+        """Return the commands of a job."""
+        readers = {"certificate": documents, "table": compensation, "confirmation": compensation}
+        return cls(bench, {name: Making(read, plugins) for name, read in readers.items()})
+
+    def begin(self, name: str, wanted: Wanted) -> dict[str, Any]:
+        """Begin to make something, and return how far it is.
+
+        Raises
+        ------
+        InputError
+            If a format, a control or a second test is none that the page offered.
+        """
+        loaded, path = self.bench.loaded(), self.bench.path
+        if name == "certificate":
+            arguments = [str(path.resolve()), *self._formats(wanted)]
+        elif name == "table":
+            folder = str(loaded.job.directory.resolve())
+            arguments = ["compensate", str(path.resolve()), *self._control(wanted), "--output", folder]
+        else:
+            _demand(wanted.after, siblings(path), "job")
+            tests = (str(each.resolve()) for each in (path, path.with_name(wanted.after)))
+            arguments = ["compensate", *tests, *self._control(wanted), "--confirm"]
+        self.making[name].begin(loaded.stamp, *arguments)
+        return self.making[name].state()
+
+    def file(self, name: str) -> Path | None:
+        """Return where a file lies that was made from the page; None for any other name."""
+        found = (each.file(name) for each in self.making.values())
+        return next((path for path in found if path is not None and path.is_file()), None)
+
+    def end(self) -> None:
+        """End all that is under way."""
+        for each in self.making.values():
+            each.end()
+
+    def _formats(self, wanted: Wanted) -> list[str]:
+        for each in wanted.formats:
+            _demand(each, [renderer.identifier for renderer in self.bench.registry.renderers], "format")
+        return ["--format", ",".join(wanted.formats)] if wanted.formats else []
+
+    def _control(self, wanted: Wanted) -> list[str]:
+        _demand(wanted.controller, [each.identifier for each in self.bench.registry.controllers], "control")
+        chosen = ["--controller", wanted.controller]
+        if wanted.step is not None:
+            chosen += ["--step", f"{wanted.step:.10g}"]
+        return [*chosen, "--unconfirmed"] if wanted.unconfirmed else chosen
+
+
+def siblings(path: Path) -> list[str]:
+    """Return the names of other jobs in the folder of one: what may be its second test."""
+    found = (each.name for each in path.resolve().parent.iterdir() if each.suffix in _SUFFIXES)
+    return sorted(name for name in found if name != path.name)[:_MOST]
+
+
+def offered(bench: Bench, loaded: Loaded, language: Language) -> dict[str, Any]:
+    """Return what a page offers to have made.
+
+    Parameters
+    ----------
+    bench, loaded
+        The job.
+    language
+        Of the page.
+    """
+    job, registry = loaded.job, bench.registry
+    chosen = set(job.keys.output.formats)
+    return {
+        "formats": [
+            {"format": each.identifier, "chosen": each.identifier in chosen} for each in registry.renderers
+        ],
+        "tableIsStated": job.keys.axis.compensation_table is not None,
+        "controllers": [
+            {
+                "controller": each.identifier,
+                "title": each.title.in_language(language),
+                "isVerified": each.confidence == "verified",
+                "chosen": job.controller is not None and job.controller.identifier == each.identifier,
+            }
+            for each in registry.controllers
+        ],
+        "unit": job.axis.position_unit.symbol,
+        "jobs": siblings(bench.path),
+    }
+
+
+def _demand(name: str, known: Sequence[str], what: str) -> None:
+    if name not in known:
+        raise InputError.at(_PLACE, f"there is no {what} {name[:60]!r}")

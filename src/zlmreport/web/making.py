@@ -1,0 +1,144 @@
+"""Makes files of the job in a process of their own, as a command on the terminal does, and hands them out."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from threading import Lock, Thread
+from typing import Any
+
+from zlmreport.web.pictures import page_count
+
+_ENDED = "zlmreport ended unexpectedly"
+
+
+@dataclass(frozen=True, slots=True)
+class Made:
+    """What a command came to.
+
+    Attributes
+    ----------
+    files
+        What it wrote.
+    problems
+        What stood against it, each with its place.
+    values
+        What else it says, as its JSON has it.
+    """
+
+    files: tuple[Path, ...] = ()
+    problems: tuple[str, ...] = ()
+    values: dict[str, Any] = field(default_factory=dict)
+
+
+def documents(output: str, complaints: str) -> Made:
+    """Return what ``zlmreport JOB.yaml --json`` came to, by what it printed."""
+    try:
+        (job,) = json.loads(output)["jobs"]
+    except (ValueError, KeyError, TypeError):
+        return Made(problems=_lines(complaints))
+    problems = (f"{each['file']}:{each['line']}: {each['message']}" for each in job["problems"])
+    return Made(tuple(map(Path, job["files"])), tuple(problems))
+
+
+def compensation(output: str, complaints: str) -> Made:
+    """Return what ``zlmreport compensate JOB.yaml --json`` came to, by what it printed."""
+    try:
+        values = json.loads(output)
+    except ValueError:
+        return Made(problems=_lines(complaints))
+    return Made(tuple(map(Path, values.get("files", ()))), (), values)
+
+
+def _lines(complaints: str) -> tuple[str, ...]:
+    return tuple(complaints.splitlines()) or (_ENDED,)
+
+
+@dataclass(slots=True)
+class Making:
+    """One command of a job, run from its page.
+
+    Attributes
+    ----------
+    read
+        Returns what the command came to, by its output and its complaints.
+    plugins
+        Files that are plugins, from the command line.
+    """
+
+    read: Callable[[str, str], Made]
+    plugins: Sequence[Path] = ()
+    _process: subprocess.Popen[str] | None = None
+    _stamp: str = ""
+    _began: float = 0.0
+    _made: Made | None = None
+    _lock: Lock = field(default_factory=Lock)
+
+    def begin(self, stamp: str, *arguments: str) -> None:
+        """Begin a command on a state of the job, unless one is under way.
+
+        Parameters
+        ----------
+        stamp
+            Names the state.
+        arguments
+            As on the terminal; ``--json`` is added.
+        """
+        with self._lock:
+            if self._process is not None:
+                return
+            self._stamp, self._began, self._made = stamp, time.monotonic(), None
+            plugins = (part for each in self.plugins for part in ("--plugin", str(each.resolve())))
+            self._process = subprocess.Popen(  # noqa: S603 - this program itself
+                [sys.executable, "-m", "zlmreport", *arguments, "--json", *plugins],
+                stdout=subprocess.PIPE,
+                stderr=subprocess.PIPE,
+                encoding="utf-8",
+                start_new_session=True,  # Ctrl-C on the terminal is for the server, which ends this one
+                env={**os.environ, "PYTHONIOENCODING": "utf-8"},
+            )
+            Thread(target=self._listen, args=(self._process,), daemon=True).start()
+
+    def state(self) -> dict[str, Any]:
+        """Return how far the command is, what it came to, and of which state of the job."""
+        with self._lock:
+            if self._process is not None:
+                return {"state": "making", "seconds": round(time.monotonic() - self._began, 1)}
+            made = self._made
+            if made is None:
+                return {"state": "none"}
+            return {
+                "state": "failed" if made.problems else "made",
+                "files": sorted(each.name for each in made.files),
+                "pages": {each.name: page_count(each) for each in made.files if each.suffix == ".pdf"},
+                "problems": list(made.problems),
+                "values": made.values,
+                "stamp": self._stamp,
+            }
+
+    def file(self, name: str) -> Path | None:
+        """Return where a file lies that the command wrote; None for any other name."""
+        with self._lock:
+            return next((each for each in (self._made or Made()).files if each.name == name), None)
+
+    def end(self) -> None:
+        """End the process, if there is one."""
+        with self._lock:
+            process, self._process = self._process, None
+        if process is not None:
+            process.kill()
+            process.wait()
+
+    def _listen(self, process: subprocess.Popen[str]) -> None:
+        output, complaints = process.communicate()
+        with self._lock:
+            if process is not self._process:
+                return
+            self._process = None
+            self._made = self.read(output, complaints)

@@ -1,0 +1,106 @@
+"""What a page can have made: nothing but what it offers, with the words of the command itself."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+from typing import Any
+
+import pytest
+from starlette.testclient import TestClient
+
+from processes import awaited
+
+_DEMANDED = "which table was active during this test"
+
+
+def made(browser: TestClient, name: str, **wanted: Any) -> dict[str, Any]:
+    answer = browser.post(f"/api/made/{name}", json=wanted)
+    assert answer.status_code == 200, answer.text
+
+    def found() -> dict[str, Any] | None:
+        state: dict[str, Any] = browser.get(f"/api/made/{name}").json()
+        return None if state["state"] == "making" else state
+
+    state = awaited(found)
+    assert state
+    return state
+
+
+@pytest.fixture
+def without_table(job: Path, browser: TestClient) -> Path:
+    """Return the job after the page has written into it that no table was active."""
+    before = browser.get("/api/job").json()
+    assert not before["offered"]["tableIsStated"]
+    wanted = {"based_on": before["digest"], "action": "state", "parameter": "compensation_table"}
+    after = browser.post("/api/change", json=wanted).json()
+    assert after["offered"]["tableIsStated"]
+    assert "screw_pitch: 10, compensation_table: none}" in job.read_text(encoding="utf-8")
+    return job
+
+
+def test_documents_are_made_in_the_chosen_formats_and_shown_page_by_page(browser: TestClient) -> None:
+    state = made(browser, "certificate", formats=["pdf", "csv"])
+    name = "EXAMPLE-2026-0007.pdf"
+    assert state["files"] == ["EXAMPLE-2026-0007.csv", name]
+    pages = state["pages"][name]
+    assert browser.get(f"/documents/{name}").content.startswith(b"%PDF")
+    for page in (1, pages):
+        assert browser.get(f"/documents/{name}/{page}.png").content.startswith(b"\x89PNG")
+    for wrong in (
+        f"{name}/0.png",
+        f"{name}/{pages + 1}.png",
+        "other.pdf/1.png",
+        "EXAMPLE-2026-0007.csv/1.png",
+    ):
+        assert browser.get(f"/documents/{wrong}").status_code == 404
+
+
+def test_a_table_is_refused_in_the_words_of_the_command_until_the_job_says_what_was_active(
+    browser: TestClient,
+) -> None:
+    state = made(browser, "table", controller="csv")
+    assert state["state"] == "failed"
+    assert _DEMANDED in state["problems"][0]
+
+
+def test_a_table_is_written_and_a_second_test_held_against_it(
+    without_table: Path, browser: TestClient
+) -> None:
+    state = made(browser, "table", controller="csv", step=30)
+    assert state["files"][0] == "EXAMPLE-2026-0007-compensation.csv"
+    forecast = state["values"]["forecast"]
+    assert forecast["after"]["E"] < forecast["before"]["E"]
+    shutil.copy(without_table, without_table.with_name("after.yaml"))
+    assert browser.get("/api/job").json()["offered"]["jobs"] == ["after.yaml"]
+    found = made(browser, "confirmation", controller="csv", after="after.yaml")
+    assert found["values"]["verdict"] == "other"  # the same readings: no table acts in them
+
+
+@pytest.mark.parametrize(
+    ("name", "wanted"),
+    [
+        ("certificate", {"formats": ["--output"]}),
+        ("table", {"controller": "--plugin"}),
+        ("table", {}),
+        ("confirmation", {"controller": "csv", "after": "../job.yaml"}),
+        ("confirmation", {"controller": "csv", "after": "job.yaml"}),
+    ],
+)
+def test_nothing_is_made_that_the_page_does_not_offer(
+    browser: TestClient, name: str, wanted: dict[str, Any]
+) -> None:
+    answer = browser.post(f"/api/made/{name}", json=wanted)
+    assert answer.status_code == 422
+    assert "there is no" in answer.json()["problems"][0]
+
+
+@pytest.mark.parametrize("wanted", [{"step": -1}, {"step": "x"}, {"path": "/etc"}, []])
+def test_what_no_page_sends_begins_nothing(browser: TestClient, wanted: Any) -> None:
+    assert browser.post("/api/made/table", json=wanted).status_code == 400
+    assert browser.get("/api/made/table").json() == {"state": "none"}
+
+
+def test_there_is_nothing_else_to_make(browser: TestClient) -> None:
+    assert browser.get("/api/made/fleet").status_code == 404
+    assert browser.post("/api/made/fleet", json={}).status_code == 404
