@@ -21,6 +21,7 @@ laboratory:
   address: Example Street 1, 12345 Exampletown
   accreditation: none (example)
 customer: {{name: Example Customer Ltd, address: "Example Lane 2, 12345 Exampletown"}}
+location: {{kind: customer}}
 machine: {{manufacturer: Example Machine Works, model: HMC 500, serial: EXAMPLE-4711}}
 axis: {{name: X, travel: [0, 1000], screw_pitch: 10}}
 measurement:

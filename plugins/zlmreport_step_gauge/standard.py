@@ -34,7 +34,7 @@ from zlmreport.plugin import (
     no_missing_readings,
     number_of_runs,
     range_in_words,
-    range_over_positions,
+    span_over_positions,
     worst_position,
 )
 from zlmreport_step_gauge import equations
@@ -125,9 +125,9 @@ def _parameters(statistics: PositionStatistics, reversal: FloatArray) -> dict[st
     twice = 2 * statistics.standard_deviation
     both = np.concatenate([forward, backward], axis=-1)
     return {
-        "W": np.where(statistics.is_bidirectional, range_over_positions(both, both), np.nan),
-        "W_fwd": range_over_positions(forward, forward),
-        "W_bwd": range_over_positions(backward, backward),
+        "W": np.where(statistics.is_bidirectional, span_over_positions(both), np.nan),
+        "W_fwd": span_over_positions(forward),
+        "W_bwd": span_over_positions(backward),
         "S2": largest_over_positions(np.fmax(twice[..., 0, :], twice[..., 1, :])),
         "S2_fwd": largest_over_positions(twice[..., 0, :]),
         "S2_bwd": largest_over_positions(twice[..., 1, :]),

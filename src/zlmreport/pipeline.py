@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 from zlmreport.certificate.attachments import Attachment, arranged, media_type, source_attachments
 from zlmreport.certificate.build import build
 from zlmreport.certificate.clauses import missing_items
+from zlmreport.certificate.information import findings
 from zlmreport.certificate.results import Evaluated
 from zlmreport.correction.corrections import corrected
 from zlmreport.correction.of_job import corrections_of, without_excluded
@@ -24,7 +25,14 @@ from zlmreport.evaluation.evaluate import evaluate
 from zlmreport.files import Document
 from zlmreport.language import Words
 from zlmreport.plugin.kinds import RENDERER
-from zlmreport.plugin.protocols import Renderer, SourceContext, Standard, carries_attachments, relationship_of
+from zlmreport.plugin.protocols import (
+    Renderer,
+    SourceContext,
+    Standard,
+    carries_attachments,
+    information_asked_by,
+    relationship_of,
+)
 from zlmreport.uncertainty.budget import Budget, NoBudget
 from zlmreport.uncertainty.completeness import refusals
 from zlmreport.uncertainty.expanded import with_uncertainty
@@ -131,7 +139,8 @@ def evaluated(job: Job, measurements: MeasurementSet, registry: Registry) -> tup
     ]
     complete: list[Evaluated] = []
     for (standard, options), evaluation in zip(chosen, with_uncertainty(bare, budget), strict=True):
-        with_verdicts = decided(evaluation, rule)
+        reported = findings(information_asked_by(standard), job, measurements, budget)
+        with_verdicts = decided(replace(evaluation, findings=(*evaluation.findings, *reported)), rule)
         figures = tuple(standard.figures(with_verdicts, options))
         complete.append(Evaluated(with_verdicts, figures, budget))
     return tuple(complete)

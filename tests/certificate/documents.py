@@ -49,6 +49,7 @@ COMPLETE: Mapping[str, Any] = {
     "laboratory": {"name": "Some Laboratory", "address": "Street 1, 12345 Town"},
     "customer": {"name": "A Customer", "address": "Lane 2, 54321 Village"},
     "machine": {"manufacturer": "Maker", "model": "M1", "serial": "S-1"},
+    "location": {"kind": "customer"},
     "axis": {"name": "Y", "travel": [-20, 20]},
     "measurement": {
         "date": "2022-04-07",

@@ -88,7 +88,8 @@ def test_both_measurements_are_evaluated_by_every_standard(adjusted):
 
 def test_a_change_is_the_value_as_left_less_the_value_as_found(adjusted):
     rows = lines(adjusted(), "as-found-as-left")
-    assert "B | Reversal error | 8.500 | 0.057 | 0.500 | 0.058 | −8.0" in rows
+    # U of the change: the sum of 0.0573 and 0.0576, both of them unrounded
+    assert "B | Reversal error | 8.500 | 0.057 | 0.500 | 0.058 | −8.00 | 0.11" in rows
 
 
 def test_both_measurements_are_held_against_the_limits(adjusted):
@@ -107,7 +108,7 @@ def test_without_limits_there_is_no_table_of_them(adjusted):
 def test_uncertainties_stand_beside_both_values_where_they_are_known(adjusted):
     document = adjusted(instrument=COMPLETE["instrument"])
     head = next(line for line in lines(document, "as-found-as-left") if line.startswith("Symbol |"))
-    assert head == "Symbol | Parameter | As found µm | U µm | As left µm | U µm | Change µm"
+    assert head == "Symbol | Parameter | As found µm | U µm | As left µm | U µm | Change µm | U µm"
 
 
 def test_the_graph_shows_the_means_before_above_those_after(adjusted):

@@ -40,7 +40,6 @@ def test_a_complete_certificate_is_accepted(tmp_path):
 
 
 def test_keys_of_the_usual_job_are_enough_for_a_certificate(tmp_path):
-    assert "location" not in COMPLETE
     assert certificate(tmp_path).title == "Calibration Certificate"
 
 

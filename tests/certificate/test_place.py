@@ -2,8 +2,9 @@
 
 import pytest
 
-from certificate.documents import COMPLETE, having, job, without
+from certificate.documents import COMPLETE, certificate, having, job, without
 from zlmreport.certificate.cover import place_of_work
+from zlmreport.errors import InputError
 from zlmreport.language import Language
 
 CUSTOMER = COMPLETE["customer"]["address"]
@@ -40,7 +41,7 @@ def test_the_page_says_whose_place_it_was_and_its_address(tmp_path, location, ki
 
 
 def test_a_machine_is_calibrated_where_it_stands_if_nothing_else_is_said(tmp_path):
-    found = place(tmp_path, having("machine.location", "Hall 3"))
+    found = place(tmp_path, having("machine.location", "Hall 3", without("location")))
     assert found.words.in_language(Language.GERMAN) == "am Aufstellort der Maschine: Hall 3"
 
 
@@ -49,17 +50,10 @@ def test_the_place_that_is_stated_goes_before_that_of_the_machine(tmp_path):
     assert place(tmp_path, keys).kind == "laboratory"
 
 
-def test_without_any_place_it_is_the_customers_and_the_page_says_that_none_was_stated(tmp_path):
-    found = place(tmp_path, COMPLETE)
-    assert found.kind == "customer"
-    assert found.words.in_language(Language.ENGLISH) == (
-        f"at the customer's: {CUSTOMER} (no other place is stated)"
-    )
+def test_no_place_is_assumed(tmp_path):
+    assert place(tmp_path, without("location")) is None
 
 
-def test_nothing_is_assumed_in_a_measuring_report(tmp_path):
-    assert place(tmp_path, having("certificate.kind", "report")) is None
-
-
-def test_there_is_no_place_where_nothing_hints_at_one(tmp_path):
-    assert place(tmp_path, without("customer.address")) is None
+def test_certificate_without_a_place_is_refused(tmp_path):
+    with pytest.raises(InputError, match=r"where the work was done .*7\.8\.2\.1 c"):
+        certificate(tmp_path, without("location"))

@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from zlmreport.evaluation.ranges import average, largest, smallest, width
+from zlmreport.evaluation.ranges import average, largest, smallest, span, width
 
 NAN = math.nan
 STACK = np.array([[1.0, NAN, -4.0], [NAN, NAN, 5.0]])
@@ -27,3 +27,10 @@ def test_without_any_value_the_result_is_undefined_and_not_zero(over_positions: 
 
 def test_width_runs_from_the_smallest_lower_to_the_largest_upper_value() -> None:
     assert width(np.array([2.0, 7.0, NAN]), np.array([-1.0, 0.0, -3.0])) == 10.0
+
+
+def test_span_is_the_range_of_several_values_and_undefined_of_one() -> None:
+    # 5 − (−4), one value alone, one among undefined ones, none
+    values = np.array([[1.0, 5.0, -4.0], [NAN, NAN, 5.0], [NAN, NAN, NAN]])
+    assert span(values)[0] == 9.0
+    assert np.isnan(span(values)[1:]).all()

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, TypeAlias, cast
@@ -31,7 +30,7 @@ from zlmreport.certificate.values import limit
 from zlmreport.evaluation.evaluation import Evaluation, Parameter
 from zlmreport.figures.prescribed import comparison_graph
 from zlmreport.language import Words
-from zlmreport.presenting.amounts import written
+from zlmreport.presenting.amounts import with_uncertainty, written
 from zlmreport.presenting.writer import NOTHING, Writer
 
 if TYPE_CHECKING:
@@ -91,6 +90,11 @@ _AFTER = Words(en="As left", de="Nachher")
 _CHANGES = Words(
     en="Parameters as found and as left; change = as left − as found, of unrounded values",
     de="Kenngrößen vorher und nachher; Änderung = nachher − vorher, aus ungerundeten Werten",
+)
+_CHANGES_WITH_U = Words(
+    en="{changes}. Its U is the sum of both U: it holds whatever errors the two measurements share",
+    de="{changes}. Ihr U ist die Summe beider U: es gilt, welche Fehler den beiden Messungen auch gemeinsam "
+    "sind",
 )
 _LIMITS = Words(en="Limits as found and as left", de="Grenzwerte vorher und nachher")
 
@@ -242,30 +246,47 @@ def changes(pairs: Sequence[Pair], writer: Writer) -> Table:
         Column(writer.say(_AFTER), unit, Align.RIGHT),
         *uncertainty,
         Column(writer.say(Words(en="Change", de="Änderung")), unit, Align.RIGHT),
+        *uncertainty,
     )
     groups = tuple(
         RowGroup(
-            tuple(_change(*each, writer, with_uncertainty=known) for each in _parameters(*pair)),
+            tuple(_change(*each, writer, known=known) for each in _parameters(*pair)),
             pair[1].designation,
         )
         for pair in pairs
     )
-    return Table(writer.say(_CHANGES), columns, groups)
+    caption = _CHANGES_WITH_U.given(changes=_CHANGES) if known else _CHANGES
+    return Table(writer.say(caption), columns, groups)
 
 
 def _change(
-    before: Parameter | None, after: Parameter | None, writer: Writer, *, with_uncertainty: bool
+    before: Parameter | None, after: Parameter | None, writer: Writer, *, known: bool
 ) -> tuple[Cell, ...]:
     quantity = _either(before, after).quantity
-    change = after.printed_value - before.printed_value if before and after else math.nan
-    parts = 2 if with_uncertainty else 1
+    parts = 2 if known else 1
     return (
         Symbol(quantity.notation),
         writer.say(quantity.name),
         *(written(before, writer) if before else (NOTHING, NOTHING))[:parts],
         *(written(after, writer) if after else (NOTHING, NOTHING))[:parts],
-        writer.deviation(change),
+        *_change_with_uncertainty(before, after, writer)[:parts],
     )
+
+
+def _change_with_uncertainty(
+    before: Parameter | None, after: Parameter | None, writer: Writer
+) -> tuple[str, str]:
+    """Write a change and its U: of errors of which nobody knows how far they are shared, their sum.
+
+    Errors that both measurements have alike leave a change where they act alike on both, and add up in one
+    where they do not, as a scale error on an axis whose slope was turned (JCGM 100, 5.2.2, note 1).
+    """
+    if before is None or after is None:
+        return NOTHING, NOTHING
+    change = after.printed_value - before.printed_value
+    if not before.expanded_uncertainty or not after.expanded_uncertainty:
+        return writer.deviation(change), NOTHING
+    return with_uncertainty(change, before.expanded_uncertainty + after.expanded_uncertainty, writer)
 
 
 def limits(pairs: Sequence[Pair], writer: Writer) -> Iterator[Table]:

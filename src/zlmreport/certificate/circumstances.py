@@ -98,6 +98,8 @@ def environment_facts(
         elif logged:
             yield Fact(name, _logged(measurements.conditions.get(key), key, writer))
     if environment is not None:
+        sensors = Words(en="Places of the sensors", de="Messstellen")
+        yield Fact(sensors, environment.sensors, (f"{within}.sensors",))
         yield Fact(Words(en="Remarks", de="Bemerkungen"), environment.remarks, (f"{within}.remarks",))
 
 
@@ -115,7 +117,7 @@ _CONDITIONS = (
         )
     ),
     (
-        Words(en="Expansion coefficient used", de="Verwendeter Koeffizient der Längenausdehnung"),
+        Words(en="Expansion coefficient of the machine", de="Koeffizient der Längenausdehnung der Maschine"),
         "expansion_coefficient",
         "µm/(m·K)",
         False,

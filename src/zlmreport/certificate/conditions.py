@@ -221,6 +221,11 @@ def _instrument(instrument: Instrument | None, writer: Writer) -> Iterator[Fact]
         with_unit(instrument.expansion_coefficient, "µm/(m·K)", writer),
         ("instrument.expansion_coefficient",),
     )
+    yield Fact(
+        Words(en="Compensation by the instrument", de="Kompensation durch das Messgerät"),
+        instrument.compensation,
+        ("instrument.compensation",),
+    )
 
 
 def _uncertainty(instrument: Instrument, writer: Writer) -> str | None:

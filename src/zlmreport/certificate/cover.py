@@ -231,19 +231,10 @@ _AT = Words(en="{kind}: {address}", de="{kind}: {address}")
 _WHERE_IT_STANDS = Words(
     en="where the machine stands: {location}", de="am Aufstellort der Maschine: {location}"
 )
-_ASSUMED = Words(
-    en="at the customer's: {address} (no other place is stated)",
-    de="beim Auftraggeber: {address} (kein anderer Ort angegeben)",
-)
 
 
 def place_of_work(keys: JobKeys) -> PlaceOfWork | None:
-    """Return where the work was done; None where the job gives no hint of it.
-
-    A machine is calibrated where it stands. A job that does not say where the work was done is therefore
-    taken to mean the machine's location, or else, on a certificate, the customer's address; the page says
-    which.
-    """
+    """Return where the work was done: the place that is stated, or where the machine is said to stand."""
     match keys.location:
         case Location(kind=kind, address=address):
             return _of_kind(kind, address or _own_address(kind, keys))
@@ -252,11 +243,6 @@ def place_of_work(keys: JobKeys) -> PlaceOfWork | None:
     if keys.machine.location:
         words = _WHERE_IT_STANDS.given(location=keys.machine.location)
         return PlaceOfWork("other", keys.machine.location, words, ("machine.location",))
-    if keys.certificate.kind == "certificate" and keys.customer and keys.customer.address:
-        address = keys.customer.address
-        return PlaceOfWork(
-            "customer", address, _ASSUMED.given(address=_in_a_line(address)), ("customer.address",)
-        )
     return None
 
 

@@ -28,6 +28,16 @@ def width(upper: FloatArray, lower: FloatArray) -> FloatArray:
     return largest(upper) - smallest(lower)
 
 
+def span(values: FloatArray) -> FloatArray:
+    """Return the full range of values over the positions: (..., position) to (...).
+
+    NaN where fewer than two positions have one: a single value has no range, which is not to say that it
+    has one of zero.
+    """
+    several = np.count_nonzero(~np.isnan(values), axis=-1) > 1
+    return np.where(several, width(values, values), np.nan)
+
+
 def average(values: FloatArray) -> FloatArray:
     """Return the mean over the positions: (..., position) to (...)."""
     present = ~np.isnan(values)

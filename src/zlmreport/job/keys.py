@@ -64,8 +64,8 @@ class JobKeys(JobPart):
     axis: AxisKeys = Field(description="The axis under test.", examples=[{"name": "X", "kind": "linear"}])
     location: Location | Lines | None = Field(
         None,
-        description="Where the work was done, in words or as a kind of place. Without it machine.location, "
-        "or else the customer's address.",
+        description="Where the work was done, in words or as a kind of place. Without it "
+        "machine.location; a certificate states one of them.",
         examples=["Hall 3, Millway 2, 12345 Sampletown"],
     )
     dates: Dates = Field(

@@ -219,6 +219,11 @@ class Instrument(JobPart):
     expansion_coefficient: Finite | None = Field(
         None, description="Of a device whose own expansion counts, micrometres/(m K).", examples=[8.0]
     )
+    compensation: Lines | None = Field(
+        None,
+        description="What the instrument itself compensated, in words.",
+        examples=["refractive index of the air; no material temperature"],
+    )
 
 
 class Environment(JobPart):
@@ -232,7 +237,12 @@ class Environment(JobPart):
     air_pressure: Positive | InWords | None = Field(None, description="hPa", examples=[1013])
     relative_humidity: Finite | InWords | None = Field(None, description="%", examples=[45])
     expansion_coefficient: Finite | InWords | None = Field(
-        None, description="Used for correction, µm/(m·K)", examples=[11.5]
+        None, description="Of the machine, µm/(m·K): for its expansion, corrected or not", examples=[11.5]
+    )
+    sensors: Lines | None = Field(
+        None,
+        description="Where the temperatures were measured.",
+        examples=["air: beside the beam; machine: on the scale, in the middle"],
     )
     remarks: Lines | None = Field(None, description="Anything else: oil shower, sunlight, vibration.")
 

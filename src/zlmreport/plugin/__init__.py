@@ -50,6 +50,7 @@ if TYPE_CHECKING:
         Table,
         Verdict,
     )
+    from zlmreport.certificate.information import Information
     from zlmreport.certificate.statements import ONLY_THIS_ITEM
     from zlmreport.compensation.curve import CompensationTable
     from zlmreport.correction.refractive_index import (
@@ -91,6 +92,7 @@ if TYPE_CHECKING:
     from zlmreport.evaluation.ranges import average as mean_over_positions
     from zlmreport.evaluation.ranges import largest as largest_over_positions
     from zlmreport.evaluation.ranges import smallest as smallest_over_positions
+    from zlmreport.evaluation.ranges import span as span_over_positions
     from zlmreport.evaluation.ranges import width as range_over_positions
     from zlmreport.evaluation.report import report_evaluation
     from zlmreport.evaluation.requirements import Basis, Finding
@@ -353,6 +355,7 @@ __all__ = [
     "Graph",
     "Happening",
     "HtmlSetting",
+    "Information",
     "InputError",
     "Instrument",
     "Job",
@@ -520,6 +523,7 @@ __all__ = [
     "script_fingerprint",
     "smallest_over_positions",
     "spacing_against_periods",
+    "span_over_positions",
     "streamed_readings",
     "style_sheet",
     "sync_folder",
@@ -571,6 +575,7 @@ _ROOMS = {
         "PageWords Paragraph RowGroup Section Symbol Table Verdict"
     ),
     "zlmreport.certificate.cover": "address_lines=lines place_of_work",
+    "zlmreport.certificate.information": "Information",
     "zlmreport.certificate.statements": "ONLY_THIS_ITEM",
     "zlmreport.correction.refractive_index": (
         "STANDARD_HUMIDITY STANDARD_PRESSURE index_change refractive_index"
@@ -594,7 +599,7 @@ _ROOMS = {
     "zlmreport.evaluation.quantity": "PositionQuantity Quantity QuantityGroup=Group",
     "zlmreport.evaluation.ranges": (
         "largest_over_positions=largest mean_over_positions=average range_over_positions=width "
-        "smallest_over_positions=smallest"
+        "smallest_over_positions=smallest span_over_positions=span"
     ),
     "zlmreport.evaluation.report": "report_evaluation",
     "zlmreport.evaluation.requirements": "Basis Finding",

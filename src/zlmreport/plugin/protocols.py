@@ -14,6 +14,7 @@ if TYPE_CHECKING:
 
     from zlmreport.certificate.attachments import Relationship
     from zlmreport.certificate.document import Certificate
+    from zlmreport.certificate.information import Information
     from zlmreport.compensation.curve import CompensationTable
     from zlmreport.emulation.emulator import Emulator, Scene
     from zlmreport.errors import Place
@@ -32,6 +33,9 @@ if TYPE_CHECKING:
 @runtime_checkable
 class Standard(Protocol):
     """One edition of a standard, complete on its own page.
+
+    One more attribute may stand beside these: ``information``, the `Information` that it wants reported of a
+    test, which is held against the job.
 
     Attributes
     ----------
@@ -73,6 +77,11 @@ class Standard(Protocol):
 
     def figures(self, evaluation: Evaluation, options: Any) -> Iterable[Figure]:
         """Return the standard's prescribed graphs."""
+
+
+def information_asked_by(standard: Standard) -> tuple[Information, ...]:
+    """Return what a standard wants reported of a test beside its results."""
+    return getattr(standard, "information", ())
 
 
 @dataclass(frozen=True, slots=True)

@@ -20,6 +20,7 @@ from zlmreport.plugin import (
     mean_over_positions,
     range_over_positions,
     smallest_over_positions,
+    span_over_positions,
 )
 
 
@@ -86,7 +87,7 @@ def parameters(
     """
     upper, lower = upper_limit(statistics, k), lower_limit(statistics, k)
     mean, mean_bidirectional = statistics.mean, statistics.mean_bidirectional
-    accuracy, systematic = range_over_positions(upper, lower), range_over_positions(mean, mean)
+    accuracy, systematic = range_over_positions(upper, lower), span_over_positions(mean)
     reversal = statistics.reversal_value
     return {
         "A": bidirectional_width(upper, lower),
@@ -95,7 +96,7 @@ def parameters(
         "E": bidirectional_width(mean, mean),
         "E_fwd": systematic[..., 0],
         "E_bwd": systematic[..., 1],
-        "M": range_over_positions(mean_bidirectional, mean_bidirectional),
+        "M": span_over_positions(mean_bidirectional),
         "R": largest_over_positions(repeatability["R"]),
         "R_fwd": largest_over_positions(repeatability["R_fwd"]),
         "R_bwd": largest_over_positions(repeatability["R_bwd"]),

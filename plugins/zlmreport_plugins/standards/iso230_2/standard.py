@@ -9,6 +9,7 @@ from zlmreport.plugin import (
     Evaluation,
     Figure,
     Finding,
+    Information,
     MeasurementSet,
     Options,
     PositionStatistics,
@@ -32,6 +33,7 @@ class Iso230Part2:
         "Genauigkeit und Wiederholgenauigkeit der Positionierung numerisch gesteuerter Achsen",
     )
     options = Options
+    information = tuple(Information)
 
     def __init__(self, edition: Edition) -> None:
         self.edition = edition

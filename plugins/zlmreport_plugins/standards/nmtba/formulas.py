@@ -21,6 +21,7 @@ from zlmreport.plugin import (
     mean_over_positions,
     range_over_positions,
     smallest_over_positions,
+    span_over_positions,
 )
 
 
@@ -69,7 +70,7 @@ def parameters(mean: FloatArray, spread: FloatArray) -> dict[str, FloatArray]:
     upper, lower = mean + spread / 2, mean - spread / 2
     return {
         "P": range_over_positions(upper, lower),
-        "Pa": range_over_positions(mean, mean),
+        "Pa": span_over_positions(mean),
         "Ps_max": largest_over_positions(spread),
         "Ps_mean": mean_over_positions(spread),
         "O": offset(upper, lower),

@@ -21,6 +21,7 @@ from zlmreport.plugin import (
     largest_over_positions,
     mean_over_positions,
     range_over_positions,
+    span_over_positions,
 )
 
 
@@ -54,7 +55,7 @@ def parameters(statistics: PositionStatistics, k: int) -> dict[str, FloatArray]:
     half = half_width(reversal, spread, statistics)
     return {
         "P": range_over_positions(mean + half, mean - half),
-        "Pa": range_over_positions(mean, mean),
+        "Pa": span_over_positions(mean),
         "Ps_max": largest_over_positions(spread),
         "Ps_mean": mean_over_positions(spread),
         "U_max": largest_over_positions(reversal),
