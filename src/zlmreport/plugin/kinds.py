@@ -47,7 +47,7 @@ class Kind(Generic[Offered_co]):
     Attributes
     ----------
     name
-        In hooks, in ``zlmreport new`` and where a distribution declares what it offers.
+        In hooks, and where a distribution declares what it offers.
     label
         In messages and listings.
     offers

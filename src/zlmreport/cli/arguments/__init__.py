@@ -39,6 +39,7 @@ _COMMANDS: Mapping[str, tuple[str, Callable[[str], CommandParser]]] = MappingPro
             "fit a job's error model, find what it lacks, add it, watch the error fall",
             documents.model,
         ),
+        "new": ("write a plugin to begin with, and its conformance test", documents.new),
         "plan": (
             "choose targets and their sequence, and say what such a test will not see",
             measuring.plan,

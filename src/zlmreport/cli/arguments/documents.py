@@ -93,6 +93,25 @@ def init(command: str) -> CommandParser:
     return parser
 
 
+def new(command: str) -> CommandParser:
+    """Return the parser of ``zlmreport new``."""
+    parser = CommandParser(
+        f"zlmreport {command}",
+        "Write the folder of a plugin that works as it is, with its conformance test: put your own in\n"
+        "its place. No file that is there already is touched.",
+        "example:\n  zlmreport new standard shop-rule && python -m pytest shop-rule",
+    )
+    parser.add_argument(
+        "kind",
+        metavar="KIND",
+        help="standard, source, renderer, effect, instrument, program (a part program) or controller",
+    )
+    parser.add_argument(
+        "name", metavar="NAME", help="of the plugin and its folder, as jobs will name it: shop-rule"
+    )
+    return parser
+
+
 def plugins(command: str) -> CommandParser:
     """Return the parser of ``zlmreport plugins``."""
     return CommandParser(
