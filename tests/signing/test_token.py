@@ -16,9 +16,8 @@ from signing.conftest import PLACE
 from signing.keys import PASSWORD, certificate_of, in_der, pkcs12_file, rsa_key
 from zlmreport.errors import AccessError, InputError
 from zlmreport.signing.pades import Pades
-from zlmreport.signing.signer import open_signer
+from zlmreport.signing.signer import TokenUri, open_signer, parse_token_uri
 from zlmreport.signing.state import Integrity, signature_state
-from zlmreport.signing.token_uri import TokenUri, parse_token_uri
 
 _MODULE = Path("/usr/lib/softhsm/libsofthsm2.so")
 _PIN = "1234"

@@ -4,19 +4,18 @@ from __future__ import annotations
 
 import math
 from argparse import Namespace
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from functools import partial
 from pathlib import Path
 from typing import Any
 
 from zlmreport import pipeline
 from zlmreport.capture.of_job import options_of
-from zlmreport.cli.plan_extension import plan_of_extension, show_plan
 from zlmreport.cli.plan_files import SIGNS, chosen_programs, plan_files, program_files
 from zlmreport.cli.plan_lines import plan_lines
-from zlmreport.cli.terminal import print_json, said, shown_path
+from zlmreport.cli.terminal import Colour, print_json, said, shown_path, wrapped
 from zlmreport.files import Document, demand_free, write
-from zlmreport.job.job import Job
+from zlmreport.job.job import ExtensionChoice, Job
 from zlmreport.job.loading import load
 from zlmreport.measurement.axis import Axis
 from zlmreport.model.effect import unit_of
@@ -24,7 +23,8 @@ from zlmreport.planning.planned_test import PlannedTest, planned_test
 from zlmreport.planning.programs import motion_of
 from zlmreport.planning.targets import in_users_unit
 from zlmreport.planning.visibility import Remedy, SeenEffect
-from zlmreport.plugins import find_plugins
+from zlmreport.plugin.extension import Extension, ExtensionPlan
+from zlmreport.plugins import Registry, find_plugins
 
 SCHEMA = "zlmreport/plan/1"
 
@@ -33,9 +33,9 @@ def run(options: Namespace) -> int:
     """Plan the test of a job; its readings need not exist."""
     registry = find_plugins(files=options.plugin)
     job = load(options.job, registry)
-    own = plan_of_extension(job, registry)
+    own = _plan_of_extension(job, registry)
     if own:
-        return show_plan(options, job, registry, own)
+        return _show_plan(options, job, registry, own)
     programs = chosen_programs(
         options.program, options.output, job.programs, registry.part_program, registry.programs_for()
     )
@@ -144,3 +144,62 @@ def _seen_effect(found: SeenEffect, remedy: Remedy | None, axis: Axis) -> dict[s
             "share": remedy.share,
         },
     }
+
+
+def _plan_of_extension(
+    job: Job, registry: Registry
+) -> tuple[Extension, ExtensionChoice, ExtensionPlan] | None:
+    """Return the plan of the first extension of a job that plans its test; None if none does."""
+    for extension, choice in registry.extensions_of(job):
+        plan = extension.plan(job, choice.options)
+        if plan:
+            return extension, choice, plan
+    return None
+
+
+def _show_plan(
+    options: Namespace,
+    job: Job,
+    registry: Registry,
+    found: tuple[Extension, ExtensionChoice, ExtensionPlan],
+) -> int:
+    """Write and print a plan."""
+    extension, choice, plan = found
+    find = partial(registry.part_program, takes=extension.takes)
+    known = registry.programs_for(extension.takes) if extension.takes else ()
+    programs = chosen_programs(options.program, options.output, choice.programs, find, known)
+    number = job.keys.certificate.number
+    documents: tuple[Document, ...] = ()
+    if options.output:
+        documents = (
+            *(
+                Document(options.output / f"{number}-{name}", text.encode())
+                for name, text in plan.files().items()
+            ),
+            *program_files(options.output, number, plan.subject, programs, find),
+        )
+    demand_free(document.path for document in documents)
+    written = write(documents)
+    if options.json:
+        print_json({**plan.values, "files": [str(path) for path in written]})
+        return 0
+    print(*_extension_lines(plan), sep="\n")
+    print()
+    if not options.output:
+        names = ", ".join(each.identifier for each in programs)
+        wait = f", part programs for {names}" if names else ""
+        print(f"{plan.files_in_words}{wait}: state a folder, --output DIR")
+    for path in written:
+        print(shown_path(path))
+    print(f"next: {plan.next_step}, then zlmreport {shown_path(options.job)}")
+    return 0
+
+
+def _extension_lines(plan: ExtensionPlan) -> Iterator[str]:
+    name, rest = plan.heading
+    yield f"{Colour.BOLD.of(name)}  {rest}"
+    for word, beside, sentences in plan.parts:
+        yield ""
+        yield f"{Colour.BOLD.of(word)}  {beside}"
+        for sentence in sentences:
+            yield from wrapped(sentence)

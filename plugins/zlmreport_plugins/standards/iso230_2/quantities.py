@@ -4,8 +4,159 @@ from __future__ import annotations
 
 from zlmreport.plugin import PositionQuantity, Quantity, QuantityGroup, Words
 from zlmreport_plugins.standards.iso230_2.editions import Edition
-from zlmreport_plugins.standards.iso230_2.meanings import MEANINGS
-from zlmreport_plugins.standards.iso230_2.names import NAMES
+
+_SINCE_1988 = {
+    "A": Words("Bidirectional accuracy of positioning", "Zweiseitige Positioniergenauigkeit"),
+    "A_fwd": Words(
+        "Unidirectional accuracy of positioning, positive direction",
+        "Einseitige Positioniergenauigkeit, positive Richtung",
+    ),
+    "A_bwd": Words(
+        "Unidirectional accuracy of positioning, negative direction",
+        "Einseitige Positioniergenauigkeit, negative Richtung",
+    ),
+    "E": Words(
+        "Bidirectional systematic positional deviation", "Zweiseitige systematische Positionsabweichung"
+    ),
+    "E_fwd": Words(
+        "Unidirectional systematic positional deviation, positive direction",
+        "Einseitige systematische Positionsabweichung, positive Richtung",
+    ),
+    "E_bwd": Words(
+        "Unidirectional systematic positional deviation, negative direction",
+        "Einseitige systematische Positionsabweichung, negative Richtung",
+    ),
+    "M": Words(
+        "Range of the mean bidirectional positional deviation",
+        "Spannweite der mittleren zweiseitigen Positionsabweichung",
+    ),
+    "R": Words("Bidirectional repeatability of positioning", "Zweiseitige Wiederholgenauigkeit"),
+    "R_fwd": Words(
+        "Unidirectional repeatability of positioning, positive direction",
+        "Einseitige Wiederholgenauigkeit, positive Richtung",
+    ),
+    "R_bwd": Words(
+        "Unidirectional repeatability of positioning, negative direction",
+        "Einseitige Wiederholgenauigkeit, negative Richtung",
+    ),
+    "B": Words("Reversal value", "Umkehrspanne"),
+    "B_mean": Words("Mean reversal value", "Mittlere Umkehrspanne"),
+}
+
+_SINCE_2006 = _SINCE_1988 | {
+    "B": Words("Reversal error", "Umkehrspanne"),
+    "B_mean": Words("Mean reversal error", "Mittlere Umkehrspanne"),
+}
+
+_SINCE_2014 = _SINCE_2006 | {
+    "A": Words(
+        "Bidirectional positioning error (accuracy)", "Zweiseitige Positionierabweichung (Genauigkeit)"
+    ),
+    "A_fwd": Words(
+        "Unidirectional positioning error (accuracy), positive direction",
+        "Einseitige Positionierabweichung (Genauigkeit), positive Richtung",
+    ),
+    "A_bwd": Words(
+        "Unidirectional positioning error (accuracy), negative direction",
+        "Einseitige Positionierabweichung (Genauigkeit), negative Richtung",
+    ),
+    "E": Words(
+        "Bidirectional systematic positioning error", "Zweiseitige systematische Positionierabweichung"
+    ),
+    "E_fwd": Words(
+        "Unidirectional systematic positioning error, positive direction",
+        "Einseitige systematische Positionierabweichung, positive Richtung",
+    ),
+    "E_bwd": Words(
+        "Unidirectional systematic positioning error, negative direction",
+        "Einseitige systematische Positionierabweichung, negative Richtung",
+    ),
+    "M": Words("Mean bidirectional positioning error", "Mittlere zweiseitige Positionierabweichung"),
+    "R": Words("Bidirectional positioning repeatability", "Zweiseitige Positionier-Wiederholgenauigkeit"),
+    "R_fwd": Words(
+        "Unidirectional positioning repeatability, positive direction",
+        "Einseitige Positionier-Wiederholgenauigkeit, positive Richtung",
+    ),
+    "R_bwd": Words(
+        "Unidirectional positioning repeatability, negative direction",
+        "Einseitige Positionier-Wiederholgenauigkeit, negative Richtung",
+    ),
+}
+
+#: The names by year of the edition, then by symbol.
+NAMES = {1988: _SINCE_1988, 1997: _SINCE_1988, 2006: _SINCE_2006, 2014: _SINCE_2014}
+
+
+_ALWAYS_POSITIVE = Words(
+    "all positions are approached in the positive direction",
+    "alle Positionen in positiver Richtung angefahren werden",
+)
+_ALWAYS_NEGATIVE = Words(
+    "all positions are approached in the negative direction",
+    "alle Positionen in negativer Richtung angefahren werden",
+)
+_ACCURACY = Words(
+    "The largest error, systematic and random together, that positioning is expected to bring into a "
+    "dimension of a part if {condition}.",
+    "Die größte Abweichung, systematisch und zufällig zusammen, die das Positionieren in einem Maß des "
+    "Werkstücks erwarten lässt, wenn {condition}.",
+)
+_SYSTEMATIC = Words(
+    "The largest error of a dimension that remains on average over many like parts if {condition}.",
+    "Die größte Abweichung eines Maßes, die im Mittel über viele gleiche Werkstücke bleibt, wenn "
+    "{condition}.",
+)
+_REPEATABILITY = Words(
+    "The largest scatter to expect of a feature's place among like parts if {condition}.",
+    "Die größte zu erwartende Streuung der Lage eines Formelements unter gleichen Werkstücken, wenn "
+    "{condition}.",
+)
+#: One sentence for each symbol.
+MEANINGS = {
+    "A": _ACCURACY.given(
+        condition=Words(
+            "positions are approached from either direction",
+            "Positionen aus beiden Richtungen angefahren werden",
+        )
+    ),
+    "A_fwd": _ACCURACY.given(condition=_ALWAYS_POSITIVE),
+    "A_bwd": _ACCURACY.given(condition=_ALWAYS_NEGATIVE),
+    "E": _SYSTEMATIC.given(
+        condition=Words(
+            "each position is approached from its less favourable direction",
+            "jede Position aus der jeweils ungünstigeren Richtung angefahren wird",
+        )
+    ),
+    "E_fwd": _SYSTEMATIC.given(condition=_ALWAYS_POSITIVE),
+    "E_bwd": _SYSTEMATIC.given(condition=_ALWAYS_NEGATIVE),
+    "M": _SYSTEMATIC.given(
+        condition=Words(
+            "each position is approached from both directions equally often",
+            "jede Position aus beiden Richtungen gleich oft angefahren wird",
+        )
+    ),
+    "R": _REPEATABILITY.given(
+        condition=Words(
+            "it is approached now from one direction, now from the other: the reversal is part of it",
+            "es bald aus der einen, bald aus der anderen Richtung angefahren wird: die Umkehrspanne "
+            "gehört dazu",
+        )
+    ),
+    "R_fwd": _REPEATABILITY.given(condition=_ALWAYS_POSITIVE),
+    "R_bwd": _REPEATABILITY.given(condition=_ALWAYS_NEGATIVE),
+    "B": Words(
+        "The largest average shift of a feature when its position is approached from the other direction.",
+        "Die größte mittlere Verschiebung eines Formelements, wenn seine Position aus der anderen Richtung "
+        "angefahren wird.",
+    ),
+    "B_mean": Words(
+        "The average over the axis of the shift of features when their positions are approached from the "
+        "other direction.",
+        "Die über die Achse gemittelte Verschiebung von Formelementen, wenn ihre Positionen aus der anderen "
+        "Richtung angefahren werden.",
+    ),
+}
+
 
 _GROUPS = {
     "A": QuantityGroup.COMPOSITE,
