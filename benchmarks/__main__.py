@@ -37,6 +37,11 @@ def main() -> None:
 
         hold(sys.argv[2:])
         return
+    if sys.argv[1:2] == ["closed-loops"]:
+        from closed_loops import main as close  # noqa: PLC0415 - as above
+
+        close(sys.argv[2:])
+        return
     if sys.argv[1:2] == ["step-gauge"]:
         from step_gauge_coverage import main as touch  # noqa: PLC0415 - as above
 

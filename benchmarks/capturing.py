@@ -53,7 +53,7 @@ def measure(sizes: Sizes) -> list[Measured]:
         *_decoding(sizes),
         *_latency(1 if is_small else 5),
         *_bad_lines(1 if is_small else 0),
-        *_wandering(2 if is_small else 250),
+        *_wandering(2 if is_small else 2600),
     ]
 
 

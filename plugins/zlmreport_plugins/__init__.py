@@ -91,6 +91,7 @@ OFFERS: Mapping[str, Mapping[str, tuple[str, ...]]] = {
             "isg",
             "mitsubishi",
             "siemens-840d",
+            "siemens-840d-cec",
         )
     },
     "controller_linuxcnc": {"controller": ("linuxcnc",)},

@@ -92,7 +92,7 @@ def test_a_stop_that_was_told_to_be_none_leaves_open_that_the_program_began_anew
 
 @pytest.mark.parametrize("method", Method)
 def test_programs_that_do_not_go_as_planned_misfile_nothing(method: Method) -> None:
-    """Skips, stalls, repeats, feed holds and new beginnings; 1,000 of them: ``./run benchmark capturing``."""
+    """Skips, stalls, repeats, feed holds and new beginnings; 10,400 of them: ``./run benchmark capture``."""
     for seed in range(12):
         done = trial(method, seed)
         assert (done.misfiled, done.lost, done.unnamed) == ([], set(), set()), seed

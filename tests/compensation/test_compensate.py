@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from pypdf import PdfReader
 
 from environments import ROOT
 from zlmreport.cli import main
@@ -53,7 +54,10 @@ def test_the_table_is_the_one_that_the_control_ran(folder: Path) -> None:
         assert code == 0
         written = np.loadtxt(folder / f"out{kind}" / "LOOP-1.comp")
         assert written == pytest.approx(np.loadtxt(DATA / loaded), abs=1.1e-6)
-        assert "worked row" in (folder / f"out{kind}" / "LOOP-1-compensation.txt").read_text("utf-8")
+        sheet = PdfReader(folder / f"out{kind}" / "LOOP-1-compensation.pdf")
+        text = " ".join(" ".join(page.extract_text() for page in sheet.pages).split())
+        assert "Worked row: at 150 mm the axis stood too far by +31.36" in text
+        assert "If it doubles, the sign is wrong" in text
 
 
 def test_json_states_the_forecast_and_writes_nothing(folder: Path, capsys: Capture) -> None:
@@ -72,6 +76,67 @@ def test_a_coarser_grid_states_what_it_leaves_between_its_rows(folder: Path, cap
     _, values = run(capsys, job(folder, "job.yaml", "without"), "--controller", "csv", "--step", "60")
     assert values["rows"] == 6
     assert values["forecast"]["between_grid_points"]["largest"] > 1
+
+
+MODELLED = """\
+schema: zlmreport/simulation/1
+seed: 3
+axis: {name: X, travel: [0, 400], screw_pitch: 10}
+targets: {count: 21}
+runs: 5
+effects:
+  - scale-error: {slope: 20}
+  - backlash: {lost_motion: 5}
+  - screw-pitch: {sine: 4}
+noise: {reading: 0.5}
+output: {job: made.yaml, number: MADE-1}
+"""
+
+
+@pytest.fixture
+def modelled(folder: Path) -> str:
+    """A job with a model whose screw turns many times between two targets."""
+    (folder / "made.sim.yaml").write_text(MODELLED, encoding="utf-8")
+    assert main(["simulate", "made.sim.yaml"]) == 0
+    text = (folder / "made.yaml").read_text(encoding="utf-8")
+    text = text.replace("axis: {", "axis: {compensation_table: none, ", 1)
+    text = text.replace("- backlash", "- backlash\n    - screw-pitch")
+    (folder / "made.yaml").write_text(text, encoding="utf-8")
+    return "made.yaml"
+
+
+def test_the_model_parts_what_is_periodic_from_the_rest(modelled: str, capsys: Capture) -> None:
+    capsys.readouterr()
+    model = ["--controller", "csv", "--from", "model"]
+    _, coarse = run(capsys, modelled, *model)
+    assert coarse["left_out"] == ["screw-pitch"]
+    assert coarse["forecast"]["left_out"] == pytest.approx(4.0, abs=0.6)
+    _, fine = run(capsys, modelled, *model, "--step", "1.25", "--periodic", "in")
+    assert fine["left_out"] == []
+    assert fine["forecast"]["between_grid_points"]["largest"] < 1
+    expected = fine["forecast"]["second_test"]["E"]
+    assert expected["low"] < expected["value"] < expected["high"] < 3
+    _, out = run(capsys, modelled, *model, "--step", "1.25", "--periodic", "out")
+    assert out["left_out"] == ["screw-pitch"]
+    _, means = run(capsys, modelled, "--controller", "csv")
+    assert means["forecast"]["between_grid_points"]["largest"] > 5  # the wave goes on between the targets
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (
+            ["--from", "model", "--periodic", "in"],
+            "zlmreport compensate: screw-pitch: a wave of 5 mm needs 4 rows",
+        ),
+        (["--periodic", "out"], "state --from model"),
+    ],
+)
+def test_a_wave_that_no_row_can_follow_is_refused(
+    modelled: str, capsys: Capture, arguments: list[str], message: str
+) -> None:
+    assert main(["compensate", modelled, "--controller", "linuxcnc", *arguments]) == 2
+    assert message in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(

@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from model.hidden_effect import example, example_history, study, written
+from zlmreport.compensation.basis import FittedModel, compensated
 from zlmreport.language import Language
-from zlmreport.model.study import BY_TABLE, corrected, moves_with_time
+from zlmreport.model.study import corrected, moves_with_time
 
 
 def test_what_is_left_is_the_residual() -> None:
@@ -36,7 +37,7 @@ def test_a_table_of_positions_leaves_what_moves_with_time(tmp_path) -> None:
     fit = warm.fitted().fit
     assert moves_with_time(fit) == ("thermal-drift",)
     whole = corrected(warm.measurements, warm.observed, fit)
-    table = corrected(warm.measurements, warm.observed, fit, BY_TABLE)
+    table = compensated(FittedModel(warm.measurements, warm.observed, fit))
     term, theta, gamma = (
         each[1] for each in (fit.model.terms, fit.solution.thetas, fit.solution.coefficients)
     )

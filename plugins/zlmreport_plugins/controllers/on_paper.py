@@ -7,7 +7,7 @@ are written with ``--unconfirmed`` only, and each says so on the sheet.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from itertools import pairwise
 from typing import Any
@@ -39,6 +39,9 @@ _ZERO_AT_THE_START = Words(
     en="The first row is zero: the constant before it was taken out.",
     de="Die erste Zeile ist null: die Konstante davor wurde herausgenommen.",
 )
+
+
+_MOST_ROWS = 256
 
 
 class _OnPaper:
@@ -144,6 +147,58 @@ class Siemens840d(_OnPaper):
         return _decoded(table, positions, values, values)
 
 
+class Siemens840dCec(_OnPaper):
+    """SINUMERIK 840D, compensation of an axis by itself (CEC): a table for each direction, +e as in EEC.
+
+    The maker documents the variables; of the sign nothing was found, and it is taken for that of EEC.
+    """
+
+    identifier = "siemens-840d-cec"
+    title = Words(en="Siemens SINUMERIK 840D (CEC)", de="Siemens SINUMERIK 840D (CEC)")
+    is_directional = True
+    is_equidistant = True
+    options: type[Options] = SiemensOptions
+    notes: tuple[Words, ...] = (
+        _NO_TRIAL,
+        Words(
+            en="The sign of these tables was not found in print; it is taken for that of EEC. MD18342 holds "
+            "the number of points; MD32710 is 0 while the tables are loaded, then 1.",
+            de="Das Vorzeichen dieser Tabellen war gedruckt nicht zu finden; angenommen ist das von EEC. "
+            "MD18342 enthält die Zahl der Punkte; MD32710 ist beim Laden 0, danach 1.",
+        ),
+    )
+
+    def files(self, table: CompensationTable, options: Any) -> Mapping[str, str]:
+        """Return the one file: table 0 acts in the positive direction, table 1 in the negative."""
+        positions, *values = _columns(table)
+        name = options.axis or f"{table.axis.name}1"
+        lines = ["%_N_NC_CEC_INI", "CHANDATA(1)"]
+        for number, (column, direction) in enumerate(zip(values, (1, -1), strict=True)):
+            lines += [f"$AN_CEC[{number},{row}]={each + 0.0:.5f}" for row, each in enumerate(column.tolist())]
+            lines += [
+                f"$AN_CEC_INPUT_AXIS[{number}]=({name})",
+                f"$AN_CEC_OUTPUT_AXIS[{number}]=({name})",
+                f"$AN_CEC_STEP[{number}]={positions[1] - positions[0]:.6f}",
+                f"$AN_CEC_MIN[{number}]={positions[0]:.6f}",
+                f"$AN_CEC_MAX[{number}]={positions[-1]:.6f}",
+                f"$AN_CEC_DIRECTION[{number}]={direction}",
+                f"$AN_CEC_MULT_BY_TABLE[{number}]=0",
+                f"$AN_CEC_IS_MODULO[{number}]=0",
+            ]
+        return {"_CEC.INI": "".join(f"{line}\n" for line in (*lines, "M17"))}
+
+    def read(self, files: Mapping[str, str], table: CompensationTable, options: Any) -> CompensationTable:  # noqa: ARG002
+        """Return both tables."""
+        text = files["_CEC.INI"]
+        columns = [
+            [float(each) for each in re.findall(rf"CEC\[{number},\d+\]={_NUMBER}", text)] for number in (0, 1)
+        ]
+        (step,) = re.findall(rf"STEP\[0\]={_NUMBER}", text)
+        (first,) = re.findall(rf"MIN\[0\]={_NUMBER}", text)
+        positions = [float(first) + float(step) * row for row in range(len(columns[0]))]
+        return _decoded(table, positions, *columns)
+
+
 class Isg(_OnPaper):
     """ISG and TwinCAT CNC (TF5200): ``kw.ssfk`` lists, +e by direction in whole 0.1 µm."""
 
@@ -185,8 +240,15 @@ class Isg(_OnPaper):
 class FanucOptions(Options):
     """The keys of ``fanuc``."""
 
-    reference: int = Field(40, ge=0, le=1023, description="Number of the first row (parameter 3620).")
+    reference: int = Field(40, ge=0, le=1023, description="Number of the first row (parameter 3621).")
     magnification: int = Field(1, ge=1, le=100, description="Parameter 3623.")
+    reverse: int | None = Field(
+        None,
+        ge=0,
+        le=1023,
+        description="Number of the first row moving back (parameter 3626), for a control that compensates "
+        "both directions (3605#0); without it one table has their mean.",
+    )
 
 
 class Fanuc(_OnPaper):
@@ -196,22 +258,64 @@ class Fanuc(_OnPaper):
     title = Words(en="Fanuc (pitch error compensation)", de="Fanuc (Steigungsfehlerkompensation)")
     is_equidistant = True
     options: type[Options] = FanucOptions
-    notes: tuple[Words, ...] = (*_OnPaper.notes, _ZERO_AT_THE_START)
+    notes: tuple[Words, ...] = (
+        _NO_TRIAL,
+        _ZERO_AT_THE_START,
+        Words(
+            en="One table has the mean of both directions, and the play is left to parameter 1851. With the "
+            "key reverse there are two, and 1851 must be 0: their parameters stand in the second file, and "
+            "the sign of 3627 is not confirmed. Power off and a reference return make them effective.",
+            de="Eine Tabelle enthält das Mittel beider Richtungen, das Spiel bleibt Parameter 1851. Mit dem "
+            "Schlüssel reverse sind es zwei, und 1851 muss 0 sein: ihre Parameter stehen in der zweiten "
+            "Datei, das Vorzeichen von 3627 ist nicht bestätigt. Wirksam nach Ausschalten und Referenzfahrt.",
+        ),
+    )
 
     def files(self, table: CompensationTable, options: Any) -> Mapping[str, str]:
-        """Return the one file: the value at a number belongs to the interval before it."""
+        """Return the file, and with both directions the parameters.
+
+        The value at a number belongs to the interval before it.
+        """
         if len(table.positions) > 128:
             raise InputError.at(table.place, "the control takes 128 points; state a longer step")
-        steps = _increments(
-            table, options.magnification * 1e-3, 7, "raise magnification (3623), or state a shorter step"
-        )
-        lines = [f"N1{options.reference + row:04d}P{step}" for row, step in enumerate(steps, start=1)]
-        return {".txt": "".join(f"{line}\n" for line in ("%", *lines, "%"))}
+        quantum, rows = options.magnification * 1e-3, len(table.positions)
+        remedy = "raise magnification (3623), or state a shorter step"
+        if options.reverse is None:
+            return {".txt": self._file({options.reference: _increments(table, quantum, 7, remedy)})}
+        if abs(options.reverse - options.reference) < rows:
+            raise InputError.at(
+                table.place,
+                f"the rows of both directions overlap: {rows} from {options.reference} and from "
+                f"{options.reverse}; state another reverse",
+            )
+        _, forward, reverse = _columns(table)
+        steps = {
+            first: _increments(replace(table, forward=column, reverse=column), quantum, 7, remedy)
+            for first, column in ((options.reference, table.forward), (options.reverse, table.reverse))
+        }
+        apart = round(-float(reverse[0] - forward[0]) / quantum)
+        parameters = ("3605#0 1", f"3626 {options.reverse}", f"3627 {apart}")
+        return {".txt": self._file(steps), "-parameters.txt": "".join(f"{each}\n" for each in parameters)}
+
+    def _file(self, steps: Mapping[int, Sequence[int]]) -> str:
+        lines = [
+            f"N1{first + row:04d}P{step}"
+            for first, column in steps.items()
+            for row, step in enumerate(column, start=1)
+        ]
+        return "".join(f"{line}\n" for line in ("%", *lines, "%"))
 
     def read(self, files: Mapping[str, str], table: CompensationTable, options: Any) -> CompensationTable:
-        """Return the sums of the increments."""
+        """Return the sums of the increments; moving back they begin with parameter 3627."""
         steps = [int(each) for each in re.findall(r"N\d+P(-?\d+)", files[".txt"])]
-        return _summed(table, steps, options.magnification * 1e-3)
+        quantum = options.magnification * 1e-3
+        if options.reverse is None:
+            return _summed(table, steps, quantum)
+        half = len(steps) // 2
+        (apart,) = re.findall(r"^3627 (-?\d+)", files["-parameters.txt"], re.MULTILINE)
+        forward, reverse = (_summed(table, part, quantum) for part in (steps[:half], steps[half:]))
+        offset = table.axis.position_unit.to_si(-int(apart) * quantum)
+        return replace(forward, reverse=read_only_floats(reverse.forward + offset))
 
 
 class Mitsubishi(_OnPaper):
@@ -235,7 +339,11 @@ class Mitsubishi(_OnPaper):
 
 
 class Heidenhain(_OnPaper):
-    """HEIDENHAIN ``.COM``: position, play and deviation forward, mm; head and sign are not confirmed."""
+    """HEIDENHAIN ``.COM`` and ``.CMA``: position, play, deviation forward, mm; which axis has which table.
+
+    The columns are documented (NR, AXISPOS, BACKLASH, the axis; NR, ACTIVE, the axis), at most 256 rows; head
+    and sign are not confirmed.
+    """
 
     identifier = "heidenhain"
     title = Words(en="HEIDENHAIN (.COM)", de="HEIDENHAIN (.COM)")
@@ -243,18 +351,31 @@ class Heidenhain(_OnPaper):
     notes: tuple[Words, ...] = (
         _NO_TRIAL,
         Words(
-            en="The .CMA file that names this table for the axis is made at the control.",
-            de="Die .CMA-Datei, die der Achse diese Tabelle zuordnet, wird an der Steuerung angelegt.",
+            en="The .CMA file names this table for the axis alone: add its line to that of the control, "
+            "which may name tables of other axes, and mark it active (*).",
+            de="Die .CMA-Datei nennt diese Tabelle nur für diese Achse: ihre Zeile in die der Steuerung "
+            "übernehmen, die Tabellen anderer Achsen nennen kann, und als aktiv kennzeichnen (*).",
         ),
     )
 
     def files(self, table: CompensationTable, options: Any) -> Mapping[str, str]:  # noqa: ARG002
-        """Return the one file."""
+        """Return the table, and the line that gives it to the axis."""
+        if len(table.positions) > _MOST_ROWS:
+            raise InputError.at(table.place, f"the control takes {_MOST_ROWS} rows; state a longer step")
         name = table.axis.name
+        assigned = [
+            "BEGIN CONFIG .CMA",
+            f"NR ACTIVE {name}",
+            f"0  *      {table.number}.COM",
+            "[END]",
+        ]
         lines = [f"BEGIN {name}_AXIS .COM", f"NR AXISPOS  BACKLASH  {name}"]
         for row, (at, up, down) in enumerate(zip(*_columns(table), strict=True)):
             lines.append(f"{row}     {at:+.4f}   {float(down - up) + 0.0:+.4f}   {float(up) + 0.0:+.4f}")
-        return {".COM": "".join(f"{line}\n" for line in (*lines, "[END]"))}
+        return {
+            ".COM": "".join(f"{line}\n" for line in (*lines, "[END]")),
+            ".CMA": "".join(f"{line}\n" for line in assigned),
+        }
 
     def read(self, files: Mapping[str, str], table: CompensationTable, options: Any) -> CompensationTable:  # noqa: ARG002
         """Return the rows."""
@@ -324,4 +445,4 @@ class Beckhoff(_OnPaper):
 @hookimpl
 def zlmreport_controllers() -> Iterable[Controller]:
     """Return all of them."""
-    return [Beckhoff(), Etalon(), Fanuc(), Heidenhain(), Isg(), Mitsubishi(), Siemens840d()]
+    return [Beckhoff(), Etalon(), Fanuc(), Heidenhain(), Isg(), Mitsubishi(), Siemens840d(), Siemens840dCec()]

@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from zlmreport.compensation.basis import FittedModel, compensated
 from zlmreport.evaluation.quantity import Group, Quantity
 from zlmreport.evaluation.statistics import position_statistics
-from zlmreport.model.study import BY_TABLE, Fitted, Study, corrected
+from zlmreport.model.study import Fitted, Study, corrected
 from zlmreport.quantities.arrays import FloatArray, read_only_floats
 
 if TYPE_CHECKING:
@@ -36,7 +37,7 @@ class Forecast:
         After each step of the model's history, m or rad; the first row is of the readings as they are.
         NaN for what the test does not define.
     by_table : (quantities,) array
-        With the whole model, if only a table of positions is applied, m or rad.
+        With a table of the model, its rows at the targets, m or rad.
     """
 
     standard: str
@@ -62,7 +63,7 @@ def forecasts(
         The model, effect by effect.
     """
     tests = [corrected(study.measurements, study.observed, each.fit) for each in history]
-    tests.append(corrected(study.measurements, study.observed, history[-1].fit, BY_TABLE))
+    tests.append(compensated(FittedModel(study.measurements, study.observed, history[-1].fit)))
     statistics = position_statistics(np.stack([test.deviations() for test in tests]))
     found = []
     for standard, options in standards:

@@ -4,15 +4,16 @@ from __future__ import annotations
 
 from argparse import Namespace
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 from zlmreport import pipeline
+from zlmreport.certificate.compensation_sheet import compensation_sheet, remarks
 from zlmreport.cli.terminal import Colour, print_json, shown_path, table, wrapped
+from zlmreport.compensation.basis import Basis, FittedModel, Periodic, basis_of_means, basis_of_model
 from zlmreport.compensation.confirmation import Confirmation, ConfirmationVerdict, confirm
-from zlmreport.compensation.curve import CompensationTable, ErrorCurve, curve_of, table_of
-from zlmreport.compensation.forecast import Forecast, forecast
+from zlmreport.compensation.curve import ErrorCurve, curve_of, rows_of
+from zlmreport.compensation.making import Made, make
 from zlmreport.errors import InputError, Place
 from zlmreport.files import Document, demand_free, write
 from zlmreport.job.choices import controller_choice
@@ -20,14 +21,17 @@ from zlmreport.job.job import Job
 from zlmreport.job.loading import load
 from zlmreport.job.tree import Entry, Keys, Scalar, keys_of
 from zlmreport.language import Language
+from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.plugin.protocols import Controller
 from zlmreport.plugins import Registry, find_plugins
+from zlmreport.presenting.writer import Writer
+from zlmreport.quantities.arrays import FloatArray
 from zlmreport.quantities.formatting import fixed_number, general_number
 
 SCHEMA = "zlmreport/compensation/1"
 CONFIRMATION_SCHEMA = "zlmreport/confirmation/1"
 _COMMAND = Place("zlmreport compensate")
-_UNCONFIRMED = "unconfirmed"
+_SHEET = "-compensation.pdf"
 _SAID = {
     ConfirmationVerdict.HELD: "the second test holds the forecast",
     ConfirmationVerdict.WRONG_SIGN: "the table acts with the wrong sign: turn it",
@@ -35,19 +39,6 @@ _SAID = {
     ConfirmationVerdict.SHIFTED: "the table acts at other positions; look at its start",
     ConfirmationVerdict.OTHER: "the second test does not show this table; is it active?",
 }
-
-
-@dataclass(frozen=True, slots=True)
-class _Made:
-    """A table, with all that it was made from and into."""
-
-    job: Job
-    controller: Controller
-    curve: ErrorCurve
-    meant: CompensationTable
-    decoded: CompensationTable
-    files: dict[str, str]
-    forecast: Forecast
 
 
 def run(options: Namespace) -> int:
@@ -59,21 +50,20 @@ def run(options: Namespace) -> int:
         return _confirm(options, registry)
     if len(options.jobs) != 1:
         raise InputError.at(_COMMAND, "one job makes a table; --confirm BEFORE.yaml AFTER.yaml takes two")
-    made = _made(load(options.jobs[0], registry), registry, options)
+    job = load(options.jobs[0], registry)
+    made, measurements = _made(job, registry, options)
     written: Sequence[Path] = ()
     if options.output:
-        sheet = "".join(f"{line}\n" for line in _sheet(made))
-        texts = {**made.files, "-compensation.txt": sheet}
-        number = made.job.keys.certificate.number
-        documents = [
-            Document(options.output / f"{number}{end}", text.encode()) for end, text in texts.items()
-        ]
+        sheet = registry.renderer("pdf").render(compensation_sheet(job, measurements, made))
+        contents = {end: text.encode() for end, text in made.files.items()} | {_SHEET: sheet}
+        number = job.keys.certificate.number
+        documents = [Document(options.output / f"{number}{end}", each) for end, each in contents.items()]
         demand_free(document.path for document in documents)
         written = write(documents)
     if options.json:
-        print_json(_values(made, written))
+        print_json(_values(job, made, written))
         return 0
-    print(*_lines(made), sep="\n")
+    print(*_lines(job, made, Writer.of(measurements, Language.ENGLISH)), sep="\n")
     print()
     for path in written:
         print(shown_path(path))
@@ -83,7 +73,7 @@ def run(options: Namespace) -> int:
     return 0
 
 
-def _made(job: Job, registry: Registry, options: Namespace) -> _Made:
+def _made(job: Job, registry: Registry, options: Namespace) -> tuple[Made, MeasurementSet]:
     place = job.place_of("axis.compensation_table")
     if job.keys.axis.compensation_table is None:
         raise InputError.at(
@@ -98,34 +88,46 @@ def _made(job: Job, registry: Registry, options: Namespace) -> _Made:
             f"the format of {controller.identifier} is {controller.confidence}, and was never tried on the "
             "control; --unconfirmed writes it all the same: try it with care, one point first",
         )
-    curve = curve_of(pipeline.read(job, registry), job.source.place)
-    number = job.keys.certificate.number
-    meant = table_of(
+    measurements = pipeline.read(job, registry)
+    curve = curve_of(measurements, job.source.place)
+    rows = rows_of(
         curve,
-        job.axis,
-        number,
         _COMMAND,
         step=job.axis.position_unit.to_si(options.step) if options.step else None,
         is_equidistant=controller.is_equidistant,
     )
-    files = dict(controller.files(meant, own))
-    decoded = controller.read(files, meant, own)
-    active = job.axis.compensation_table
-    before = active and replace(
-        meant,
-        positions=_array(active.positions),
-        forward=_array(active.values),
-        reverse=_array(active.reverse or active.values),
-    )
-    return _Made(
-        job, controller, curve, meant, decoded, files, forecast(curve, meant, decoded, before or None)
-    )
+    basis = _basis(job, curve, measurements, registry, options, rows)
+    number = job.keys.certificate.number
+    return make(basis, rows, job.axis, number, _COMMAND, controller, own), measurements
 
 
-def _array(values: Sequence[float]) -> Any:
-    import numpy as np  # noqa: PLC0415 (a parser needs none)
+def _basis(  # noqa: PLR0913, PLR0917 - of what, and how it is asked for
+    job: Job,
+    curve: ErrorCurve,
+    measurements: MeasurementSet,
+    registry: Registry,
+    options: Namespace,
+    rows: FloatArray,
+) -> Basis:
+    """Return what is known of the axis: its means, or its model where that is asked for."""
+    is_of_model = options.source == "model"
+    if options.periodic and not is_of_model:
+        raise InputError.at(
+            _COMMAND, "--periodic parts what is periodic from the rest by the model: state --from model"
+        )
+    if is_of_model and not job.effects:
+        raise InputError.at(
+            job.place_of("model.effects"), "--from model needs an error model; state model.effects"
+        )
+    fitted = None
+    if job.effects:
+        from zlmreport.model.study import Study  # noqa: PLC0415 - only for a job with a model
 
-    return np.array(values)
+        study = Study.of(job, measurements, registry.effects)
+        fitted = FittedModel(measurements, study.observed, study.fitted().fit)
+    if is_of_model and fitted:
+        return basis_of_model(curve, fitted, _COMMAND, rows, Periodic(options.periodic or Periodic.FITTING))
+    return basis_of_means(curve, measurements, fitted)
 
 
 def _controller(job: Job, registry: Registry, options: Namespace) -> tuple[Controller, Any]:
@@ -151,9 +153,9 @@ def _controller(job: Job, registry: Registry, options: Namespace) -> tuple[Contr
 
 def _confirm(options: Namespace, registry: Registry) -> int:
     before, after = (load(path, registry) for path in options.jobs)
-    made = _made(before, registry, options)
+    made, _ = _made(before, registry, options)
     found = confirm(
-        made.curve,
+        made.basis.curve,
         curve_of(pipeline.read(after, registry), after.source.place),
         made.decoded,
         after.source.place,
@@ -183,10 +185,10 @@ def _confirmation_lines(job: Job, found: Confirmation) -> Iterator[str]:
         yield from wrapped(f"shifted by {general_number(round(unit.from_si(found.shift), 3))} {unit.symbol}")
 
 
-def _values(made: _Made, written: Sequence[Path]) -> dict[str, Any]:
-    unit, position = made.job.axis.deviation_unit, made.job.axis.position_unit
+def _values(job: Job, made: Made, written: Sequence[Path]) -> dict[str, Any]:
+    unit, position = job.axis.deviation_unit, job.axis.position_unit
     factor = unit.from_si(1.0)
-    number = made.job.keys.certificate.number
+    number, forecast = job.keys.certificate.number, made.forecast
     files = [str(path) for path in written] or [f"{number}{end}" for end in made.files]
     return {
         "schema": SCHEMA,
@@ -196,64 +198,39 @@ def _values(made: _Made, written: Sequence[Path]) -> dict[str, Any]:
         "files": files,
         "rows": len(made.meant.positions),
         "unit": unit.ascii,
+        "left_out": [name for name, _ in made.basis.left_out],
         "forecast": {
-            "before": made.forecast.before.in_unit(factor),
-            "after": made.forecast.after.in_unit(factor),
+            "before": forecast.before.in_unit(factor),
+            "after": forecast.after.in_unit(factor),
+            "second_test": {name: each.in_unit(factor) for name, each in forecast.second_test.items()},
             "between_grid_points": {
-                "largest": made.forecast.between * factor,
-                "at": position.from_si(made.forecast.between_at),
+                "largest": forecast.between * factor,
+                "at": position.from_si(forecast.between_at),
             },
-            "rounding": made.forecast.rounding * factor,
+            "left_out": forecast.left_out * factor,
+            "rounding": forecast.rounding * factor,
         },
     }
 
 
-def _lines(made: _Made) -> Iterator[str]:
-    unit, position = made.job.axis.deviation_unit, made.job.axis.position_unit
-    number = made.job.keys.certificate.number
-    title = made.controller.title.in_language(Language.ENGLISH)
-    yield f"{Colour.BOLD.of(number)}  axis {made.job.axis.name}: {title}, {made.controller.confidence}"
+def _lines(job: Job, made: Made, writer: Writer) -> Iterator[str]:
+    unit, number = job.axis.deviation_unit, job.keys.certificate.number
+    title = writer.say(made.controller.title)
+    yield f"{Colour.BOLD.of(number)}  axis {job.axis.name}: {title}, {made.controller.confidence}"
     yield ""
-    before, after = (each.in_unit(unit.from_si(1.0)) for each in (made.forecast.before, made.forecast.after))
-    rows = [
-        (symbol, fixed_number(before[symbol], 2), fixed_number(after[symbol], 2), unit.symbol)
-        for symbol in before
-    ]
-    yield from table([("", "before", "after", ""), *rows], indent="  ")
+    factor = unit.from_si(1.0)
+    before, after = (each.in_unit(factor) for each in (made.forecast.before, made.forecast.after))
+    rows = []
+    for symbol, value in before.items():
+        expected = made.forecast.second_test.get(symbol)
+        second = (
+            "–"
+            if expected is None
+            else " to ".join(fixed_number(each * factor, 2) for each in (expected.low, expected.high))
+        )
+        rows.append((symbol, fixed_number(value, 2), fixed_number(after[symbol], 2), second, unit.symbol))
+    yield from table([("", "before", "after", "a second test, 95 %", ""), *rows], indent="  ")
     yield ""
-    between, at = unit.from_si(made.forecast.between), position.from_si(made.forecast.between_at)
-    rounding = unit.from_si(made.forecast.rounding)
-    yield from wrapped(
-        f"between its {len(made.meant.positions)} rows up to {fixed_number(between, 2)} {unit.symbol} "
-        "are left, "
-        f"at {general_number(round(at, 3))} {position.symbol}; rounding takes {fixed_number(rounding, 3)} "
-        f"{unit.symbol}"
-    )
-    yield from wrapped("a forecast is no measurement: the axis with its table needs a test of its own")
-
-
-def _sheet(made: _Made) -> Iterator[str]:
-    """Yield what who loads the table must have in hand: signs, one worked row, steps, and the check."""
-    job, unit, position = made.job, made.job.axis.deviation_unit, made.job.axis.position_unit
-    machine, active = job.keys.machine, job.keys.axis.compensation_table
-    yield from (line.replace("\x1b[1m", "").replace("\x1b[0m", "") for line in _lines(made))
-    yield ""
-    yield f"machine: {machine.model or '–'}, serial {machine.serial or '–'}; axis {job.axis.name}"
-    yield f"measured: {job.keys.measurement.date or '–'}"
-    yield f"active during the test: {active.name if isinstance(active, Path) else 'no table'}"
-    middle = len(made.meant.positions) // 2
-    at, up, down = (
-        float(each[middle]) for each in (made.meant.positions, made.meant.forward, made.meant.reverse)
-    )
-    yield (
-        f"worked row: at {position.from_si(at):.6g} {position.symbol} the axis stood {unit.from_si(up):+.3f} "
-        f"{unit.symbol} too far moving forward, {unit.from_si(down):+.3f} {unit.symbol} moving back "
-        "(actual − target)"
-    )
-    for note in made.controller.notes:
-        yield note.in_language(Language.ENGLISH)
-    yield (
-        "check: load the table and measure this point again; the deviation must vanish. If it doubles, the "
-        "sign is wrong: take the table out. A backlash parameter of the control must not correct the same "
-        "play again."
-    )
+    for remark in remarks(made, writer):
+        yield from wrapped(writer.say(remark))
+    yield from wrapped("A forecast is no measurement: the axis with its table needs a test of its own.")

@@ -102,23 +102,17 @@ def curve_of(measurements: MeasurementSet, place: Place) -> ErrorCurve:
     )
 
 
-def table_of(  # noqa: PLR0913 - what, of which axis, on which grid, for whom
-    curve: ErrorCurve,
-    axis: Axis,
-    number: str,
-    place: Place,
-    *,
-    step: float | None = None,
-    is_equidistant: bool = False,
-) -> CompensationTable:
-    """Return the table of a curve, with that of a table that was active during the test added.
+def rows_of(
+    curve: ErrorCurve, place: Place, *, step: float | None = None, is_equidistant: bool = False
+) -> FloatArray:
+    """Return where a table has its rows, m or rad, shape (g,).
 
     Parameters
     ----------
     curve
-        The deviations that are left.
-    axis, number, place
-        As of `CompensationTable`; the axis has the table that was active.
+        The deviations.
+    place
+        Where the table is asked for.
     step
         Distance of the rows, m or rad; None for rows at the targets.
     is_equidistant
@@ -130,17 +124,33 @@ def table_of(  # noqa: PLR0913 - what, of which axis, on which grid, for whom
         If the step does not divide the measured length into at least one interval.
     """
     first, last = float(curve.positions[0]), float(curve.positions[-1])
-    grid: FloatArray = curve.positions
     if step is not None:
         intervals = (last - first) / step
         if intervals < 1:
             raise InputError.at(place, "the step is longer than the measured length; state a shorter one")
-        grid = np.asarray(first + step * np.arange(int(intervals + 1e-9) + 1), dtype=np.float64)
-    elif is_equidistant:
-        grid = np.asarray(np.linspace(first, last, len(curve.positions)), dtype=np.float64)
+        return read_only_floats(first + step * np.arange(int(intervals + 1e-9) + 1))
+    if is_equidistant:
+        return read_only_floats(np.linspace(first, last, len(curve.positions)))
+    return curve.positions
+
+
+def table_of(
+    deviations: FloatArray, rows: FloatArray, axis: Axis, number: str, place: Place
+) -> CompensationTable:
+    """Return the table of deviations, with that of a table that was active during the test added.
+
+    Parameters
+    ----------
+    deviations : (2, g) array
+        What is left at the rows, forward and reverse, m or rad.
+    rows : (g,) array
+        m or rad.
+    axis, number, place
+        As of `CompensationTable`; the axis has the table that was active.
+    """
     old = axis.compensation_table
     forward, reverse = (
-        read_only_floats(np.interp(grid, curve.positions, each) + (old.at(grid, direction) if old else 0.0))
-        for each, direction in ((curve.forward, 1.0), (curve.reverse, -1.0))
+        read_only_floats(each + (old.at(rows, direction) if old else 0.0))
+        for each, direction in zip(deviations, (1.0, -1.0), strict=True)
     )
-    return CompensationTable(axis, number, read_only_floats(grid), forward, reverse, place)
+    return CompensationTable(axis, number, read_only_floats(rows), forward, reverse, place)

@@ -109,14 +109,21 @@ def _extremes(
 
 def _scale(term: Term, theta: FloatArray) -> float:
     """Return the shortest length over which an effect repeats or fades, m or rad; infinite if over none."""
-    scales = [np.inf]
+    named = zip(term.effect.searched, theta.tolist(), strict=True)
+    fading = [abs(value) for parameter, value in named if parameter.name == "relaxation_length"]
+    return min([shortest_wave(term, theta), *fading]) or np.inf
+
+
+def shortest_wave(term: Term, theta: FloatArray) -> float:
+    """Return the length of the shortest wave of a periodic effect, m or rad; infinite if it has none."""
+    periods = [np.inf]
     orders = [int(each.name.partition("_")[2] or 1) for each in term.effect.linear if "sine" in each.name]
     for parameter, value in zip(term.effect.searched, theta.tolist(), strict=True):
-        if parameter.dimension is Dimension.POSITION and parameter.name in {"period", "relaxation_length"}:
-            scales.append(abs(value))
+        if parameter.dimension is Dimension.POSITION and parameter.name == "period":
+            periods.append(abs(value))
         elif parameter.name == "teeth" and value:
-            scales.append(2 * np.pi / abs(value))
-    return float(min(scales)) / max(orders, default=1) or np.inf
+            periods.append(2 * np.pi / abs(value))
+    return float(min(periods)) / max(orders, default=1) or np.inf
 
 
 def _joints(term: Term, theta: FloatArray, design: Design) -> list[float]:

@@ -134,9 +134,12 @@ class Fit:
         """√(RSS/(N − q)), unweighted, m or rad."""
         return float(np.sqrt(np.sum(self.residual**2) / self.degrees))
 
-    def base(self) -> FloatArray:
-        """Return what the model can imitate near its estimate: its columns and tangents, shape (N, p)."""
-        return _jacobian(self.model, self.design, self.solution, self.places)
+    def base(self, design: Design | None = None) -> FloatArray:
+        """Return what the model can imitate near its estimate: its columns and tangents, shape (N, p).
+
+        On the readings that it was fitted to, or on those of another design.
+        """
+        return _jacobian(self.model, design or self.design, self.solution, self.places)
 
     def value_at(self, design: Design) -> FloatArray:
         """Return the deviation that the model gives for other readings, m or rad, shape (M,)."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -205,12 +205,7 @@ def _meaning(choice: EffectChoice) -> tuple[object, ...]:
     return choice.identifier, choice.settings, dict(choice.values)
 
 
-def corrected(
-    measurements: MeasurementSet,
-    observed: Observations,
-    fitted: Fit,
-    shapes: Collection[Shape] = frozenset(Shape),
-) -> MeasurementSet:
+def corrected(measurements: MeasurementSet, observed: Observations, fitted: Fit) -> MeasurementSet:
     """Return the readings less what a model explains of them; none is left out, flagged ones neither.
 
     Parameters
@@ -221,16 +216,13 @@ def corrected(
         The same as the model sees them, none set aside.
     fitted
         The model.
-    shapes
-        Only effects that change along these are taken away.
     """
     left = measurements.deviation.copy()
     taken = []
     solution = fitted.solution
     for term, theta, gamma in zip(fitted.model.terms, solution.thetas, solution.coefficients, strict=True):
-        if term.effect.shape in shapes:
-            left[observed.reading] -= term.effect.columns(observed.design, theta) @ gamma
-            taken.append(term.effect.identifier)
+        left[observed.reading] -= term.effect.columns(observed.design, theta) @ gamma
+        taken.append(term.effect.identifier)
     if not taken:
         return measurements
     provenance = measurements.provenance

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from zlmreport.compensation.basis import waves_too_fine
 from zlmreport.language import Language, Words
 from zlmreport.measurement.axis import Axis
 from zlmreport.model import wording
@@ -34,6 +35,13 @@ _MOVES = Words(
     "compensates it while the axis moves, or if its cause is removed.",
     de="{effects}: nicht an die Position gebunden. Eine Positionstabelle lässt das stehen; es verschwindet "
     "nur, wenn die Steuerung es während der Bewegung kompensiert oder die Ursache beseitigt wird.",
+)
+
+_TOO_FINE = Words(
+    en="{effects}: a wave too short for a table with rows at the targets, which leaves it; rows four to a "
+    "period carry it (zlmreport compensate --from model --step).",
+    de="{effects}: eine Welle, zu kurz für eine Tabelle mit Zeilen an den Zielpositionen, die sie stehen "
+    "lässt; vier Zeilen je Periode tragen sie (zlmreport compensate --from model --step).",
 )
 
 
@@ -180,9 +188,10 @@ def deviation(value: float | None, axis: Axis, language: Language) -> str:
 
 
 def no_table_takes_away(fit: Fit, language: Language) -> str:
-    """Return the sentence on effects that no table of positions takes away; empty if there are none."""
-    moving = moves_with_time(fit)
-    return _MOVES.given(effects=", ".join(moving)).in_language(language) if moving else ""
+    """Return the sentences on effects that no table of positions takes away; empty if there are none."""
+    named = ((_MOVES, moves_with_time(fit)), (_TOO_FINE, waves_too_fine(fit, fit.design.target_positions)))
+    said = (words.given(effects=", ".join(effects)) for words, effects in named if effects)
+    return " ".join(words.in_language(language) for words in said)
 
 
 def _wave(wave: Wave, axis: Axis, language: Language) -> WaveRows:

@@ -10,12 +10,12 @@ import numpy as np
 
 from zlmreport import pipeline
 from zlmreport.certificate.conformity import STATEMENTS
+from zlmreport.compensation.basis import FittedModel, compensated
 from zlmreport.evaluation.evaluation import Parameter
 from zlmreport.evaluation.statistics import position_statistics
 from zlmreport.language import Language, Words
 from zlmreport.model.design import Design
-from zlmreport.model.effect import Shape
-from zlmreport.model.study import BY_TABLE, Fitted, corrected
+from zlmreport.model.study import Fitted, corrected
 from zlmreport.plugins import Registry
 from zlmreport.presenting.amounts import written
 from zlmreport.presenting.model import (
@@ -121,8 +121,8 @@ class Panels:
         """Return the parameters of each standard: now, by a table of positions, and by the whole model."""
         study, whole = self.loaded.study, self.history[-1].fit
         tests = [
-            corrected(study.measurements, study.observed, whole, shapes)
-            for shapes in (BY_TABLE, frozenset(Shape))
+            compensated(FittedModel(study.measurements, study.observed, whole)),
+            corrected(study.measurements, study.observed, whole),
         ]
         statistics = position_statistics(np.stack([test.deviations() for test in tests]))
         found = []

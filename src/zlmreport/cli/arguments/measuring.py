@@ -53,12 +53,13 @@ def compensate(command: str) -> CommandParser:
     """Return the parser of ``zlmreport compensate``."""
     parser = CommandParser(
         f"zlmreport {command}",
-        "Write a compensation table for a control from the mean deviations of a job's test, with a sheet\n"
-        "for who loads it, and say what that very table will leave. The job must say which table was active\n"
+        "Write a compensation table for a control from a job's test, with a sheet (PDF) for who loads it,\n"
+        "and say what that very table will leave. The job must say which table was active\n"
         "during the test: axis.compensation_table, a file or none. After the table has been loaded and the\n"
         "axis measured again, --confirm holds the second test against the first.",
         "examples:\n"
         "  zlmreport compensate x-axis.yaml --controller linuxcnc --set type=1 --output table\n"
+        "  zlmreport compensate x-axis.yaml --controller linuxcnc --from model --step 5 -o table\n"
         "  zlmreport compensate --confirm x-axis.yaml x-axis-after.yaml\n\n"
         "exit codes: 0 done; 1 the second test does not hold the forecast; 2 a job, its data or the command\n"
         "line is wrong; 3 a file could not be read or written",
@@ -82,6 +83,20 @@ def compensate(command: str) -> CommandParser:
         metavar="S",
         type=position,
         help="distance of the rows, mm or degrees; without it rows at the targets",
+    )
+    parser.add_argument(
+        "--from",
+        dest="source",
+        choices=("means", "model"),
+        default="means",
+        help="make the table from the mean deviations (as without it), or from the job's fitted model and "
+        "what the means show beyond it: as smooth as the readings are uncertain",
+    )
+    parser.add_argument(
+        "--periodic",
+        choices=("in", "out"),
+        help="with --from model: periodic effects go into the table, or stay out; without it those go in "
+        "that have four rows in each period",
     )
     parser.add_argument("-o", "--output", metavar="DIR", type=Path, help="folder of the table and its sheet")
     parser.add_argument(

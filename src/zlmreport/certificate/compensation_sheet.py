@@ -1,0 +1,300 @@
+"""The sheet beside a compensation table: for who loads it at the control."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from zlmreport.certificate import conditions
+from zlmreport.certificate.build import GENERATOR
+from zlmreport.certificate.document import (
+    Align,
+    Block,
+    Certificate,
+    Column,
+    Facts,
+    Graph,
+    Notice,
+    PageWords,
+    Paragraph,
+    RowGroup,
+    Section,
+    Symbol,
+    Table,
+)
+from zlmreport.figures.figure import Curve, Figure, Panel, Role
+from zlmreport.figures.prescribed import DEVIATION_TITLE, POSITION_TITLE
+from zlmreport.language import Words
+from zlmreport.presenting.writer import NOTHING, Writer
+from zlmreport.quantities.arrays import FloatArray, read_only_floats
+from zlmreport.quantities.formatting import fixed_number
+
+if TYPE_CHECKING:
+    from zlmreport.compensation.making import Made
+    from zlmreport.job.job import Job
+    from zlmreport.measurement.measurement_set import MeasurementSet
+
+_TITLE = Words(en="Compensation table", de="Kompensationstabelle")
+_SUBTITLE = Words(en="Axis {axis}, for {control}", de="Achse {axis}, für {control}")
+_CONFIDENCE = {
+    "verified": Words(en="tried on the control", de="an der Steuerung erprobt"),
+    "documented": Words(
+        en="documented by the maker, not tried on the control",
+        de="vom Hersteller dokumentiert, nicht an der Steuerung erprobt",
+    ),
+    "unconfirmed": Words(
+        en="not confirmed: sign or format may be another",
+        de="nicht bestätigt: Vorzeichen oder Format können andere sein",
+    ),
+}
+_CHECK = Words(
+    en="Load the table, reference the axis, and measure this row again: its deviation must vanish. If it "
+    "doubles, the sign is wrong: take the table out. A backlash parameter of the control must not correct "
+    "the same play a second time.",
+    de="Tabelle laden, Achse referenzieren und diese Zeile erneut messen: ihre Abweichung muss verschwinden. "
+    "Verdoppelt sie sich, ist das Vorzeichen falsch: Tabelle herausnehmen. Ein Loseparameter der Steuerung "
+    "darf dasselbe Spiel nicht ein zweites Mal korrigieren.",
+)
+_NO_MEASUREMENT = Words(
+    en="A forecast is no measurement: the axis with its table needs a test of its own "
+    "(zlmreport compensate --confirm).",
+    de="Eine Vorhersage ist keine Messung: die Achse mit ihrer Tabelle braucht eine eigene Prüfung "
+    "(zlmreport compensate --confirm).",
+)
+_ALTERNATIVE = Words(
+    en="The mean deviations with the table, from {low} to {high}; and what the table leaves of them, from "
+    "{least} to {most}.",
+    de="Die mittleren Abweichungen mit der Tabelle, von {low} bis {high}; und was die Tabelle davon "
+    "übrig lässt, von {least} bis {most}.",
+)
+_FIGURES = {
+    "E": Words(en="Systematic deviation", de="Systematische Abweichung"),
+    "M": Words(en="Mean bidirectional deviation", de="Mittlere Abweichung beider Richtungen"),
+    "B": Words(en="Reversal value", de="Umkehrspanne"),
+    "A": Words(en="Accuracy", de="Positioniergenauigkeit"),
+}
+
+
+def compensation_sheet(job: Job, measurements: MeasurementSet, made: Made) -> Certificate:
+    """Return the document: what the table is for, what it leaves, how to load it, how to check it."""
+    keys = job.keys.certificate
+    writer = Writer.of(measurements, keys.language)
+    say = writer.say
+    title, control = say(_TITLE), say(made.controller.title)
+    return Certificate(
+        number=keys.number,
+        title=title,
+        subtitle=say(_SUBTITLE.given(axis=job.axis.name, control=control)),
+        language=keys.language,
+        issued=keys.issued,
+        paper=keys.paper,
+        letterhead=None,
+        cover=(
+            Facts(tuple(_facts(job, made, writer))),
+            _forecast(made, writer),
+            *_remarks(made, writer),
+            Graph(_figure(made, writer)),
+        ),
+        sections=(
+            Section(
+                "loading",
+                say(Words(en="Loading and checking", de="Laden und prüfen")),
+                _loading(made, writer),
+            ),
+            conditions.section(job, measurements, (), writer),
+        ),
+        page_words=PageWords(
+            number=f"{title} {keys.number}",
+            page=say(Words(en="page", de="Seite")),
+            of=say(Words(en="of", de="von")),
+            end=say(Words(en="End of document", de="Ende des Dokuments")),
+            figure=say(Words(en="Figure", de="Bild")),
+            table=say(Words(en="Table", de="Tabelle")),
+        ),
+        description=f"{title}, {control}",
+        measurements=measurements,
+        evaluations=(),
+        generator=GENERATOR,
+        is_compact=True,
+    )
+
+
+def _facts(job: Job, made: Made, writer: Writer) -> Iterator[tuple[str, str]]:
+    say, active = writer.say, job.keys.axis.compensation_table
+    none = Words(en="no table", de="keine Tabelle")
+    names = ", ".join(f"{job.keys.certificate.number}{end}" for end in made.files)
+    yield say(Words(en="Files", de="Dateien")), names
+    yield say(Words(en="Format", de="Format")), say(_CONFIDENCE[made.controller.confidence])
+    yield say(Words(en="Rows", de="Zeilen")), str(len(made.decoded.positions))
+    yield (
+        say(Words(en="Active during the test", de="Bei der Prüfung wirksam")),
+        active.name if isinstance(active, Path) else say(none),
+    )
+
+
+def _forecast(made: Made, writer: Writer) -> Table:
+    """Return E, M, B and A before, after, and in a second test."""
+    say, unit = writer.say, writer.deviation_unit
+    factor = unit.from_si(1.0)
+    before, after = (each.in_unit(factor) for each in (made.forecast.before, made.forecast.after))
+    rows = []
+    for symbol, value in before.items():
+        expected = made.forecast.second_test.get(symbol)
+        second = NOTHING
+        if expected is not None:
+            low, high = (_number(each * factor, writer) for each in (expected.low, expected.high))
+            second = f"{low} … {high}"
+        rows.append(
+            (
+                Symbol(symbol),
+                say(_FIGURES[symbol]),
+                _number(value, writer),
+                _number(after[symbol], writer),
+                second,
+            )
+        )
+    columns = (
+        Column(say(Words(en="Symbol", de="Zeichen"))),
+        Column(say(Words(en="Parameter", de="Kenngröße"))),
+        Column(say(Words(en="Before", de="Vorher")), unit.symbol, Align.RIGHT),
+        Column(say(Words(en="With the table", de="Mit Tabelle")), unit.symbol, Align.RIGHT),
+        Column(say(Words(en="A second test, 95 %", de="Zweite Prüfung, 95 %")), unit.symbol, Align.RIGHT),
+    )
+    caption = Words(
+        en="Forecast from the files as the control reads them",
+        de="Vorhersage aus den Dateien, wie die Steuerung sie liest",
+    )
+    return Table(say(caption), columns, (RowGroup(tuple(rows)),))
+
+
+def _remarks(made: Made, writer: Writer) -> Iterator[Block]:
+    yield from (Paragraph(writer.say(each)) for each in remarks(made, writer))
+    yield Paragraph(writer.say(_NO_MEASUREMENT))
+
+
+def remarks(made: Made, writer: Writer) -> Iterator[Words]:
+    """Yield what is to be known of a table: between its rows, left out, constants, play that is left."""
+    forecast, unit = made.forecast, writer.deviation_unit
+
+    def amount(value: float) -> str:
+        return f"{_number(unit.from_si(value), writer)} {unit.symbol}"
+
+    yield Words(
+        en="Anywhere between the {rows} rows up to {between} are left, most at {at}; rounding takes "
+        "{rounding}.",
+        de="Zwischen den {rows} Zeilen bleiben bis zu {between}, am meisten bei {at}; Runden nimmt "
+        "{rounding}.",
+    ).given(
+        rows=len(made.decoded.positions),
+        between=amount(forecast.between),
+        at=writer.length(round(forecast.between_at, 6)),
+        rounding=amount(forecast.rounding),
+    )
+    if made.basis.left_out:
+        names = ", ".join(f"{name} ({writer.length(wave)})" for name, wave in made.basis.left_out)
+        yield Words(
+            en="Left out, for no row carries it: {names}. It stays, with up to {error}.",
+            de="Weggelassen, weil keine Zeile es trägt: {names}. Es bleibt, mit bis zu {error}.",
+        ).given(names=names, error=amount(forecast.left_out))
+    if abs(forecast.constant) > forecast.rounding:
+        yield Words(
+            en="The control's table begins at zero: a constant of {constant} was taken out.",
+            de="Die Tabelle der Steuerung beginnt bei null: eine Konstante von {constant} wurde entfernt.",
+        ).given(constant=amount(-forecast.constant))
+    if forecast.play:
+        yield Words(
+            en="The table has one column: the mean lost motion, {play} (forward − reverse), is left to the "
+            "control's backlash parameter.",
+            de="Die Tabelle hat eine Spalte: die mittlere Umkehrspanne, {play} (vorwärts − rückwärts), "
+            "bleibt dem Loseparameter der Steuerung.",
+        ).given(play=amount(forecast.play))
+
+
+def _loading(made: Made, writer: Writer) -> tuple[Block, ...]:
+    say, unit = writer.say, writer.deviation_unit
+    middle = len(made.meant.positions) // 2
+    at = made.meant.positions[middle : middle + 1]
+
+    def both(values: FloatArray) -> str:
+        up, down = (_signed(unit.from_si(float(each[0])), writer) for each in values)
+        return f"{up} ↑, {down} ↓ {unit.symbol}"
+
+    worked = Words(
+        en="Worked row: at {at} the axis stood too far by {stood} (actual − target, ↑ moving forward, "
+        "↓ moving back); the table takes away {taken}.",
+        de="Beispielzeile: bei {at} stand die Achse zu weit um {stood} (Ist − Soll, ↑ vorwärts, "
+        "↓ rückwärts); die Tabelle nimmt {taken} weg.",
+    ).given(at=writer.length(float(at[0])), stood=both(made.meant.at(at)), taken=both(made.decoded.at(at)))
+    return (
+        Paragraph(say(worked)),
+        Notice(
+            say(Words(en="For who loads it", de="Für den, der sie lädt")),
+            (*map(say, made.controller.notes), say(_CHECK)),
+        ),
+    )
+
+
+def _figure(made: Made, writer: Writer) -> Figure:
+    """Return the picture: means and table above, what is left below."""
+    curve, printed = made.basis.curve, writer.deviation_unit.from_si
+    targets = read_only_floats(writer.position_unit.from_si(curve.positions))
+    rows = read_only_floats(writer.position_unit.from_si(made.decoded.positions))
+    means = np.stack([curve.forward, curve.reverse])
+    table = np.stack([made.decoded.forward, made.decoded.reverse])
+    if made.active is not None:
+        table = table - made.active.at(made.decoded.positions)
+    count = 2 if curve.is_bidirectional else 1
+
+    def curves(
+        x: FloatArray, values: FloatArray, names: tuple[str, str], roles: tuple[Role, Role]
+    ) -> tuple[Curve, ...]:
+        return tuple(
+            Curve(name, role, x, read_only_floats(printed(each)))
+            for name, role, each in list(zip(names, roles, values, strict=True))[:count]
+        )
+
+    measured = (Role.MEAN_POSITIVE, Role.MEAN_NEGATIVE)
+    before = (
+        *curves(targets, means, ("x̄↑", "x̄↓"), measured),
+        *curves(rows, table, ("C↑", "C↓"), (Role.MODEL_POSITIVE, Role.MODEL_NEGATIVE)),
+    )
+    left = curves(targets, made.forecast.left, ("x̄↑", "x̄↓"), measured)
+    unit = writer.deviation_unit.symbol
+    words = {
+        name: f"{_number(float(printed(value)), writer)} {unit}"
+        for name, value in (
+            ("low", means.min()),
+            ("high", means.max()),
+            ("least", made.forecast.left.min()),
+            ("most", made.forecast.left.max()),
+        )
+    }
+    return Figure(
+        key="compensation",
+        title=Words(
+            en="The mean deviations with the table C, and what it leaves",
+            de="Die mittleren Abweichungen mit der Tabelle C, und was sie übrig lässt",
+        ),
+        alternative=_ALTERNATIVE.given(**words),
+        x_title=POSITION_TITLE,
+        y_title=DEVIATION_TITLE,
+        x_unit=writer.position_unit.symbol,
+        y_unit=unit,
+        panels=(
+            Panel(Words(en="Before, and the table", de="Vorher, und die Tabelle"), curves=before),
+            Panel(Words(en="With the table", de="Mit Tabelle"), curves=left),
+        ),
+        spans_are_alike=False,
+    )
+
+
+def _number(value: float, writer: Writer) -> str:
+    return fixed_number(value, 2, writer.language.decimal_sign)
+
+
+def _signed(value: float, writer: Writer) -> str:
+    text = fixed_number(value, 3, writer.language.decimal_sign)
+    return text if value < 0 else f"+{text}"
