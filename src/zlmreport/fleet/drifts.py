@@ -1,4 +1,6 @@
-"""Who drifts: the tests of a whole fleet together, so that many tests do not make many false alarms.
+"""Steps and drifts, told apart, and tested over a whole fleet so that many tests make few false alarms.
+
+Steps come first (`zlmreport.fleet.steps`), and a drift is looked for in what follows the last of them.
 
 The parameters of one axis come from the same readings and hang together in ways that nobody knows: within
 an axis Holm's method holds whatever the dependence (S. Holm, Scandinavian Journal of Statistics 6 (1979) 65).
@@ -12,9 +14,29 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from datetime import date
+from statistics import fmean
 
-from zlmreport.fleet.trend import Forecast, Line, Series, forecast, line_through, rank_p_value
+from zlmreport.fleet.steps import (
+    SMALL,
+    Course,
+    Scatter,
+    Step,
+    chances,
+    course,
+    learned,
+    squares_before_the_last,
+)
+from zlmreport.fleet.trend import (
+    DAYS_PER_YEAR,
+    Forecast,
+    Line,
+    Series,
+    forecast,
+    line_through,
+    rank_p_value,
+)
 
 #: Of the axes that are named, no larger share is named by accident, in the long run.
 FALSE_SHARE = 0.05
@@ -38,6 +60,19 @@ class Trend:
         Whether it is named, with the whole fleet's tests in view.
     forecast
         When a drift meets its limit; None without a drift, without a limit, and where there is no such date.
+    course
+        What its tests say of steps, in parts of `scale`; None of a parameter that is not asked.
+    scale
+        The limit; 1 where there is none.
+    step
+        That the latest test shows, or that looked like a drift; in the unit of the series.
+    probability
+        That it is a drift, and neither a step nor chance, if each is as likely beforehand; 0 where none is
+        named.
+    since
+        From which day on the line is laid: that of the first test after a step.
+    years
+        That the line covers.
     """
 
     series: Series
@@ -45,6 +80,23 @@ class Trend:
     rank_p_value: float | None = None
     drifts: bool = False
     forecast: Forecast | None = None
+    course: Course | None = None
+    scale: float = 1.0
+    step: Step | None = None
+    probability: float = 0.0
+    since: date | None = None
+    years: float = 0.0
+
+    @property
+    def smallest(self) -> float | None:
+        """The step that the next test would show in 95 % of all cases."""
+        known = self.course.smallest if self.course else None
+        return None if known is None else known * self.scale
+
+    @property
+    def is_wilder(self) -> bool:
+        """Whether the latest tests scatter more than those before."""
+        return self.course is not None and self.course.is_wilder
 
     @property
     def p_value(self) -> float | None:
@@ -54,16 +106,100 @@ class Trend:
 
 def trends(series: Iterable[Series]) -> tuple[Trend, ...]:
     """Return the trend of each series of a fleet, in the same order."""
-    looked_at = [_looked_at(each) for each in series]
+    every = tuple(series)
+    stepping = _stepping(every)
+    excluded = _excluded(stepping.values())
+    looked_at = [
+        _looked_at(each, stepping.get(index), excluded[each.machine, each.axis])
+        for index, each in enumerate(every)
+    ]
+    scales = _scales(every)
     families: defaultdict[tuple[str, str], dict[int, float]] = defaultdict(dict)
     for index, trend in enumerate(looked_at):
         if trend.p_value is not None and trend.rank_p_value is not None:
             # A slope that the order of the values does not bear out is an odd calibration and no drift.
-            borne_out = trend.rank_p_value <= FALSE_SHARE
+            borne_out = trend.rank_p_value <= FALSE_SHARE and not _is_small(trend, scales[index])
             axis = trend.series.machine, trend.series.axis
             families[axis][index] = trend.p_value if borne_out else 1.0
     named = named_in_families(families.values(), FALSE_SHARE)
-    return tuple(_named(trend) if index in named else trend for index, trend in enumerate(looked_at))
+    return tuple(
+        _named(trend, stepping.get(index)) if index in named else trend
+        for index, trend in enumerate(looked_at)
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class _Stepping:
+    """A series that is asked for steps: its values in parts of its scale, and what is known of them."""
+
+    series: Series
+    scale: float
+    values: tuple[float, ...]
+    fleet: Scatter
+    course: Course
+
+
+def _stepping(series: Sequence[Series]) -> Mapping[int, _Stepping]:
+    """Return what those series say that are asked: with a limit, or else the first of an axis."""
+    by_axis: defaultdict[tuple[str, str], list[int]] = defaultdict(list)
+    for index, each in enumerate(series):
+        by_axis[each.machine, each.axis].append(index)
+    asked: dict[int, float] = {}
+    for of_axis in by_axis.values():
+        limited = [index for index in of_axis if series[index].latest.limit]
+        asked |= dict.fromkeys(limited or of_axis[:1], 1 / max(1, len(limited)))
+    found: dict[int, _Stepping] = {}
+    for group in (True, False):  # parts of a limit, and µm or ″, have each a scatter of their own
+        shares = {index: part for index, part in asked.items() if bool(series[index].latest.limit) is group}
+        values = {index: _parts(series[index]) for index in shares}
+        fleet = Scatter()
+        for _ in range(2):  # what is learned with steps in it first shows these, and is learned without them
+            courses = [course(values[index], fleet, part) for index, part in shares.items()]
+            samples = zip(values.values(), courses, strict=True)
+            known = (squares_before_the_last(v, c.since) for v, c in samples)
+            fleet = learned(each for each in known if each[1] > 0)
+        for index, part in shares.items():
+            each = series[index]
+            scale = each.latest.limit or 1.0
+            own = course(values[index], fleet, part)
+            found[index] = _Stepping(each, scale, values[index], fleet, own)
+    return found
+
+
+def _parts(series: Series) -> tuple[float, ...]:
+    scale = series.latest.limit or 1.0
+    return tuple(each.parameter.value / scale for each in series.calibrations)
+
+
+def _excluded(stepping: Iterable[_Stepping]) -> Mapping[tuple[str, str], frozenset[date]]:
+    """Return the days of each axis that are no part of a line: before a step, odd ones, a new step."""
+    found: defaultdict[tuple[str, str], frozenset[date]] = defaultdict(frozenset)
+    for each in stepping:
+        calibrations = each.series.calibrations
+        kept = {calibrations[index].measured for index in each.course.since}
+        found[each.series.machine, each.series.axis] |= {
+            one.measured for one in calibrations if one.measured not in kept
+        }
+    return found
+
+
+def _scales(series: Sequence[Series]) -> Sequence[float | None]:
+    """Return against what a change of each series is small: its limit, or the least of its standard."""
+    least: dict[tuple[str, str, str, str], float] = {}
+    for each in series:
+        if each.latest.limit:
+            key = each.machine, each.axis, each.standard, each.unit
+            least[key] = min(each.latest.limit, least.get(key, each.latest.limit))
+    return [
+        each.latest.limit or least.get((each.machine, each.axis, each.standard, each.unit)) for each in series
+    ]
+
+
+def _is_small(trend: Trend, scale: float | None) -> bool:
+    """Whether the whole change along a line is no news."""
+    if scale is None or trend.line is None:
+        return False
+    return abs(trend.line.slope) * trend.years < SMALL * scale
 
 
 def named_in_families(families: Iterable[Mapping[int, float]], level: float) -> frozenset[int]:
@@ -104,15 +240,35 @@ def chosen_by_benjamini_hochberg(p_values: Sequence[float], level: float) -> int
     )
 
 
-def _looked_at(series: Series) -> Trend:
-    if len({each.measured for each in series.calibrations}) < LEAST_DATES:
-        return Trend(series)
-    values = [each.parameter.value for each in series.calibrations]
-    return Trend(series, line_through(series), rank_p_value(values))
+def _looked_at(series: Series, stepping: _Stepping | None, excluded: frozenset[date]) -> Trend:
+    kept = tuple(each for each in series.calibrations if each.measured not in excluded)
+    trend = Trend(series, since=kept[0].measured if kept else None)
+    if stepping:
+        steps, scale = stepping.course.steps, stepping.scale
+        is_latest = bool(steps) and steps[-1].index + 1 == len(series.calibrations)
+        step = replace(steps[-1], change=steps[-1].change * scale) if is_latest else None
+        trend = replace(trend, course=stepping.course, scale=scale, step=step)
+    if len({each.measured for each in kept}) < LEAST_DATES:
+        return trend
+    line = line_through(replace(series, calibrations=kept))
+    years = (kept[-1].measured - kept[0].measured).days / DAYS_PER_YEAR
+    order = rank_p_value([each.parameter.value for each in kept])
+    return replace(trend, line=line, rank_p_value=order, years=years)
 
 
-def _named(trend: Trend) -> Trend:
+def _named(trend: Trend, stepping: _Stepping | None) -> Trend:
+    """Return a trend as the drift that it was named, or as a step where that is more likely."""
+    probability = 0.0
+    if stepping:
+        since = stepping.course.since
+        likely = chances([stepping.values[index] for index in since], stepping.fleet)
+        best = max(range(len(since)), key=lambda each: likely.steps[each])
+        if sum(likely.steps) > likely.drift:
+            values = [stepping.values[index] * stepping.scale for index in since]
+            change = fmean(values[best:]) - fmean(values[:best])
+            return replace(trend, step=trend.step or Step(since[best], change, sum(likely.steps)))
+        probability = likely.drift
     limit, line = trend.series.latest.limit, trend.line
     last = trend.series.calibrations[-1].measured
     reached = forecast(line, limit, last) if line and limit is not None else None
-    return Trend(trend.series, line, trend.rank_p_value, drifts=True, forecast=reached)
+    return replace(trend, drifts=True, forecast=reached, probability=probability)

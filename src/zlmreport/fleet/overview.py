@@ -12,10 +12,12 @@ from datetime import date, timedelta
 from itertools import groupby
 
 from zlmreport.fleet import overview_words as words
+from zlmreport.fleet.causes import cause_of
 from zlmreport.fleet.drifts import FALSE_SHARE, LEAST_DATES, Trend
 from zlmreport.fleet.overview_cells import Cells, Names, Period, small_graph
 from zlmreport.fleet.records import Entry, Notice, RecordedParameter, State
 from zlmreport.fleet.state import Failure, FleetState, Night, Term
+from zlmreport.fleet.steps import LEAST_BEFORE, SEEN, SMALL
 from zlmreport.fleet.trend import Calibration, Series, line_through
 from zlmreport.language import Language, Words
 from zlmreport.typesetting.overview import (
@@ -89,12 +91,14 @@ def _run(night: Night | None) -> Words:
 
 
 def _tiles(state: FleetState, cells: Cells) -> Iterator[TileContext]:
+    changed = {(each.series.machine, each.series.axis) for each in state.changed}
     drifting = {(each.series.machine, each.series.axis) for each in state.drifting}
     counted = (
         (len(state.notices), words.NOTICED, "noticed"),
         (len(state.failures), words.FAILED, "failed"),
         (len(state.not_met), words.NOT_MET, "not-met"),
         (len(state.undecided), words.UNDECIDED, "undecided"),
+        (len(changed), words.CHANGED, "changed"),
         (len(drifting), words.DRIFTING, "drifting"),
         (len(state.overdue), words.OVERDUE, "overdue"),
         (len(state.drafts), words.DRAFTS, "drafts"),
@@ -133,6 +137,15 @@ _LIMIT_COLUMNS = (
 )
 _NOT_MET = _Kind("not-met", words.NOT_MET, words.NOT_MET_CAPTION, _LIMIT_COLUMNS)
 _UNDECIDED = _Kind("undecided", words.UNDECIDED, words.UNDECIDED_CAPTION, _LIMIT_COLUMNS)
+_CHANGED = _Kind(
+    "changed",
+    words.CHANGED,
+    words.CHANGED_CAPTION,
+    (
+        *(words.AXIS, words.PARAMETER, words.VALUE, words.LIMIT),
+        *(words.COURSE, words.CHANGE, words.CAME_WITH),
+    ),
+)
 _DRIFTING = _Kind(
     "drifting",
     words.DRIFTING,
@@ -163,6 +176,8 @@ def needs(state: FleetState, cells: Cells) -> Iterator[OverviewTableContext]:
         yield _limits(_NOT_MET, state.not_met, cells)
     if state.undecided:
         yield _limits(_UNDECIDED, state.undecided, cells)
+    if state.changed:
+        yield _changes(state, cells)
     if state.drifting:
         yield _drifts(state.drifting, cells)
     if state.overdue:
@@ -216,6 +231,27 @@ def _limits(kind: _Kind, trends: Sequence[Trend], cells: Cells) -> OverviewTable
         for each in _by_axis(trends)
     ]
     return _table(kind, groups, cells)
+
+
+def _changes(state: FleetState, cells: Cells) -> OverviewTableContext:
+    groups = [
+        OverviewGroupContext(
+            cells.axis(each[0]),
+            tuple(
+                (
+                    cells.parameter(trend),
+                    cells.value(trend),
+                    cells.limit(trend),
+                    cells.course(trend),
+                    cells.change(trend),
+                    cells.came_with(cause_of(trend, state.effects)),
+                )
+                for trend in each
+            ),
+        )
+        for each in _by_axis(state.changed)
+    ]
+    return _table(_CHANGED, groups, cells)
 
 
 def _drifts(trends: Sequence[Trend], cells: Cells) -> OverviewTableContext:
@@ -369,8 +405,10 @@ def legend(cells: Cells) -> OverviewLegendContext:
         (words.TERM_VALUE, words.MEANING_VALUE),
         (words.TERM_BAND, words.MEANING_BAND),
         (words.TERM_LIMIT, words.MEANING_LIMIT),
+        (words.TERM_STEP, words.MEANING_STEP),
         (words.TERM_DRIFT, words.MEANING_DRIFT),
     )
+    steps = words.STEP_METHOD.given(scatters=round(SEEN), least=LEAST_BEFORE, small=round(100 * SMALL))
     method = words.DRIFT_METHOD.given(least=LEAST_DATES, share=round(100 * FALSE_SHARE))
     sample = _sample()
     calibrations = sample.series.calibrations
@@ -378,7 +416,7 @@ def legend(cells: Cells) -> OverviewLegendContext:
     return OverviewLegendContext(
         drawing=drawing(small_graph(sample, period, cells.say(words.SAMPLE))),
         terms=tuple((cells.say(term), cells.say(meaning)) for term, meaning in terms),
-        paragraphs=(cells.say(method), cells.say(words.FORECAST_METHOD)),
+        paragraphs=(cells.say(steps), cells.say(method), cells.say(words.FORECAST_METHOD)),
     )
 
 

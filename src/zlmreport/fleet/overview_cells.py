@@ -15,6 +15,7 @@ from zlmreport.evaluation.quantity import Quantity
 from zlmreport.figures.canvas import Fill, Segment, Stroke
 from zlmreport.figures.svg import SvgCanvas
 from zlmreport.fleet import overview_words as words
+from zlmreport.fleet.causes import Cause
 from zlmreport.fleet.drifts import LEAST_DATES, Trend
 from zlmreport.fleet.records import Entry, RecordedParameter
 from zlmreport.fleet.trend import MOST_YEARS_AHEAD, Calibration, Line
@@ -57,7 +58,8 @@ class Names:
             for each in trend.series.calibrations
         )
         line = trend.line and replace(trend.line, level=-trend.line.level, slope=-trend.line.slope)
-        return replace(trend, series=replace(trend.series, calibrations=calibrations), line=line)
+        step = trend.step and replace(trend.step, change=-trend.step.change)
+        return replace(trend, series=replace(trend.series, calibrations=calibrations), line=line, step=step)
 
     def _standard(self, identifier: str) -> Standard | None:
         return next((each for each in self.standards if each.identifier == identifier), None)
@@ -143,6 +145,7 @@ def small_graph(trend: Trend, period: Period, alternative: str) -> str:
     if frame.lower <= 0:
         canvas.outline("zero", _line((0, frame.y(0)), (WIDTH, frame.y(0))), Stroke(_GREY, 0.6), None)
     _draw_band(canvas, frame, calibrations)
+    _draw_steps(canvas, frame, trend)
     if trend.drifts:
         _draw_drift(canvas, frame, trend)
     _draw_values(canvas, frame, calibrations)
@@ -189,6 +192,16 @@ def _draw_band(canvas: SvgCanvas, frame: _Frame, calibrations: Sequence[Calibrat
         lower = [(lower[0][0] + step, lower[0][1]) for step in (-_SINGLE, _SINGLE)]
     if upper:
         canvas.outline("band", _line(*upper, *reversed(lower), closed=True), None, Fill(_INK, 0.18))
+
+
+def _draw_steps(canvas: SvgCanvas, frame: _Frame, trend: Trend) -> None:
+    """Draw an upright line before the first test after each step."""
+    steps = trend.course.steps if trend.course else ()
+    calibrations = trend.series.calibrations
+    for index in sorted({each.index for each in (*steps, *([trend.step] if trend.step else ()))}):
+        days = [calibrations[each].measured.toordinal() for each in (index - 1, index)]
+        x = frame.x(sum(days) / 2)
+        canvas.outline("step", _line((x, 0), (x, HEIGHT)), Stroke(_ALARM, 0.9, (1.5, 1.5)), None)
 
 
 def _draw_drift(canvas: SvgCanvas, frame: _Frame, trend: Trend) -> None:
@@ -298,9 +311,9 @@ class Cells:
         dates = len({each.measured for each in series.calibrations})
         if trend.line is None:
             too_few = words.TOO_FEW.given(number=dates, least=LEAST_DATES)
-            return OverviewCellContext(self.say(too_few), style="quiet")
+            return OverviewCellContext(self.say(too_few), style="quiet", note=self._visible(trend))
         if not trend.drifts:
-            return OverviewCellContext(self.say(words.STEADY), style="quiet")
+            return OverviewCellContext(self.say(words.STEADY), style="quiet", note=self._visible(trend))
         chance = words.CHANCE.given(
             p=p_value(trend.line.p_value, self.language.decimal_sign, least=_LEAST_P),
             number=len(series.calibrations),
@@ -310,6 +323,40 @@ class Cells:
             style="state drifts" if trend.line.slope > 0 else "state drifts falls",
             note=self.say(chance),
         )
+
+    def _visible(self, trend: Trend) -> str:
+        """Say how large a step would have to be; nothing where that is not known, or not asked."""
+        if trend.smallest is None:
+            return ""
+        size = with_unit(fixed_number(trend.smallest, 1, self.language.decimal_sign), trend.series.unit)
+        return self.say(words.VISIBLE.given(size=size))
+
+    def change(self, trend: Trend) -> OverviewCellContext:
+        """Return by how much a parameter changed, since when, and how likely that is a step."""
+        step = trend.step
+        if step is None:
+            return OverviewCellContext(self.say(words.WILDER), style="state drifts")
+        since = trend.series.calibrations[step.index].measured.isoformat()
+        note = words.STEP_SINCE.given(since=since, percent=min(99, round(100 * step.probability)))
+        rises = step.change > 0
+        return OverviewCellContext(
+            self._signed(step.change, trend.series.unit),
+            style="state drifts" if rises else "state drifts falls",
+            note=self.say(note),
+        )
+
+    def came_with(self, cause: Cause | None) -> OverviewCellContext:
+        """Return what else changed: a parameter of the error model, the instrument."""
+        if cause is None:
+            return OverviewCellContext("–", style="quiet")
+        effect = f"{cause.effect} {self._signed(cause.change, cause.unit)}" if cause.effect else ""
+        instrument = words.INSTRUMENT.given(before=cause.before, after=cause.after) if cause.after else None
+        note = self.say(instrument) if instrument else ""
+        return OverviewCellContext(effect or ("" if note else "–"), note=note)
+
+    def _signed(self, value: float, unit: str) -> str:
+        sign = "+" if value > 0 else "−"
+        return with_unit(f"{sign} {fixed_number(abs(value), 1, self.language.decimal_sign)}", unit)
 
     def reached(self, trend: Trend) -> OverviewCellContext:
         """Return when the limit is met."""

@@ -73,6 +73,11 @@ UNDECIDED_CAPTION = Words(
     en="Parameters so near to their limit that the decision rule states nothing",
     de="Kenngrößen so nahe am Grenzwert, dass die Entscheidungsregel keine Aussage zulässt",
 )
+CHANGED = Words(en="Changed", de="Verändert")
+CHANGED_CAPTION = Words(
+    en="Parameters of which the latest test shows a step, or whose latest tests scatter more than before",
+    de="Kenngrößen, die in der letzten Messung einen Sprung zeigen oder zuletzt stärker streuen als zuvor",
+)
 DRIFTING = Words(en="Drifting", de="Drift")
 DRIFTING_CAPTION = Words(
     en="Parameters that drift, those first that meet their limit soonest",
@@ -107,6 +112,8 @@ LIMIT = Words(en="Limit", de="Grenzwert")
 STATE = Words(en="State", de="Aussage")
 COURSE = Words(en="Course", de="Verlauf")
 DRIFT = Words(en="Drift ± U", de="Drift ± U")
+CHANGE = Words(en="Change", de="Änderung")
+CAME_WITH = Words(en="What changed with it", de="Was sich mit ihr änderte")
 REACHED = Words(en="Limit reached", de="Grenzwert erreicht")
 CERTIFICATE = Words(en="Certificate", de="Kalibrierschein")
 REASON = Words(en="Why", de="Warum")
@@ -117,6 +124,13 @@ MET = Words(en="met", de="eingehalten")
 IS_NOT_MET = Words(en="not met", de="nicht eingehalten")
 IS_OPEN = Words(en="undecided", de="ohne Aussage")
 NO_LIMIT = Words(en="no limit", de="kein Grenzwert")
+
+# Steps
+
+STEP_SINCE = Words(en="since {since}; a step with {percent} %", de="seit {since}; zu {percent} % ein Sprung")
+WILDER = Words(en="scatters more", de="streut stärker")
+VISIBLE = Words(en="a step of {size} would be seen", de="ein Sprung von {size} fiele auf")
+INSTRUMENT = Words(en="{after} in place of {before}", de="{after} statt {before}")
 
 # Drift
 
@@ -149,10 +163,26 @@ MEANING_LIMIT = Words(
     en="the limit; the graph stands on zero",
     de="der Grenzwert; die Grundlinie ist null",
 )
+TERM_STEP = Words(en="Dotted upright line", de="Gepunktete senkrechte Linie")
+MEANING_STEP = Words(
+    en="a step: what was before has no part in a drift",
+    de="ein Sprung: was davor war, zählt nicht zu einer Drift",
+)
 TERM_DRIFT = Words(en="Dash-dotted line", de="Strichpunktierte Linie")
 MEANING_DRIFT = Words(
     en="a drift, and where it leads",
     de="eine Drift, und wohin sie führt",
+)
+STEP_METHOD = Words(
+    en="A step is named if the latest test differs from the mean of those before it by more than the scatter "
+    "between tests explains. Where {least} or more came before, a step of {scatters} scatters is seen at "
+    "once in 95 % of all cases, and one test in 250, or fewer, raises a false alarm. What is less than "
+    "{small} % of the limit is no news, as a step or as a drift.",
+    de="Ein Sprung wird genannt, wenn die letzte Messung vom Mittel der früheren weiter abweicht, als die "
+    "Streuung zwischen den Messungen erklärt. Nach {least} oder mehr Messungen fällt ein Sprung um das "
+    "{scatters}-Fache der Streuung in 95 % aller Fälle sofort auf; höchstens eine von 250 Messungen löst "
+    "Fehlalarm aus. Was weniger als {small} % des Grenzwerts ausmacht, wird weder als Sprung noch als Drift "
+    "gemeldet.",
 )
 DRIFT_METHOD = Words(
     en="A parameter drifts if a weighted regression through {least} or more dates is steeper than its "

@@ -146,6 +146,11 @@ _AMOUNTS: tuple[tuple[str, str, Callable[[Trend], float | None]], ...] = (
         lambda trend: _in_si(trend, trend.series.latest.expanded_uncertainty),
     ),
     ("limit", "Limit of the amount of the value.", lambda trend: _in_si(trend, trend.series.latest.limit)),
+    (
+        "visible_step",
+        "Step that the next test would show in 95 % of all cases.",
+        lambda trend: _in_si(trend, trend.smallest),
+    ),
     ("change_per_year", "Slope of the line through the certified values, in a year.", _slope),
 )
 _STATEMENTS: tuple[tuple[str, str, Callable[[Trend], float | None]], ...] = (
@@ -154,6 +159,11 @@ _STATEMENTS: tuple[tuple[str, str, Callable[[Trend], float | None]], ...] = (
         "drift_p_value",
         "Chance of so steep a line where nothing drifts; of this parameter alone.",
         lambda trend: trend.p_value,
+    ),
+    (
+        "changed",
+        "1 if the latest test shows a step, or the latest scatter more; absent where that is not asked.",
+        lambda trend: None if trend.course is None else float(trend.step is not None or trend.is_wilder),
     ),
     (
         "drifts",

@@ -15,7 +15,7 @@ from zlmreport.errors import InputError, Place, Problem, ZlmreportError
 from zlmreport.fleet.basis import KnownFile, Look, path_in, sha256_of
 from zlmreport.fleet.ledger import Ledger, Night, NumberTakenError
 from zlmreport.fleet.making import MARK
-from zlmreport.fleet.records import Entry, RecordedParameter, State, Subject
+from zlmreport.fleet.records import Entry, RecordedParameter, State, Subject, parameters_of_model
 from zlmreport.job.fleet import FleetFile, job_files, number_of
 from zlmreport.job.loading import load
 from zlmreport.plugins import Registry
@@ -149,3 +149,4 @@ def _parameters(results: Mapping[str, Any]) -> Iterator[RecordedParameter]:
                     limit=each.get("limit"),
                     conforms=each.get("conforms"),
                 )
+    yield from parameters_of_model(results.get("model", {}))

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import math
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from datetime import date, timedelta
 from enum import StrEnum
 from pathlib import PurePosixPath
-from typing import Self
+from typing import Any, Self
 
 from zlmreport.certificate.document import Certificate
 from zlmreport.job.job import Job
@@ -40,6 +41,10 @@ class State(StrEnum):
 
 
 _FAILURES = frozenset({State.FAILED, State.STOPPED, State.SET_ASIDE, State.VANISHED})
+
+
+#: Stands for the standard of a parameter of the error model, whose symbol is ``backlash.lost_motion``.
+MODEL = "model"
 
 
 class About(StrEnum):
@@ -231,6 +236,19 @@ def parameters_of(certificate: Certificate) -> Iterator[RecordedParameter]:
                 limit=_in_unit(unit, each.limit),
                 conforms=None if each.conforms is None else bool(each.conforms),
             )
+    if certificate.diagnosis:
+        from zlmreport.model.report import report_model  # noqa: PLC0415 - only where there is a model
+
+        yield from parameters_of_model(report_model(certificate.diagnosis.fit))
+
+
+def parameters_of_model(model: Mapping[str, Any]) -> Iterator[RecordedParameter]:
+    """Yield the parameters of an error model, out of the ``model`` of a results file."""
+    for each in model.get("parameters", ()):
+        value, stated = each["value"], each.get("expanded_uncertainty")
+        if isinstance(value, int | float) and math.isfinite(value):
+            symbol = f"{each['effect']}.{each['name']}"
+            yield RecordedParameter(MODEL, symbol, float(value), each["unit"], stated)
 
 
 def _in_unit(unit: Unit, value: float | None) -> float | None:

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from datetime import date, datetime
 
 from zlmreport.fleet.drifts import Trend, trends
-from zlmreport.fleet.records import Entry, Notice, State, due_date
-from zlmreport.fleet.trend import series_of, standing
+from zlmreport.fleet.records import MODEL, Entry, Notice, State, due_date
+from zlmreport.fleet.trend import Series, series_of, standing
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,6 +82,8 @@ class FleetState:
         That stand, in the order of measurement.
     trends
         Every parameter of every axis, machine by machine.
+    effects
+        Parameters of the error models over time, where jobs name effects.
     terms
         Of every axis that has one, the earliest first.
     """
@@ -94,6 +96,7 @@ class FleetState:
     drafts: tuple[Entry, ...]
     certificates: tuple[Entry, ...]
     trends: tuple[Trend, ...]
+    effects: tuple[Series, ...] = ()
     terms: tuple[Term, ...] = ()
 
     @property
@@ -130,6 +133,11 @@ class FleetState:
         """Parameters that are so near to their limit that nothing is stated."""
         latest = ((each, each.series.latest) for each in self.trends)
         return tuple(each for each, last in latest if last.limit is not None and last.conforms is None)
+
+    @property
+    def changed(self) -> tuple[Trend, ...]:
+        """Parameters of which the latest test shows a step, or whose latest tests scatter more."""
+        return tuple(each for each in self.trends if each.step or each.is_wilder)
 
     @property
     def drifting(self) -> tuple[Trend, ...]:
@@ -190,6 +198,7 @@ def state_of(
         if entry.state is State.VANISHED and job not in jobs and not rules.is_retired(job)
     ]
     certificates = standing(history)
+    series = series_of(certificates)
     began = night.began if night else None
     return FleetState(
         name=name,
@@ -205,7 +214,8 @@ def state_of(
         ),
         drafts=tuple(entry for entry in current if entry.state is State.DRAFT),
         certificates=certificates,
-        trends=trends(series_of(certificates)),
+        trends=trends(each for each in series if each.standard != MODEL),
+        effects=tuple(each for each in series if each.standard == MODEL),
         terms=_terms(certificates, rules, began),
     )
 

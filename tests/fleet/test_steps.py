@@ -1,0 +1,223 @@
+"""Steps are seen at once, told from drifts, and seldom seen where there is none."""
+
+from __future__ import annotations
+
+import math
+from statistics import NormalDist
+
+import numpy as np
+import pytest
+
+from fleet.histories import entry, history, parameter, quarters
+from zlmreport.fleet.causes import Cause, cause_of
+from zlmreport.fleet.drifts import Trend, trends
+from zlmreport.fleet.records import MODEL, Entry
+from zlmreport.fleet.steps import Scatter, chances, course, digamma, learned, level_of, trigamma
+from zlmreport.fleet.trend import series_of, standing
+
+LIMIT = 20.0
+CALM = [8.0, 8.4, 8.1, 8.3, 8.2, 8.0]
+
+
+def judged(entries: list[Entry]) -> tuple[Trend, ...]:
+    return trends(series_of(standing(entries)))
+
+
+def fleet_with(values: list[float], **others: list[float]) -> Trend:
+    """Return what is said of an axis among calm ones."""
+    names = {**{f"C{each}": [value + 0.02 * each for value in CALM] for each in range(6)}, **others}
+    entries = [each for axis, calm in names.items() for each in history(calm, axis=axis)]
+    found = judged([*history(values, axis="X"), *entries])
+    return next(each for each in found if each.series.axis == "X")
+
+
+def test_a_jump_is_seen_at_once_and_has_its_size_and_date() -> None:
+    trend = fleet_with([3.9, 3.6, 3.8, 3.9, 12.8])
+    assert trend.step
+    assert trend.step.index == 4
+    assert trend.step.change == pytest.approx(9.0)
+    assert trend.step.probability > 0.95
+    assert not trend.drifts
+
+
+def test_a_jump_of_the_only_axis_of_a_fleet_is_seen_too() -> None:
+    (trend,) = judged(history([3.9, 3.6, 3.8, 3.9, 12.8]))
+    assert trend.step
+
+
+def test_what_came_before_a_step_that_was_borne_out_is_no_part_of_a_drift() -> None:
+    trend = fleet_with([3.9, 3.6, 3.8, 3.9, 12.8, 12.6, 12.9, 12.7, 12.8])
+    assert trend.course
+    assert [each.index for each in trend.course.steps] == [4]
+    assert trend.step is None
+    assert trend.since == quarters(9)[4]
+    assert not trend.drifts
+
+
+def test_an_odd_test_that_the_next_does_not_bear_out_is_no_step() -> None:
+    trend = fleet_with([3.9, 3.6, 3.8, 3.9, 12.8, 3.8, 3.7])
+    assert trend.course
+    assert trend.course.steps == ()
+    assert 4 not in trend.course.since
+
+
+def test_a_change_that_is_small_against_the_limit_is_no_news() -> None:
+    assert fleet_with([3.8, 3.9, 3.7, 3.8, 6.8]).step is None
+    assert fleet_with([3.8, 3.9, 3.7, 3.8, 7.8]).step
+
+
+def test_a_drift_that_is_small_against_the_limit_is_no_news() -> None:
+    steady = [8.0 + 0.03 * quarter for quarter in range(9)]  # 0.12 µm a year
+    assert not fleet_with(steady).drifts
+    assert fleet_with([8.0 + 0.3 * quarter for quarter in range(9)]).drifts
+
+
+def test_a_drift_is_no_step() -> None:
+    trend = fleet_with([8.0 + 1.0 * quarter + wave for quarter, wave in enumerate((0.1, -0.1) * 4)])
+    assert trend.drifts
+    assert trend.step is None
+    assert trend.probability > 0.9
+
+
+def test_a_step_too_small_to_be_seen_at_once_is_no_drift_later() -> None:
+    rng = np.random.default_rng(3)
+    others = {f"Q{each}": rng.normal(10, 1, 10).tolist() for each in range(60)}
+    values = [9.6, 10.3, 9.9, 10.4, 9.8, 12.4, 12.6, 12.2, 12.7, 12.3]
+    trend = fleet_with(values, **others)
+    assert not trend.drifts
+    if trend.step:
+        assert trend.step.index == 5
+
+
+def test_tests_that_scatter_more_than_before_are_told() -> None:
+    trend = fleet_with([8.0, 8.1, 8.0, 8.1, 8.0, 9.6, 6.6, 10.4, 5.4])
+    assert trend.is_wilder or trend.step
+
+
+def test_an_axis_says_which_step_it_would_show() -> None:
+    trend = fleet_with(CALM)
+    assert trend.smallest == pytest.approx(0.2 * LIMIT, rel=0.02)
+    (alone,) = judged(history([8.0, 9.5, 7.0]))
+    assert alone.smallest
+    assert alone.smallest > LIMIT
+
+
+def test_the_effect_and_the_instrument_that_changed_with_it_are_named() -> None:
+    days = quarters(5)
+    values, lost, scale = [3.9, 3.6, 3.8, 3.9, 12.8], [1.0, 1.1, 0.9, 1.0, 5.2], [2.0, 2.1, 1.9, 2.0, 2.1]
+    entries = [
+        entry(
+            day,
+            parameter(a),
+            parameter(b, standard=MODEL, symbol="backlash.lost_motion", expanded_uncertainty=0.3, limit=None),
+            parameter(c, standard=MODEL, symbol="scale-error.slope", expanded_uncertainty=0.3, limit=None),
+            instrument="Laser A" if day < days[4] else "Laser B",
+        )
+        for day, a, b, c in zip(days, values, lost, scale, strict=True)
+    ]
+    series = series_of(standing(entries))
+    (trend,) = trends(each for each in series if each.standard != MODEL)
+    cause = cause_of(trend, [each for each in series if each.standard == MODEL])
+    assert cause
+    assert cause.change == pytest.approx(4.2)
+    assert cause == Cause(
+        days[4], "backlash", "lost_motion", cause.change, "um", before="Laser A", after="Laser B"
+    )
+
+
+def test_digamma_and_trigamma_are_those_of_the_tables() -> None:
+    # Abramowitz and Stegun, 6.3.2, 6.3.3, 6.4.2.
+    assert digamma(1) == pytest.approx(-0.5772156649015329, abs=1e-9)
+    assert digamma(0.5) == pytest.approx(-0.5772156649015329 - 2 * math.log(2), abs=1e-9)
+    assert trigamma(1) == pytest.approx(math.pi**2 / 6, abs=1e-9)
+    assert trigamma(0.5) == pytest.approx(math.pi**2 / 2, abs=1e-9)
+
+
+def test_the_scatter_of_a_fleet_is_learned_from_axes_of_few_tests() -> None:
+    """Variances drawn as the method supposes: σ² = d₀s₀²/χ²(d₀), s² = σ²χ²(d)/d."""
+    rng = np.random.default_rng(7)
+    degrees, variance, own = 8.0, 0.004, 4
+    sigma2 = degrees * variance / rng.chisquare(degrees, 20_000)
+    squares = sigma2 * rng.chisquare(own, 20_000)
+    found = learned([(float(each), own) for each in squares])
+    assert found.variance == pytest.approx(variance, rel=0.03)
+    assert found.degrees == pytest.approx(degrees, rel=0.08)
+
+
+def test_axes_that_scatter_alike_know_as_much_as_all_of_them_together() -> None:
+    found = learned([(0.004 * 4 * factor, 4) for factor in (0.9, 1.0, 1.1)])
+    assert found.degrees == 12
+
+
+@pytest.mark.parametrize("values", [[0.2, 0.25, 0.18, 0.6], [0.2, 0.3, 0.4, 0.5], [0.2, 0.24, 0.21, 0.22]])
+def test_the_chances_are_those_of_integration_over_mean_effect_and_variance(values: list[float]) -> None:
+    """By brute force: the mean flat, the effect N(0, (5σ)²), the variance inverse-χ²."""
+    fleet = Scatter(0.004, 6.0)
+    y, number = np.array(values), len(values)
+    log_sigma = np.linspace(math.log(0.004), math.log(1.0), 400)
+    sigma = np.exp(log_sigma)[:, None]
+    prior = sigma**-6.0 * np.exp(-6.0 * fleet.variance / (2 * sigma**2))
+    effects = np.linspace(-40, 40, 4001)[None, :]  # in scatters
+
+    def evidence(shape: list[float] | None) -> float:
+        wanted = effects if shape is not None else np.zeros((1, 1))
+        line = np.array(shape if shape is not None else [0.0] * number)
+        rest = y[:, None, None] - line[:, None, None] * (wanted * sigma)[None]
+        rest = rest - rest.mean(axis=0)  # the flat mean integrates out
+        likelihood = sigma ** (1.0 - number) * np.exp(-(rest**2).sum(axis=0) / (2 * sigma**2))
+        if shape is None:
+            return float((likelihood * prior).sum())
+        weight = np.exp(-(effects**2) / 50) / math.sqrt(2 * math.pi * 25) * (effects[0, 1] - effects[0, 0])
+        return float((likelihood * prior * weight).sum())
+
+    shapes = [[0.0] * index + [1.0] * (number - index) for index in range(1, number)]
+    ramp = [each / (number - 1) for each in range(number)]
+    nothing = evidence(None)
+    steps = [evidence(each) / nothing / (number - 1) for each in shapes]
+    drift = evidence(ramp) / nothing
+    total = 1 + sum(steps) + drift
+    found = chances(values, fleet)
+    assert found.nothing == pytest.approx(1 / total, rel=2e-3)
+    assert found.drift == pytest.approx(drift / total, rel=2e-3)
+    assert found.steps[1:] == pytest.approx([each / total for each in steps], rel=2e-3)
+
+
+@pytest.mark.parametrize("before", [4, 5, 7, 20])
+def test_the_level_leaves_five_scatters_visible_where_the_scatter_is_known(before: int) -> None:
+    normal = NormalDist()
+    critical = normal.inv_cdf(1 - level_of(before))
+    assert 1 - normal.cdf(critical - 5 / math.sqrt(1 + 1 / before)) >= 0.95
+    assert level_of(before) <= 1 / 250
+
+
+AXES, NIGHTS = 300, 10
+
+
+def alarms(values: np.ndarray) -> int:
+    """Return how many axes show a step of the latest test."""
+    fleet, rows = Scatter(), values.tolist()
+    for _ in range(2):
+        squares = [(float(np.var(row[:-1]) * (len(row) - 1)), len(row) - 2) for row in rows]
+        fleet = learned(squares)
+    last = values.shape[1] - 1
+    found = [course(row, fleet) for row in rows]
+    return sum(bool(each.steps) and each.steps[-1].index == last for each in found)
+
+
+@pytest.mark.parametrize("scatter", [1 / 15, 1 / 30])
+def test_a_fleet_that_does_not_change_raises_at_most_one_false_alarm_a_night(scatter: float) -> None:
+    rng = np.random.default_rng(20)
+    counts = [alarms(0.5 + scatter * rng.standard_normal((AXES, 8))) for _ in range(NIGHTS)]
+    assert sum(counts) / NIGHTS <= 1
+
+
+def test_a_step_of_a_third_of_the_limit_is_seen_at_once_after_four_tests() -> None:
+    rng = np.random.default_rng(21)
+    seen = 0
+    for _ in range(NIGHTS):
+        values = 0.4 + rng.standard_normal((AXES, 5)) / 15
+        values[:, -1] += 1 / 3
+        seen += alarms(values)
+    share = seen / (AXES * NIGHTS)
+    # Two standard deviations of the count below the share that is promised.
+    assert share >= 0.95 - 2 * math.sqrt(0.95 * 0.05 / (AXES * NIGHTS))
