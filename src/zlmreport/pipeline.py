@@ -22,6 +22,7 @@ from zlmreport.correction.of_job import corrections_of, without_excluded
 from zlmreport.errors import InputError
 from zlmreport.evaluation.decision import decided, decision_rule
 from zlmreport.evaluation.evaluate import evaluate
+from zlmreport.evaluation.evaluation import Evaluation
 from zlmreport.files import Document
 from zlmreport.language import Words
 from zlmreport.plugin.kinds import RENDERER
@@ -74,6 +75,11 @@ class Outcome:
 
 def read(job: Job, registry: Registry) -> MeasurementSet:
     """Read the measurements that the job names, correct them and set aside what it says."""
+    return without_excluded(read_whole(job, registry), job)
+
+
+def read_whole(job: Job, registry: Registry) -> MeasurementSet:
+    """Read the measurements that the job names and correct them; none is set aside."""
     source = registry.source(job.source.identifier)
     set_ups = {
         choice.identifier: extension.set_up(job, choice.options)
@@ -84,7 +90,7 @@ def read(job: Job, registry: Registry) -> MeasurementSet:
     corrections = corrections_of(job, measurements)
     if corrections:
         measurements = corrected(measurements, corrections)
-    return without_excluded(measurements, job)
+    return measurements
 
 
 def compose(job: Job, registry: Registry) -> Certificate:
@@ -124,6 +130,14 @@ def budget_of_job(job: Job, measurements: MeasurementSet, registry: Registry) ->
     return budget_of(job, measurements, own)
 
 
+def parameters(job: Job, measurements: MeasurementSet, registry: Registry) -> tuple[Evaluation, ...]:
+    """Evaluate readings by every standard that the job names; uncertainties and decisions are left out."""
+    return tuple(
+        evaluate(standard, measurements, options, choice.tolerances)
+        for (standard, options), choice in zip(standards(job, registry), job.standards, strict=True)
+    )
+
+
 def evaluated(job: Job, measurements: MeasurementSet, registry: Registry) -> tuple[Evaluated, ...]:
     """Evaluate readings by every standard that the job names, with uncertainties and decisions."""
     stated = job.keys.decision_rule
@@ -131,11 +145,10 @@ def evaluated(job: Job, measurements: MeasurementSet, registry: Registry) -> tup
     budget = budget_of_job(job, measurements, registry)
     chosen = standards(job, registry)
     bare = [
-        (
-            evaluate(standard, measurements, options, choice.tolerances),
-            partial(standard.arithmetic, options=options),
+        (evaluation, partial(standard.arithmetic, options=options))
+        for (standard, options), evaluation in zip(
+            chosen, parameters(job, measurements, registry), strict=True
         )
-        for (standard, options), choice in zip(chosen, job.standards, strict=True)
     ]
     complete: list[Evaluated] = []
     for (standard, options), evaluation in zip(chosen, with_uncertainty(bare, budget), strict=True):

@@ -24,14 +24,18 @@ from zlmreport.testing.designs import full_designs
 from zlmreport.web.app import Workbench
 from zlmreport.web.effect_page import sketch
 from zlmreport.web.texts import TEXTS, texts
-from zlmreport.web.view import diagnosed, view
+from zlmreport.web.view import diagnosed, results, view
 
 
 @pytest.fixture(scope="module")
 def page() -> dict[str, Any]:
     """Return the example's job as the page is told of it."""
     workbench = Workbench.of(EXAMPLE / "job.yaml", registry())
-    return view(workbench.bench, workbench.bench.loaded(), Language.ENGLISH)
+    loaded = workbench.bench.loaded()
+    return {
+        **view(workbench.bench, loaded, Language.ENGLISH),
+        **results(workbench.bench, loaded, Language.ENGLISH),
+    }
 
 
 @pytest.fixture(scope="module")

@@ -141,8 +141,8 @@ function fixing(texts, effect, own, actions) {
 }
 
 /** The fall chart: the error after each effect, down to the noise floor; a row shows its step in the graphs. */
-export function fall(texts, job, actions) {
-  const { rows, floor, unit } = job.fall;
+export function fall(texts, results, actions) {
+  const { rows, floor, unit } = results.fall;
   const seen = (step, name) => (step > 0 ? { pointerenter: () => actions.preview(String(step), name), pointerleave: () => actions.preview(null) } : {});
   const row = (name, share, rms, leftOut, look, step = 0) => h("tr", { class: look, ...seen(step, name) },
     h("th", { scope: "row" }, name), h("td", { class: "bar" }, bar(share, look ?? "fallen", floor?.share)), h("td", { class: "number" }, rms), h("td", { class: "number" }, leftOut));
@@ -160,10 +160,10 @@ function stepButton(effect, step, actions) {
 }
 
 /** The parameters of the standards: now, and as forecast after compensation. */
-export function standards(texts, job) {
+export function standards(texts, results) {
   return [
     h("h2", {}, texts.standards),
-    job.standards.map((each) => {
+    results.standards.map((each) => {
       const limited = each.rows.some((row) => row.verdict);
       return h("div", { class: "wide", tabindex: "0", role: "region", "aria-label": each.designation }, h("table", { class: "standard" },
         h("caption", {}, `${each.designation} · ${each.unit}`),
@@ -176,7 +176,7 @@ export function standards(texts, job) {
           h("td", { class: "number" }, row.by_table), h("td", { class: "number" }, row.by_model)))),
       ), each.unmet.length > 0 && h("ul", { class: "problems" }, each.unmet.map((one) => h("li", {}, one))));
     }),
-    h("p", { class: "quiet" }, texts.forecast, job.moving && ` ${job.moving}`),
+    h("p", { class: "quiet" }, texts.forecast, results.moving && ` ${results.moving}`),
   ];
 }
 

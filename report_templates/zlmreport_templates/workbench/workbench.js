@@ -65,14 +65,25 @@ class Page {
     this.graphs.compare(null);
     const { texts, parts } = this;
     fill(this.header, ...this.#heading(job));
-    fill(parts.fall, panels.fall(texts, job, this.actions));
     fill(parts.effects, panels.effects(texts, job, this.actions));
-    fill(parts.standards, panels.standards(texts, job));
     fill(parts.excluded, panels.excluded(texts, job, this.actions));
     fill(parts.steps, panels.steps(texts, job));
     this.#showMade();
     this.#showDiagnosis();
+    this.#results(job.stamp);
     this.#diagnose(job.stamp);
+  }
+
+  /** Show what takes longer than the graphs. */
+  async #results(stamp) {
+    try {
+      const results = await get("/api/results");
+      if (this.stamp !== stamp) return;
+      fill(this.parts.fall, panels.fall(this.texts, results, this.actions));
+      fill(this.parts.standards, panels.standards(this.texts, results));
+    } catch (error) {
+      if (!(error instanceof Refusal || error instanceof Silence)) throw error; // what is wrong is said already
+    }
   }
 
   #heading(job) {

@@ -32,7 +32,7 @@ from zlmreport.web.guard import HOST, Door, Guard
 from zlmreport.web.pictures import page_picture
 from zlmreport.web.remembered import Answers
 from zlmreport.web.texts import texts
-from zlmreport.web.view import before_and_after, view
+from zlmreport.web.view import before_and_after, results, view
 
 _OTHER_PAGE = "the request is none of a page of this version"
 _TITLE = Words(en="Workbench", de="Werkbank")
@@ -77,6 +77,7 @@ class Workbench:
             Route("/api/texts", self.texts),
             Route("/api/stamp", self.stamp),
             Route("/api/job", self.job),
+            Route("/api/results", self.results),
             Route("/api/step", self.step),
             Route("/api/diagnosis", self.diagnosis),
             Route("/api/effects/{effect}", self.effect),
@@ -127,6 +128,12 @@ class Workbench:
     async def job(self, request: HttpRequest) -> Response:
         """Answer with the job as values."""
         return await self._answered(request, lambda: self._view(request))
+
+    async def results(self, request: HttpRequest) -> Response:
+        """Answer with the fall of the error and what the standards say."""
+        return await self._answered(
+            request, lambda: results(self.bench, self.bench.loaded(), self._language(request))
+        )
 
     async def step(self, request: HttpRequest) -> Response:
         """Answer with the graphs before and after a step of the model, or an effect that it may lack."""

@@ -11,6 +11,7 @@ from threading import RLock
 
 from zlmreport import pipeline
 from zlmreport.certificate.results import Evaluated
+from zlmreport.correction.of_job import without_excluded
 from zlmreport.errors import Place, ZlmreportError
 from zlmreport.job.choices import EffectChoice
 from zlmreport.job.job import Job
@@ -35,8 +36,6 @@ class Loaded:
         The job.
     study
         Its readings with its model.
-    evaluated
-        What its standards say of the readings.
     basis
         Names what the readings follow from: all but the model.
     stamp
@@ -46,7 +45,6 @@ class Loaded:
 
     job: Job
     study: Study
-    evaluated: tuple[Evaluated, ...]
     basis: str
     stamp: str = ""
 
@@ -69,11 +67,11 @@ class Loaded:
 
 @dataclass(slots=True)
 class _Readings:
-    """What follows from the job without its model."""
+    """What follows from the job without its model; what its standards say once that is asked for."""
 
     basis: str
     measurements: MeasurementSet
-    evaluated: tuple[Evaluated, ...]
+    evaluated: tuple[Evaluated, ...] | None = None
 
 
 @dataclass(slots=True)
@@ -95,6 +93,7 @@ class Bench:
     lock: RLock = field(default_factory=RLock)
     _loaded: Loaded | None = None
     _readings: _Readings | None = None
+    _raw: tuple[str, MeasurementSet] | None = None
     _watched: tuple[Path, ...] = ()
     _fits: OrderedDict[tuple[object, ...], Fitted] = field(default_factory=OrderedDict)
 
@@ -132,7 +131,22 @@ class Bench:
         with self.lock:
             readings = self._read(job)
             study = Study.of(job, readings.measurements, self.registry.effects)
-            return Loaded(job, study, readings.evaluated, readings.basis)
+            return Loaded(job, study, readings.basis)
+
+    def evaluated(self, loaded: Loaded) -> tuple[Evaluated, ...]:
+        """Return what the standards of a job say of its readings; the lock is free meanwhile."""
+        known = self._readings
+        if known is not None and known.basis == loaded.basis and known.evaluated is not None:
+            return known.evaluated
+        found = pipeline.evaluated(loaded.job, loaded.measurements, self.registry)
+        if known is not None and known.basis == loaded.basis:
+            known.evaluated = found
+        return found
+
+    def whole(self, loaded: Loaded) -> Fitted:
+        """Return the fit of the whole model."""
+        with self.lock:
+            return self._fitted(loaded.basis, loaded.study, loaded.job.effects)
 
     def history(self, loaded: Loaded) -> tuple[Fitted, ...]:
         """Return the fits of no effect, of the first, of the first two …: each is made only once."""
@@ -164,12 +178,22 @@ class Bench:
             return self._fitted(loaded.basis, replace(loaded.study, model=AxisModel(terms)), effects)
 
     def _read(self, job: Job) -> _Readings:
-        """Return the readings with their evaluations: as before, if only the model has changed."""
+        """Return the readings: as before, if only the model has changed; read, if more than exclusions has.
+
+        Raises
+        ------
+        InputError
+            If they cannot be read, or a standard of the job cannot evaluate them.
+        """
         before = self._readings
         if before is None or before.basis != _basis(job, before.measurements):
-            measurements = pipeline.read(job, self.registry)
-            found = pipeline.evaluated(job, measurements, self.registry)
-            self._readings = before = _Readings(_basis(job, measurements), measurements, found)
+            raw = self._raw
+            if raw is None or raw[0] != _basis(job, raw[1], but_for_excluded=True):
+                measurements = pipeline.read_whole(job, self.registry)
+                raw = self._raw = (_basis(job, measurements, but_for_excluded=True), measurements)
+            measurements = without_excluded(raw[1], job)
+            pipeline.parameters(job, measurements, self.registry)
+            self._readings = before = _Readings(_basis(job, measurements), measurements)
         return before
 
     def _fitted(self, basis: str, study: Study, effects: tuple[EffectChoice, ...]) -> Fitted:
@@ -187,9 +211,12 @@ class Bench:
         return found
 
 
-def _basis(job: Job, measurements: MeasurementSet) -> str:
+def _basis(job: Job, measurements: MeasurementSet, *, but_for_excluded: bool = False) -> str:
     """Return what readings and evaluations follow from: all keys but the model, and all other files."""
     stated = job.keys.model_copy(update={"model": None})
+    if but_for_excluded:
+        measured = stated.measurement.model_copy(update={"excluded": []})
+        stated = stated.model_copy(update={"measurement": measured})
     files = (*job.files[1:], *measurements.provenance.files)
     state = _stamp(each.path for each in files if each.path is not None)
     return hashlib.sha256(f"{stated!r} {state}".encode()).hexdigest()

@@ -122,11 +122,11 @@ def change(bench: Bench, request: Request) -> None:
             raise ConflictError
         if request.action not in ACTIONS:
             raise InputError.at(_PLACE, f"there is no action {request.action[:60]!r}")
-        before = bench.history(loaded)[-1]
+        before = bench.whole(loaded)
         content = loaded.job.files[0].content or b""
         step = ACTIONS[request.action](bench, loaded, request)
         step.edit.write()
-        after = bench.history(bench.loaded())[-1]
+        after = bench.whole(bench.loaded())
         Journal.beside(bench.path).append(
             entry(request.action, step.subject, (content, step.edit.content), (_rms(before), _rms(after)))
         )
@@ -137,7 +137,7 @@ def _add(bench: Bench, loaded: Loaded, request: Request) -> _Step:
     named, removed = addition(request.effect, loaded.job, registry, registry.effects, _PLACE)
     edit = edit_effects(bench.path, loaded.job, registry, add=named, remove=removed)
     added = named.choice.identifier
-    refuse_useless(added, bench.history(loaded)[-1], _tried(bench, loaded, edit), loaded.job)
+    refuse_useless(added, bench.whole(loaded), _tried(bench, loaded, edit), loaded.job)
     return _Step(edit, request.effect)
 
 
@@ -238,7 +238,7 @@ def _put_back(bench: Bench, loaded: Loaded, last: Entry | None) -> _Step:
 def _tried(bench: Bench, loaded: Loaded, edit: Edit) -> Fitted:
     """Return the fit of the job as it is to become; refuse one that makes no sense."""
     try:
-        return bench.history(bench.tried(edit.job))[-1]
+        return bench.whole(bench.tried(edit.job))
     except InputError as error:  # its places are those of the job as it would be
         place = loaded.job.place_of(_KEY)
         raise InputError(Problem(place, each.message) for each in error.problems) from error

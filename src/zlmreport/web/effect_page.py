@@ -48,7 +48,7 @@ def effect_page(bench: Bench, loaded: Loaded, identifier: str, language: Languag
     effect = next((each for each in bench.registry.effects if each.identifier == identifier), None)
     if effect is None:
         return None
-    fit = bench.history(loaded)[-1].fit
+    fit = bench.whole(loaded).fit
     present = identifier in fit.model.identifiers
     return {
         "effect": identifier,

@@ -10,6 +10,7 @@ import numpy as np
 
 from zlmreport import pipeline
 from zlmreport.certificate.conformity import STATEMENTS
+from zlmreport.certificate.results import Evaluated
 from zlmreport.compensation.basis import FittedModel, compensated
 from zlmreport.evaluation.evaluation import Parameter
 from zlmreport.evaluation.statistics import position_statistics
@@ -40,21 +41,21 @@ class Panels:
         The job with its readings.
     registry
         The installed plugins.
-    history
-        The model, effect by effect.
+    whole
+        The whole model.
     language
         Of the page.
     """
 
     loaded: Loaded
     registry: Registry
-    history: Sequence[Fitted]
+    whole: Fitted
     language: Language
 
     @property
     def design(self) -> Design:
         """The test."""
-        return self.history[-1].fit.design
+        return self.whole.fit.design
 
     @property
     def writer(self) -> Writer:
@@ -67,11 +68,11 @@ class Panels:
 
     def error(self) -> list[dict[str, str]]:
         """Return how far model and readings are apart, number by number."""
-        return error_values(ErrorRows.of(self.history[-1].error, self.design.axis, self.language))
+        return error_values(ErrorRows.of(self.whole.error, self.design.axis, self.language))
 
     def effects(self) -> list[dict[str, Any]]:
         """Return the effects of the model with their parameters."""
-        fit = self.history[-1].fit
+        fit = self.whole.fit
         return [
             {
                 "effect": term.effect.identifier,
@@ -88,19 +89,25 @@ class Panels:
 
     def others(self) -> list[dict[str, str]]:
         """Return the installed effects that do not stand in the model, and can be tried on this test."""
-        present = set(self.history[-1].fit.model.identifiers)
+        present = set(self.whole.fit.model.identifiers)
         return [
             {"effect": each.identifier, "title": self.say(each.title)}
             for each in self.registry.effects
             if each.identifier not in present and each.untestable(self.design) is None
         ]
 
-    def fall(self) -> dict[str, Any]:
-        """Return how the error fell, effect by effect, down to the noise floor."""
+    def fall(self, history: Sequence[Fitted]) -> dict[str, Any]:
+        """Return how the error fell, effect by effect, down to the noise floor.
+
+        Parameters
+        ----------
+        history
+            The fits of no effect, of the first, of the first two ….
+        """
         unit = self.design.axis.deviation_unit
-        largest = max(each.error.rms for each in self.history) or 1.0
-        names = ["", *self.history[-1].fit.model.identifiers]
-        floor = self.history[-1].error.noise_rms
+        largest = max(each.error.rms for each in history) or 1.0
+        names = ["", *self.whole.fit.model.identifiers]
+        floor = self.whole.error.noise_rms
         return {
             "unit": unit.symbol,
             "rows": [
@@ -110,16 +117,22 @@ class Panels:
                     "share": each.error.rms / largest,
                     "left_out": self._deviation(each.error.cross_validated_rms),
                 }
-                for name, each in zip(names, self.history, strict=True)
+                for name, each in zip(names, history, strict=True)
             ],
             "floor": None
             if floor is None
             else {"rms": self._deviation(floor), "share": min(1.0, floor / largest)},
         }
 
-    def standards(self) -> list[dict[str, Any]]:
-        """Return the parameters of each standard: now, by a table of positions, and by the whole model."""
-        study, whole = self.loaded.study, self.history[-1].fit
+    def standards(self, results: Sequence[Evaluated]) -> list[dict[str, Any]]:
+        """Return the parameters of each standard: now, by a table of positions, and by the whole model.
+
+        Parameters
+        ----------
+        results
+            Of the job's standards, in their order.
+        """
+        study, whole = self.loaded.study, self.whole.fit
         tests = [
             compensated(FittedModel(study.measurements, study.observed, whole)),
             corrected(study.measurements, study.observed, whole),
@@ -127,7 +140,7 @@ class Panels:
         statistics = position_statistics(np.stack([test.deviations() for test in tests]))
         found = []
         for (standard, options), evaluated in zip(
-            pipeline.standards(self.loaded.job, self.registry), self.loaded.evaluated, strict=True
+            pipeline.standards(self.loaded.job, self.registry), results, strict=True
         ):
             forecast = standard.arithmetic(statistics, options).parameters
             parameters = evaluated.evaluation.parameters
@@ -147,7 +160,7 @@ class Panels:
 
     def moving(self) -> str:
         """Return the sentence on effects that no table takes away; empty if there are none."""
-        return no_table_takes_away(self.history[-1].fit, self.language)
+        return no_table_takes_away(self.whole.fit, self.language)
 
     def excluded(self) -> list[dict[str, str]]:
         """Return the readings that the job sets aside, each with its value and the reason."""

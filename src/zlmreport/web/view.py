@@ -49,8 +49,8 @@ def view(bench: Bench, loaded: Loaded, language: Language) -> dict[str, Any]:
     language
         Of the page.
     """
-    history = bench.history(loaded)
-    panels = Panels(loaded, bench.registry, history, language)
+    whole = bench.whole(loaded)
+    panels = Panels(loaded, bench.registry, whole, language)
     entries = Journal.beside(bench.path).entries()
     steps = undoable(entries, loaded.digest), redoable(entries, loaded.digest)
     return {
@@ -59,13 +59,10 @@ def view(bench: Bench, loaded: Loaded, language: Language) -> dict[str, Any]:
         "number": loaded.job.keys.certificate.number,
         "subject": _subject(loaded.job, language),
         "file": bench.path.name,
-        "graphs": graphs(loaded.study, history[-1], language),
+        "graphs": graphs(loaded.study, whole, language),
         "error": panels.error(),
         "effects": panels.effects(),
         "others": panels.others(),
-        "fall": panels.fall(),
-        "standards": panels.standards(),
-        "moving": panels.moving(),
         "excluded": panels.excluded(),
         "offered": offered(bench, loaded, language),
         "steps": [step(each, language) for each in reversed(entries[-_SHOWN:])],
@@ -82,6 +79,17 @@ def view(bench: Bench, loaded: Loaded, language: Language) -> dict[str, Any]:
             name: None if entry is None else _done(entry).in_language(language)
             for name, entry in zip((UNDO, REDO), steps, strict=True)
         },
+    }
+
+
+def results(bench: Bench, loaded: Loaded, language: Language) -> dict[str, Any]:
+    """Return what takes longer than the graphs: how the error fell, and what the standards say."""
+    panels = Panels(loaded, bench.registry, bench.whole(loaded), language)
+    return {
+        "stamp": loaded.stamp,
+        "fall": panels.fall(bench.history(loaded)),
+        "standards": panels.standards(bench.evaluated(loaded)),
+        "moving": panels.moving(),
     }
 
 
