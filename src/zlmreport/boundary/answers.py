@@ -140,6 +140,11 @@ def read(source: Guarded, answer: Any, _options: Any, context: Any) -> Measureme
     return of
 
 
+def proposals(_source: Guarded, answer: Any, *_: Any) -> tuple[Any, ...]:
+    """Take every proposal now: a generator would run elsewhere."""
+    return _all_of(door.SourceProposal, answer)
+
+
 def whole(of: MeasurementSet) -> None:
     """Refuse a measurement set whose parts do not belong together, or whose readings are no numbers."""
     targets = _finite(of.target_positions, (np.size(of.target_positions),), "target positions")
@@ -304,6 +309,7 @@ ACCEPTED: Mapping[tuple[str, str], Callable[..., Any]] = MappingProxyType(
         ("standard", "requirements"): requirements,
         ("standard", "figures"): figures,
         ("source", "read"): read,
+        ("source", "proposals"): proposals,
         ("renderer", "render"): render,
         ("effect", "columns"): columns,
         ("effect", "grid"): grid,

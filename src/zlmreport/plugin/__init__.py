@@ -199,6 +199,7 @@ if TYPE_CHECKING:
         PartProgram,
         Renderer,
         SourceContext,
+        SourceProposal,
         Standard,
     )
     from zlmreport.presenting.writer import Writer
@@ -414,6 +415,7 @@ __all__ = [
     "Shape",
     "SourceContext",
     "SourceFile",
+    "SourceProposal",
     "Standard",
     "Stroke",
     "SvgCanvas",
@@ -647,7 +649,8 @@ _ROOMS = {
     "zlmreport.model.report": "report_error report_model",
     "zlmreport.plugin.kinds": "hookimpl",
     "zlmreport.plugin.protocols": (
-        "Connection Controller DataSource Instrument PartProgram Renderer SourceContext Standard"
+        "Connection Controller DataSource Instrument PartProgram Renderer SourceContext SourceProposal "
+        "Standard"
     ),
     "zlmreport.quantities.arrays": "BoolArray FloatArray read_only_floats",
     "zlmreport.quantities.formatting": "DecimalSign MINUS_SIGN=MINUS fixed_number general_number",

@@ -103,12 +103,30 @@ class SourceContext:
     set_ups: Mapping[str, Any] = field(default_factory=dict)
 
 
+@dataclass(frozen=True, slots=True)
+class SourceProposal:
+    """Job keys by which a data source may read a file, for ``zlmreport look``.
+
+    Attributes
+    ----------
+    keys
+        Beside ``plugin`` and ``file``.
+    asks
+        What only the file's author can say, in sentences: a sign, a unit.
+    """
+
+    keys: Mapping[str, Any] = field(default_factory=dict)
+    asks: tuple[str, ...] = ()
+
+
 @runtime_checkable
 class DataSource(Protocol):
     """A reader of measurements.
 
-    One more attribute may stand beside these: ``suffixes`` of its files, ``(".csv",)``, by which a file that
-    nobody names a data source for finds its reader; its key ``file`` names the file then.
+    Two more attributes may stand beside these: ``suffixes`` of its files, ``(".csv",)``, by which a file that
+    nobody names a data source for finds its reader; its key ``file`` names the file then. And, where files of
+    one kind are laid out in many ways, ``proposals(file)`` which returns the `SourceProposal` of each way in
+    which a file may be read, the likeliest first.
 
     Attributes
     ----------

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from pathlib import Path
 
 from zlmreport.plugin import (
     MeasurementSet,
@@ -10,6 +11,7 @@ from zlmreport.plugin import (
     Problem,
     Provenance,
     SourceContext,
+    SourceProposal,
     Words,
     collect_readings,
     read_text,
@@ -97,6 +99,12 @@ class LaserCsv:
     title = Words(en="Table of readings (CSV)", de="Messwerttabelle (CSV)")
     options: type[Options] = LaserCsvOptions
     suffixes = (".csv", ".tsv", ".txt")
+
+    def proposals(self, file: Path) -> Iterable[SourceProposal]:
+        """Return the keys by which a table that somebody else laid out may be read."""
+        from zlmreport_plugins.sources.laser_csv.guess import proposals  # noqa: PLC0415 - only to look at one
+
+        return proposals(file)
 
     def read(self, options: LaserCsvOptions, context: SourceContext) -> MeasurementSet:
         """Read a table; raise `InputError` with every defect and its place."""

@@ -35,6 +35,7 @@ _COMMANDS: Mapping[str, tuple[str, Callable[[str], CommandParser]]] = MappingPro
         "fleet rebuild": ("make the ledger of a fleet again from its certificates", documents.fleet_rebuild),
         "fleet report": ("write the overview of a fleet: who fails, who drifts", documents.fleet_report),
         "init": ("write a commented job with sample data that runs as it is", documents.init),
+        "look": ("say what a file of measurements holds, and the keys that read it", documents.look),
         "model": (
             "fit a job's error model, find what it lacks, add it, watch the error fall",
             documents.model,

@@ -90,6 +90,25 @@ def init(command: str) -> CommandParser:
         "example:\n  zlmreport init first && zlmreport first/job.yaml",
     )
     parser.add_argument("directory", metavar="DIR", type=Path, help="folder; it is made if it is not there")
+    parser.add_argument(
+        "--from",
+        dest="origin",
+        metavar="FILE",
+        type=Path,
+        help="measurements that there are: a job that reads them is written instead (see zlmreport look)",
+    )
+    return parser
+
+
+def look(command: str) -> CommandParser:
+    """Return the parser of ``zlmreport look``."""
+    parser = CommandParser(
+        f"zlmreport {command}",
+        "Say what a file of measurements holds, what only its author can say of it, and the source:\n"
+        "block of a job that reads it. A workbook is saved as CSV first.",
+        "example:\n  zlmreport look x-axis.csv\n  zlmreport init --from x-axis.csv job",
+    )
+    parser.add_argument("file", metavar="FILE", type=Path, help="a table, or a file of an instrument")
     return parser
 
 

@@ -1,0 +1,126 @@
+"""``zlmreport look``: the block it proposes reads the file, and ``init --from`` writes a job that runs."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from cli.commands import Shop
+from environments import ROOT
+from zlmreport.cli import main
+from zlmreport.cli.look import look
+from zlmreport.errors import ZlmreportError
+from zlmreport.plugins import find_plugins
+
+REGISTRY = find_plugins({})
+LONG = "target,direction,run,deviation\n0,+,1,1.5\n100,+,1,2.5\n100,-,1,0.5\n0,-,1,-0.5\n"
+GERMAN = (
+    "Prüfling: Fräsmaschine\nBediener: Müller\n\n"
+    "Sollposition;Richtung;Messlauf;Abweichung (mm);Bemerkung\n"
+    "0,0;auf;1;0,0015;kalt\n100,0;auf;1;0,0025;\n100,0;ab;1;0,0005;warm\n0,0;ab;1;-0,0005;\n"
+    "Ende des Protokolls\n"
+)
+WIDE = "Position\tRun 1 fwd\tRun 1 bwd\tMean\n0\t1.5\t-0.5\t0.5\n100\t2.5\t0.5\t1.5\n".replace(
+    "Position", "Target"
+)
+POSITIONS = "Soll;1+;1-\n0;0,0015;-0,0005\n100;100,0025;100,0005\n"
+ACTUAL = "nominal,actual,dir,cycle\n0,0.0015,up,1\n100,100.0025,up,1\n100,100.0005,down,1\n0,-0.0005,down,1\n"
+TABLES: dict[str, tuple[bytes, dict[str, Any]]] = {
+    "the usual": (LONG.encode(), {}),
+    "a German protocol": (
+        GERMAN.encode("cp1252"),
+        {
+            "encoding": "cp1252",
+            "columns": {
+                "target": "Sollposition",
+                "direction": "Richtung",
+                "run": "Messlauf",
+                "deviation": "Abweichung",
+            },
+            "ignore": ["Bemerkung"],
+            "lines": [4, 8],
+        },
+    ),
+    "UTF-16": (LONG.replace(",", "\t").encode("utf-16"), {"encoding": "utf-16"}),
+    "a wide table": (WIDE.encode(), {"layout": "wide", "ignore": ["Mean"]}),
+    "a wide table of positions": (
+        POSITIONS.encode(),
+        {"layout": "wide", "values": "position", "columns": {"target": "Soll"}},
+    ),
+    "actual positions": (
+        ACTUAL.encode(),
+        {"columns": {"target": "nominal", "position": "actual", "direction": "dir", "run": "cycle"}},
+    ),
+}
+
+
+@pytest.fixture
+def table(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Any:
+    """Return a function that writes a table to a folder of its own, and gives its path."""
+    monkeypatch.chdir(tmp_path)
+
+    def written(content: bytes) -> Path:
+        path = tmp_path / "from shop" / "x-axis.csv"
+        path.parent.mkdir()
+        path.write_bytes(content)
+        return path
+
+    return written
+
+
+@pytest.mark.parametrize("kind", TABLES)
+def test_table_is_read_by_the_keys_that_are_proposed(kind: str, table: Any) -> None:
+    content, keys = TABLES[kind]
+    looked = look(table(content), REGISTRY)
+    assert (looked.source.identifier, looked.proposal.keys) == ("laser-csv", keys)
+    np.testing.assert_allclose(
+        looked.read.deviations()[:, :, 0] * 1e6, [[1.5, 2.5], [-0.5, 0.5]], rtol=0, atol=1e-7
+    )
+
+
+@pytest.mark.parametrize("kind", TABLES)
+def test_job_that_is_written_runs(kind: str, table: Any, capsys: pytest.CaptureFixture[str]) -> None:
+    path = table(TABLES[kind][0])
+    assert main(["init", "--from", str(path), "job"]) == 0
+    assert main(["check", "job/job.yaml"]) == 0, capsys.readouterr().err
+    assert main(["init", "--from", str(path), "job"]) != 0  # nothing that is there is touched
+
+
+def test_what_nobody_can_see_in_a_file_is_asked(table: Any, capsys: pytest.CaptureFixture[str]) -> None:
+    table(b"target,run,deviation\n0,1,1.5\n100,1,2.5\n")
+    assert main(["look", "from shop/x-axis.csv"]) == 0
+    printed = capsys.readouterr().out
+    for part in ("sign: nominal-actual", "units: {deviation: mm}", "Were all readings taken upwards?"):
+        assert part in " ".join(printed.split())
+    assert printed.endswith('source:\n  plugin: laser-csv\n  file: x-axis.csv\n  direction: "+"\n')
+
+
+def test_unit_that_stands_in_the_header_is_not_asked(table: Any) -> None:
+    asked = " ".join(look(table(TABLES["a German protocol"][0]), REGISTRY).proposal.asks)
+    assert "sign:" in asked
+    assert "units:" not in asked
+
+
+def test_files_of_instruments_find_their_readers() -> None:
+    data = ROOT / "tests" / "data" / "sources"
+    found = {
+        name: look(data / name, REGISTRY).source.identifier
+        for name in ("bidirectional.rtl", "ecmc_13e6c326.dat")
+    }
+    assert found == {"bidirectional.rtl": "renishaw-rtl", "ecmc_13e6c326.dat": "ecmc"}
+
+
+@pytest.mark.parametrize("content", [b"", b"nothing but words\n", bytes(range(256)), b"1,2,3\n4,5,6\n"])
+def test_file_that_nobody_reads_is_told_with_its_name(content: bytes, table: Any) -> None:
+    path = table(content)
+    with pytest.raises(ZlmreportError, match=r"x-axis\.csv"):
+        look(path, REGISTRY)
+
+
+def test_file_that_is_not_there_is_told(shop: Shop) -> None:
+    run = shop.run("look", "none.csv")
+    assert (run.code, run.output) == (3, "")
+    assert run.messages.startswith("none.csv: ")
