@@ -204,4 +204,4 @@ def test_a_contest_without_contestants_finds_nothing() -> None:
     observed = observations(DESIGN, known(DESIGN) + noise(DESIGN))
     step = compared(fit(USUAL, observed.design, observed.deviation), [])
     assert step.best is None
-    assert isinstance(step.null, NullDistribution)
+    assert step.visible == ()

@@ -24,7 +24,7 @@ from zlmreport.model.residual_means import flagged
 from zlmreport.model.residual_tests import failures, residual_tests
 from zlmreport.model.residuals import Failure, residuals_of
 from zlmreport.model.steps import Step, add, discriminate_by, equals_of, is_impossible, named_effects, steps
-from zlmreport.model.visibility import Visibility, visibility
+from zlmreport.model.visibility import Visibility
 from zlmreport.quantities.arrays import IntArray
 
 #: Candidates that are shown, the leaders in any case.
@@ -281,7 +281,7 @@ def diagnose(
         unnamed=_unnamed(found) if verdict is Verdict.UNEXPLAINED else None,
         not_testable=not_testable,
         not_excluded=_not_excluded(candidates, not_testable),
-        visibility=visibility(first.comparison, kept.design, first.null, first.ratios, first.noise.sigma),
+        visibility=first.visible,
         outliers=observed.reading[aside.readings],
         remarks=(
             *observed.remarks,

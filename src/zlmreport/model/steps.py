@@ -16,10 +16,10 @@ from zlmreport.model.estimate import Plausibility
 from zlmreport.model.evidence import EXPLAINED, FURTHER, MENTION, NAMED, Ranked, Ranking, evidence_of, rank
 from zlmreport.model.fit import Fit, fit
 from zlmreport.model.noise import Noise
-from zlmreport.model.null_distribution import LEVEL, NullDistribution, PValue, simulate_null
+from zlmreport.model.null_distribution import LEVEL, PValue, simulate_null
 from zlmreport.model.repeats import resolution
 from zlmreport.model.search import Thetas
-from zlmreport.quantities.arrays import FloatArray
+from zlmreport.model.visibility import Visibility, visibility
 
 #: Effects that a diagnosis adds on trial, one after another.
 _MOST_STEPS = 3
@@ -42,12 +42,10 @@ class Step:
     ----------
     fit
         The model.
-    comparison, null
-        What the plan can see beside it, and what chance would give.
-    ratios : (parts,) array
-        φ̂ of the noise, held to what noise may be.
+    visible
+        How much of each effect the plan can see beside it.
     noise
-        The same with σ̂.
+        Held to what noise may be.
     ranking
         The order of the effects.
     p_value
@@ -55,9 +53,7 @@ class Step:
     """
 
     fit: Fit
-    comparison: Comparison
-    null: NullDistribution
-    ratios: FloatArray
+    visible: tuple[Visibility, ...]
     noise: Noise
     ranking: Ranking
     p_value: PValue
@@ -115,12 +111,12 @@ def compared(fitted: Fit, effects: Iterable[Effect], first: Fit | None = None) -
     null = simulate_null(comparison, design, ratios)
     scores = comparison.scores(deviation[:, np.newaxis], known)
     evidence = evidence_of(comparison, design, deviation, least_visible, known)
+    sigma = float(np.sqrt(variance))
+    # The comparison itself is not kept: of a large test, two of them would fill the memory.
     return Step(
         fitted,
-        comparison,
-        null,
-        ratios,
-        Noise(float(np.sqrt(variance)), by_source, fitted.noise.weights),
+        visibility(comparison, design, null, ratios, sigma),
+        Noise(sigma, by_source, fitted.noise.weights),
         _possible(fitted, rank(comparison, design, scores, evidence, null)),
         null.p_value(scores),
     )
