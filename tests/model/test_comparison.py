@@ -22,7 +22,7 @@ from zlmreport.model.contrasts import contrasts_of
 from zlmreport.model.evidence import Evidence, evidence_of
 from zlmreport.model.fit import fit
 from zlmreport.model.noise import noise_parts
-from zlmreport.model.null_distribution import TRIALS, NullDistribution, simulate_null
+from zlmreport.model.null_distribution import TRIALS, simulate_null
 from zlmreport.model.steps import compared
 from zlmreport.quantities.arrays import FloatArray
 

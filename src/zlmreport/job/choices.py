@@ -10,6 +10,7 @@ from pydantic import Field, create_model
 
 from zlmreport.errors import InputError, Place, Problem
 from zlmreport.job.fields import keys_in, model_in
+from zlmreport.job.formula_keys import FormulaKeys
 from zlmreport.job.installed import Installed, InstalledEffect, InstalledProgram
 from zlmreport.job.sentences import shown
 from zlmreport.job.tree import Entry, Items, Keys, Node, Scalar, keys_of
@@ -65,7 +66,10 @@ def instrument_choice(
     return InstrumentChoice(instrument.identifier, options, place) if options else None
 
 
-_SHAPE = "an effect is its name, or {name: {parameter: value}} for one whose parameters are given"
+_SHAPE = (
+    "an effect is its name, or {name: {parameter: value}} for one whose parameters are given, or "
+    "{name: …, formula: …, parameters: …}"
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,9 +79,9 @@ class EffectChoice:
     Attributes
     ----------
     identifier
-        Of an installed effect.
+        Of an installed effect, or of one that is written as a formula.
     settings
-        Its own keys, validated by its options class.
+        Its own keys, validated by its options class; `FormulaKeys` of a formula.
     values
         Parameters that are given, by name, in the users' units: of a model they are fixed.
     place
@@ -88,6 +92,11 @@ class EffectChoice:
     settings: Options
     values: Mapping[str, float]
     place: Place
+
+    @property
+    def is_formula(self) -> bool:
+        """Whether no plugin provides it."""
+        return isinstance(self.settings, FormulaKeys)
 
 
 def effect_choices(
@@ -114,9 +123,14 @@ def _effects(
     items: Sequence[Node], registry: Installed, problems: list[Problem], within: str
 ) -> Iterator[EffectChoice]:
     for item in items:
+        if isinstance(item, Keys) and "formula" in item.entries:
+            choice = _formula(item, registry, problems, within)
+            if choice:
+                yield choice
+            continue
         named = _named_effect(item)
         if named is None:
-            problems.append(Problem(item.place, f"{within}: {shown(item)} is no effect; {_SHAPE}"))
+            problems.append(_no_effect(item, within))
             continue
         identifier, keys = named
         try:
@@ -127,6 +141,41 @@ def _effects(
         choice = _effect(effect, replace(keys, place=item.place), problems, f"{within}.{identifier}")
         if choice:
             yield choice
+
+
+def _no_effect(item: Node, within: str) -> Problem:
+    """Say what is wrong with an item of a list of effects that names none."""
+    if isinstance(item, Keys) and len(item.entries) == 1:
+        (entry,) = item.entries.values()
+        return Problem(
+            entry.value.place, f"{within}.{entry.key}: {shown(entry.value)} is not a group of keys"
+        )
+    return Problem(item.place, f"{within}: {shown(item)} is no effect; {_SHAPE}")
+
+
+def _formula(item: Keys, registry: Installed, problems: list[Problem], within: str) -> EffectChoice | None:
+    """Return an effect that is written as a formula."""
+    keys = validate(FormulaKeys, item, problems, within=within)
+    if keys is None:
+        return None
+    if keys.name in {effect.identifier for effect in registry.effects}:
+        sentence = f"{within}.name: {keys.name} is an installed effect; call the formula otherwise"
+        problems.append(Problem(item.entries["name"].value.place, sentence))
+        return None
+    values = {name: each.value for name, each in keys.parameters.items() if each.value is not None}
+    return EffectChoice(keys.name, keys, values, item.place)
+
+
+def candidate_choices(
+    listed: Node | None, registry: Installed, problems: list[Problem], *, within: str
+) -> tuple[EffectChoice, ...]:
+    """Return the formulas of a list of candidates; as `effect_choices`, and each must be a formula."""
+    found = effect_choices(listed, registry, problems, within=within)
+    for each in found:
+        if not each.is_formula:
+            sentence = f"{within}: {each.identifier} is installed, and tried in any case; list formulas here"
+            problems.append(Problem(each.place, sentence))
+    return found
 
 
 def _named_effect(item: Node) -> tuple[str, Keys] | None:

@@ -36,7 +36,7 @@ from zlmreport.job.text import decoded
 from zlmreport.job.tree import Items, Node, Scalar, walk
 
 #: The list of a model.
-EFFECTS = ListKey("model", "effects")
+EFFECTS, CANDIDATES = ListKey("model", "effects"), ListKey("model", "candidates")
 
 
 @dataclass(frozen=True, slots=True)

@@ -46,6 +46,11 @@ def edit_parameter(path: Path, job: Job, registry: Installed, wanted: ParameterC
     """
     effect, parameter, value = wanted.effect, wanted.name, wanted.value
     found = [index for index, choice in enumerate(job.effects) if choice.identifier == effect]
+    if found and job.effects[found[0]].is_formula:
+        place = job.effects[found[0]].place
+        raise InputError.at(
+            place, f"{effect} is a formula; write the value of {parameter} among its parameters"
+        )
     installed = registry.effect(effect, job.place_of(str(EFFECTS)))
     form = installed.with_settings(job.effects[found[0]].settings) if found else installed
     if not found or parameter not in {each.name for each in (*form.linear, *form.searched)}:

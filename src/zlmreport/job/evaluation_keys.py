@@ -209,8 +209,12 @@ class DecisionRuleKeys(JobPart):
 class Model(JobPart):
     """The error model of the axis."""
 
-    effects: list[str | dict[str, dict[str, Any] | None]] = Field(
+    effects: list[str | dict[str, Any]] = Field(
         default_factory=list,
-        description="Effects in the model; a mapping fixes parameters.",
+        description="Effects in the model; a mapping fixes parameters, or writes an effect as a formula.",
         examples=[["offset", "scale-error", "backlash"]],
+    )
+    candidates: list[dict[str, Any]] = Field(
+        default_factory=list,
+        description="Effects written as formulas, which a diagnosis tries beside the installed ones.",
     )

@@ -98,6 +98,7 @@ class Job:
     directory: Path
     files: tuple[SourceFile, ...]
     source_as_found: SourceChoice | None = None
+    candidates: tuple[EffectChoice, ...] = ()
     programs: tuple[ProgramChoice, ...] = ()
     extensions: tuple[ExtensionChoice, ...] = ()
     controller: ControllerChoice | None = None

@@ -7,7 +7,13 @@ from dataclasses import replace
 from pathlib import Path
 
 from zlmreport.errors import InputError, Place, Problem, did_you_mean
-from zlmreport.job.choices import controller_choice, effect_choices, instrument_choice, program_choices
+from zlmreport.job.choices import (
+    candidate_choices,
+    controller_choice,
+    effect_choices,
+    instrument_choice,
+    program_choices,
+)
 from zlmreport.job.contradictions import contradictions
 from zlmreport.job.extends import JOB, Defaults, compose, refuse_other_format
 from zlmreport.job.extensions import extension_choices
@@ -25,6 +31,7 @@ from zlmreport.quantities.units import ANGLE_UNITS, MICRORADIAN, MILLIMETRE
 _SOURCE = ("measurement", "source")
 _SOURCE_AS_FOUND = ("as_found", "measurement", "source")
 _EFFECTS = ("model", "effects")
+_CANDIDATES = ("model", "candidates")
 _PROGRAMS = ("plan", "programs")
 _COMPENSATION = ("compensation",)
 
@@ -70,6 +77,9 @@ def load(
     source_as_found = _source(tree, _SOURCE_AS_FOUND, registry, problems)
     standards = list(standard_choices(tree, registry, problems))
     effects = effect_choices(found_at(tree, _EFFECTS), registry, problems, within=".".join(_EFFECTS))
+    candidates = candidate_choices(
+        found_at(tree, _CANDIDATES), registry, problems, within=".".join(_CANDIDATES)
+    )
     programs = program_choices(
         found_at(tree, _PROGRAMS), registry.part_program, problems, within=".".join(_PROGRAMS)
     )
@@ -98,6 +108,7 @@ def load(
             for choice, each in zip(standards, keys.evaluate, strict=True)
         ),
         effects=effects,
+        candidates=candidates,
         programs=programs,
         extensions=extensions,
         controller=controller,

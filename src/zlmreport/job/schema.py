@@ -11,6 +11,7 @@ from pydantic.errors import PydanticInvalidForJsonSchema
 from zlmreport.job.evaluation_keys import DecisionRuleKeys, StandardKeys
 from zlmreport.job.extensions import group_model
 from zlmreport.job.fields import model_at
+from zlmreport.job.formula_keys import FormulaKeys
 from zlmreport.job.installed import Installed, InstalledEffect, InstalledStandard, WithKeys
 from zlmreport.job.keys import JobKeys
 from zlmreport.job.measurement_keys import SourceKeys
@@ -54,12 +55,15 @@ def job_schema(registry: Installed) -> Schema:
         "description": rule["description"],
         "anyOf": [{"enum": rule["properties"]["rule"]["enum"]}, rule],
     }
+    formula = _own_keys(FormulaKeys, "formula", definitions)
     definitions["Model"]["properties"]["effects"]["items"] = {
         "anyOf": [
             {"enum": [effect.identifier for effect in registry.effects]},
             *(_effect(effect, definitions) for effect in registry.effects),
+            formula,
         ]
     }
+    definitions["Model"]["properties"]["candidates"]["items"] = formula
     if registry.controllers:
         definitions[ControllerKeys.__name__] = {
             "description": definitions[ControllerKeys.__name__]["description"],

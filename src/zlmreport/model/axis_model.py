@@ -7,13 +7,16 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from zlmreport.errors import did_you_mean
+from zlmreport.errors import InputError, did_you_mean
 from zlmreport.job.choices import EffectChoice
+from zlmreport.job.formula_keys import FormulaKeys
 from zlmreport.language import Language
 from zlmreport.measurement.axis import AxisKind
 from zlmreport.model.design import Design
 from zlmreport.model.effect import Effect, Parameter, unit_of
+from zlmreport.model.formula import FormulaEffect
 from zlmreport.quantities.arrays import BoolArray, FloatArray
+from zlmreport.quantities.formula import FormulaError
 
 #: A combination of columns this much shorter than its longest member is zero but for rounding.
 _ROUNDING = 1e-10
@@ -204,6 +207,22 @@ def refuse_collisions(model: AxisModel, columns: Sequence[FloatArray]) -> None:
         raise ModelError(list(dict.fromkeys(sentences)))
 
 
+def chosen_effect(choice: EffectChoice, find: Callable[[str], Effect], kind: AxisKind) -> Effect:
+    """Return an effect that a file names or writes as a formula, in the form that it asks for.
+
+    Raises
+    ------
+    InputError
+        If a formula is not meant for an axis of this kind.
+    """
+    if not isinstance(choice.settings, FormulaKeys):
+        return find(choice.identifier).with_settings(choice.settings)
+    try:
+        return FormulaEffect(choice.settings, kind)
+    except FormulaError as error:
+        raise InputError.at(choice.place, f"{choice.identifier}: {error}") from error
+
+
 def chosen_terms(
     choices: Iterable[EffectChoice], find: Callable[[str], Effect], kind: AxisKind
 ) -> tuple[Term, ...]:
@@ -218,10 +237,10 @@ def chosen_terms(
     kind
         Of the axis, for the units.
     """
-    return tuple(_term(choice, find(choice.identifier), kind) for choice in choices)
+    return tuple(_term(choice, find, kind) for choice in choices)
 
 
-def _term(choice: EffectChoice, effect: Effect, kind: AxisKind) -> Term:
-    term = Term(effect.with_settings(choice.settings))
+def _term(choice: EffectChoice, find: Callable[[str], Effect], kind: AxisKind) -> Term:
+    term = Term(chosen_effect(choice, find, kind))
     units = {parameter.name: unit_of(parameter.dimension, kind) for parameter in term.parameters}
     return Term(term.effect, {name: value / units[name].per_si for name, value in choice.values.items()})

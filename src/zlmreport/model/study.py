@@ -9,13 +9,14 @@ import numpy as np
 
 from zlmreport.errors import InputError, Place, Problem
 from zlmreport.job.choices import EffectChoice
-from zlmreport.job.edit import NamedEffect, named_effect
+from zlmreport.job.edit import CANDIDATES, NamedEffect, listed_items, named_effect
+from zlmreport.job.formula_keys import FormulaKeys
 from zlmreport.job.installed import Installed
 from zlmreport.job.job import Job
 from zlmreport.language import Language, Words
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.model import wording
-from zlmreport.model.axis_model import AxisModel, ModelError, chosen_terms
+from zlmreport.model.axis_model import AxisModel, ModelError, chosen_effect, chosen_terms
 from zlmreport.model.diagnosis import Diagnosis, ErrorNumbers, diagnose, error_numbers
 from zlmreport.model.effect import Effect, Shape
 from zlmreport.model.estimate import Estimate, InstrumentError
@@ -24,6 +25,7 @@ from zlmreport.model.harmonic import Harmonic, harmonics
 from zlmreport.model.observations import Observations, observations_of, thinned
 from zlmreport.model.outliers import outliers
 from zlmreport.quantities.arrays import read_only_floats
+from zlmreport.quantities.formula import names_in, parse_formula
 
 #: Coverage factor of the instrument's uncertainty as a job states it.
 _COVERAGE_FACTOR = 2.0
@@ -84,12 +86,12 @@ class Study:
         effects
             All that are installed.
         """
-        by_identifier = {effect.identifier: effect for effect in effects}
+        find = {effect.identifier: effect for effect in effects}.__getitem__
         return cls(
             job,
             measurements,
-            AxisModel(chosen_terms(job.effects, by_identifier.__getitem__, job.axis.kind)),
-            observations_of(measurements),
+            AxisModel(chosen_terms(job.effects, find, job.axis.kind)),
+            _with_feed(observations_of(measurements), job),
             Assumptions(instrument=instrument_error(job)),
         )
 
@@ -98,9 +100,11 @@ class Study:
         return self._fitted(self.model)
 
     def diagnosis(self, effects: Sequence[Effect]) -> Diagnosis:
-        """Return the diagnosis: every installed effect is tried."""
+        """Return the diagnosis: every installed effect is tried, and every formula that the job lists."""
+        find = {effect.identifier: effect for effect in effects}.__getitem__
+        own = [chosen_effect(each, find, self.job.axis.kind) for each in self.job.candidates]
         try:
-            return diagnose(self.model, self.observed, effects, self.assumptions)
+            return diagnose(self.model, self.observed, [*effects, *own], self.assumptions)
         except ModelError as error:
             raise InputError(self._problems(error)) from error
 
@@ -139,6 +143,20 @@ class Study:
         return self.job.place_of(_KEY)
 
 
+def _with_feed(observed: Observations, job: Job) -> Observations:
+    """Return observations with the feed of the job beside them, where a formula has it and no log does."""
+    feed = job.keys.measurement.feed
+    used = any(
+        isinstance(each.settings, FormulaKeys) and "v" in names_in(parse_formula(each.settings.formula))
+        for each in (*job.effects, *job.candidates)
+    )
+    if not used or feed is None or "v" in observed.design.conditions:
+        return observed
+    log = read_only_floats(np.full(len(observed.deviation), feed))
+    conditions = {**observed.design.conditions, "v": log}
+    return replace(observed, design=replace(observed.design, conditions=conditions))
+
+
 def instrument_error(job: Job) -> InstrumentError:
     """Return the error of the instrument as a job states it; none if it is not stated as a number."""
     stated = job.keys.instrument.expanded_uncertainty if job.keys.instrument else None
@@ -155,7 +173,7 @@ def addition(
     Parameters
     ----------
     text
-        ``backlash``, or ``polynomial: {order: 5}`` as in a job.
+        ``backlash``, or ``polynomial: {order: 5}`` as in a job, or the name of a formula of its candidates.
     job
         To whose model it is to be added.
     registry, effects
@@ -168,14 +186,21 @@ def addition(
     InputError
         If there is no such effect, or it stands in the model already.
     """
-    named = named_effect(text, registry, place)
+    named = _listed(text.strip(), job) or named_effect(text, registry, place)
     identifier = named.choice.identifier
     for choice in job.effects:
         if _meaning(choice) == _meaning(named.choice):
             raise InputError.at(choice.place, f"{identifier} stands in the model already")
-    contains = next(each.contains for each in effects if each.identifier == identifier)
+    contains = next((each.contains for each in effects if each.identifier == identifier), ())
     replaced = {identifier, *contains}
     return named, tuple(each.identifier for each in job.effects if each.identifier in replaced)
+
+
+def _listed(name: str, job: Job) -> NamedEffect | None:
+    """Return a formula of a job's candidates by its name."""
+    nodes = listed_items(job, CANDIDATES)
+    pairs = zip(nodes, job.candidates, strict=True)
+    return next((NamedEffect(node, choice) for node, choice in pairs if choice.identifier == name), None)
 
 
 def refuse_useless(added: str, before: Fitted, after: Fitted, job: Job) -> None:

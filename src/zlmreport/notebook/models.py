@@ -307,7 +307,8 @@ class Model:
         if isinstance(effect, Candidate):
             effect = {effect.effect: effect.settings}
         (choice,) = _chosen([effect])
-        replaced = {choice.identifier, *registry().effect(choice.identifier).contains}
+        contains = () if choice.is_formula else registry().effect(choice.identifier).contains
+        replaced = {choice.identifier, *contains}
         kept = [each for each in self._choices if each.identifier not in replaced]
         return _fitted(self.data, [*kept, choice], self._assumptions)
 

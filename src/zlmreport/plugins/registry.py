@@ -158,7 +158,7 @@ class Registry:
             (kinds.SOURCE, each.identifier) for each in (job.source, job.source_as_found) if each
         ]
         used.extend((kinds.STANDARD, choice.identifier) for choice in job.standards)
-        used.extend((kinds.EFFECT, choice.identifier) for choice in job.effects)
+        used.extend((kinds.EFFECT, choice.identifier) for choice in job.effects if not choice.is_formula)
         return {identifier: self.origin(kind, identifier).release for kind, identifier in used}
 
     def _loaded(self, candidate: Candidate) -> Any:

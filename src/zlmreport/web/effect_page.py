@@ -45,10 +45,11 @@ _PERIODS = 6.0
 
 def effect_page(bench: Bench, loaded: Loaded, identifier: str, language: Language) -> dict[str, Any] | None:
     """Return what there is to say of an effect; None if it is not installed."""
-    effect = next((each for each in bench.registry.effects if each.identifier == identifier), None)
+    fit = bench.whole(loaded).fit
+    known = (*bench.registry.effects, *(term.effect for term in fit.model.terms))
+    effect = next((each for each in known if each.identifier == identifier), None)
     if effect is None:
         return None
-    fit = bench.whole(loaded).fit
     present = identifier in fit.model.identifiers
     return {
         "effect": identifier,

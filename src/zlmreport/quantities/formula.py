@@ -1,0 +1,318 @@
+"""Formulas of parameters and readings: parsed, held against their units, computed; never executed.
+
+A formula is a text of numbers, names, the four operations, powers and a few functions. It becomes a tree of
+frozen values, of which each name and each operation is known: nothing in it can call anything else.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from types import MappingProxyType
+from typing import NamedTuple, TypeAlias
+
+import numpy as np
+
+from zlmreport.errors import did_you_mean
+from zlmreport.quantities.arrays import FloatArray
+
+_LONGEST, _DEEPEST = 500, 40
+_TOKEN = re.compile(
+    r"\s*(?:(\d+\.?\d*(?:[eE][-+]?\d+)?|\.\d+(?:[eE][-+]?\d+)?)|([^\W\d]\w*)|(\*\*|[-+*/^(),]))"
+)
+
+CONSTANTS = MappingProxyType({"pi": np.pi})
+_PURE: Mapping[str, Callable[[FloatArray], FloatArray]] = {
+    "sin": np.sin,
+    "cos": np.cos,
+    "tan": np.tan,
+    "atan": np.arctan,
+    "exp": np.exp,
+    "log": np.log,
+    "tanh": np.tanh,
+}
+_OF_ANY: Mapping[str, Callable[[FloatArray], FloatArray]] = {
+    "sign": np.sign,
+    "step": lambda values: np.heaviside(values, 1.0),
+}
+_LIKE_ITS_OWN: Mapping[str, Callable[..., FloatArray]] = {
+    "abs": np.abs,
+    "min": np.minimum,
+    "max": np.maximum,
+}
+_ARGUMENTS = {"min": 2, "max": 2}
+FUNCTIONS = (*_PURE, *_OF_ANY, *_LIKE_ITS_OWN, "sqrt")
+_OPERATIONS: Mapping[str, Callable[..., FloatArray]] = {
+    "+": np.add,
+    "-": np.subtract,
+    "*": np.multiply,
+    "/": np.divide,
+    "^": np.power,
+    "sqrt": np.sqrt,
+    **_PURE,
+    **_OF_ANY,
+    **_LIKE_ITS_OWN,
+}
+
+
+class FormulaError(ValueError):
+    """What is wrong with a formula, fit to stand behind the place where it is written."""
+
+
+class Extent(NamedTuple):
+    """What a value is made of: powers of travel (length or angle), time and temperature."""
+
+    travel: Fraction = Fraction(0)
+    time: Fraction = Fraction(0)
+    temperature: Fraction = Fraction(0)
+
+    def __str__(self) -> str:
+        parts = [
+            name if power == 1 else f"{name}^{power}"
+            for name, power in zip(self._fields, self, strict=True)
+            if power
+        ]
+        return "·".join(parts) or "a number"
+
+    def combined(self, other: Extent, sign: int = 1) -> Extent:
+        """Return the extent of a product, or with −1 of a quotient."""
+        return Extent(*(mine + sign * its for mine, its in zip(self, other, strict=True)))
+
+    def raised(self, power: Fraction) -> Extent:
+        """Return the extent of a power."""
+        return Extent(*(each * power for each in self))
+
+
+NUMBER = Extent()
+TRAVEL, TIME, TEMPERATURE = Extent(Fraction(1)), Extent(time=Fraction(1)), Extent(temperature=Fraction(1))
+
+
+@dataclass(frozen=True, slots=True)
+class Number:
+    """A number, as it is written."""
+
+    value: float
+
+
+@dataclass(frozen=True, slots=True)
+class Name:
+    """A parameter, a variable of the readings, or a logged column."""
+
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Call:
+    """An operation, or a function, with its arguments."""
+
+    operation: str
+    arguments: tuple[Tree, ...]
+
+
+Tree: TypeAlias = Number | Name | Call
+
+
+class UnitOf(NamedTuple):
+    """The unit of a name: what it is made of, and how many of the unit make one in SI."""
+
+    extent: Extent
+    per_si: float = 1.0
+
+
+def parse_formula(text: str) -> Tree:
+    """Return a formula as a tree.
+
+    Raises
+    ------
+    FormulaError
+        If it is none.
+    """
+    if len(text) > _LONGEST:
+        raise FormulaError(f"a formula has at most {_LONGEST} characters; this one has {len(text)}")
+    tokens = list(_tokens(text))
+    tree, rest = _sum(tokens, 0, 0)
+    if rest < len(tokens):
+        raise FormulaError(f"{tokens[rest]!r} cannot stand there; an operation is missing before it")
+    return tree
+
+
+def _tokens(text: str) -> Iterator[str]:
+    place, text = 0, text.rstrip()
+    while place < len(text):
+        found = _TOKEN.match(text, place)
+        if found is None:
+            raise FormulaError(f"{text[place:].lstrip()[:1]!r} means nothing in a formula")
+        place = found.end()
+        yield found.group().strip().replace("**", "^")
+
+
+def _sum(tokens: list[str], place: int, depth: int) -> tuple[Tree, int]:
+    left, place = _product(tokens, place, depth)
+    while place < len(tokens) and tokens[place] in "+-":
+        right, after = _product(tokens, place + 1, depth)
+        left, place = Call(tokens[place], (left, right)), after
+    return left, place
+
+
+def _product(tokens: list[str], place: int, depth: int) -> tuple[Tree, int]:
+    left, place = _signed(tokens, place, depth)
+    while place < len(tokens) and tokens[place] in "*/":
+        right, after = _signed(tokens, place + 1, depth)
+        left, place = Call(tokens[place], (left, right)), after
+    return left, place
+
+
+def _signed(tokens: list[str], place: int, depth: int) -> tuple[Tree, int]:
+    if depth > _DEEPEST:
+        raise FormulaError(f"it is nested deeper than {_DEEPEST} levels")
+    if place < len(tokens) and tokens[place] in "+-":
+        value, after = _signed(tokens, place + 1, depth + 1)
+        return (Call("*", (Number(-1.0), value)) if tokens[place] == "-" else value), after
+    base, place = _atom(tokens, place, depth + 1)
+    if place < len(tokens) and tokens[place] == "^":
+        power, place = _signed(tokens, place + 1, depth + 1)
+        return Call("^", (base, power)), place
+    return base, place
+
+
+def _atom(tokens: list[str], place: int, depth: int) -> tuple[Tree, int]:
+    if place == len(tokens):
+        raise FormulaError("it ends where a number, a name or a bracket is expected")
+    found = tokens[place]
+    if found[0].isdigit() or found[0] == ".":
+        return Number(float(found)), place + 1
+    if found == "(":
+        inner, place = _sum(tokens, place + 1, depth + 1)
+        return inner, _closed(tokens, place)
+    if not (found[0].isalpha() or found[0] == "_"):
+        raise FormulaError(f"{found!r} cannot stand there; a number, a name or a bracket is expected")
+    if place + 1 < len(tokens) and tokens[place + 1] == "(":
+        return _function(tokens, place, depth)
+    return (Number(CONSTANTS[found]) if found in CONSTANTS else Name(found)), place + 1
+
+
+def _function(tokens: list[str], place: int, depth: int) -> tuple[Tree, int]:
+    name, place = tokens[place], place + 1
+    if name not in FUNCTIONS:
+        raise FormulaError(f"there is no function {name!r}; {did_you_mean(name, FUNCTIONS)}")
+    arguments = []
+    while not arguments or (place < len(tokens) and tokens[place] == ","):
+        argument, place = _sum(tokens, place + 1, depth + 1)
+        arguments.append(argument)
+    wanted = _ARGUMENTS.get(name, 1)
+    if len(arguments) != wanted:
+        raise FormulaError(f"{name} takes {wanted} argument{'s' * (wanted > 1)}, not {len(arguments)}")
+    return Call(name, tuple(arguments)), _closed(tokens, place)
+
+
+def _closed(tokens: list[str], place: int) -> int:
+    if place == len(tokens) or tokens[place] != ")":
+        raise FormulaError("a bracket is not closed")
+    return place + 1
+
+
+def names_in(tree: Tree) -> tuple[str, ...]:
+    """Return the names in a formula, each once, in their order."""
+    if isinstance(tree, Name):
+        return (tree.text,)
+    if isinstance(tree, Number):
+        return ()
+    return tuple(dict.fromkeys(name for each in tree.arguments for name in names_in(each)))
+
+
+def in_si(tree: Tree, units: Mapping[str, UnitOf]) -> tuple[Tree, Extent]:
+    """Return a formula for values in SI, and what its value is made of.
+
+    A bare number beside a name, as in ``axis_temperature - 20`` or ``P - 300``, is in the unit of the name.
+
+    Raises
+    ------
+    FormulaError
+        If quantities are added that cannot be, or a function takes none of its kind.
+    """
+    if isinstance(tree, Number):
+        return tree, NUMBER
+    if isinstance(tree, Name):
+        return tree, units[tree.text].extent
+    inner = [in_si(each, units) for each in tree.arguments]
+    trees, extents = tuple(each for each, _ in inner), [each for _, each in inner]
+    operation = tree.operation
+    if operation in {"+", "-", "min", "max"}:
+        return _alike(operation, trees, extents, units)
+    return Call(operation, trees), _extent(operation, trees, extents)
+
+
+def _extent(operation: str, trees: tuple[Tree, ...], extents: list[Extent]) -> Extent:
+    """Return what the value of any other operation is made of."""
+    if operation in {"*", "/"}:
+        return extents[0].combined(extents[1], 1 if operation == "*" else -1)
+    if operation in {"^", "sqrt"}:
+        return _raised(operation, trees, extents)
+    if operation in _PURE and extents[0] != NUMBER:
+        raise FormulaError(f"{operation} takes a number, not {extents[0]}; divide by a parameter of it")
+    return extents[0] if operation in _LIKE_ITS_OWN else NUMBER
+
+
+def _raised(operation: str, trees: tuple[Tree, ...], extents: list[Extent]) -> Extent:
+    if operation == "sqrt":
+        return extents[0].raised(Fraction(1, 2))
+    if extents[1] != NUMBER:
+        raise FormulaError(f"a power is a number, not {extents[1]}")
+    if extents[0] == NUMBER:
+        return NUMBER
+    power = _constant(trees[1])
+    if power is None:
+        raise FormulaError(f"a power of {extents[0]} must be written as a number")
+    return extents[0].raised(Fraction(power).limit_denominator(64))
+
+
+def _alike(
+    operation: str, trees: tuple[Tree, ...], extents: list[Extent], units: Mapping[str, UnitOf]
+) -> tuple[Tree, Extent]:
+    if extents[0] == extents[1]:
+        return Call(operation, trees), extents[0]
+    for bare, other in ((0, 1), (1, 0)):
+        value = _constant(trees[bare])
+        if value is None:
+            continue
+        named = trees[other]
+        scale = units[named.text].per_si if isinstance(named, Name) else 1.0
+        if value == 0 or isinstance(named, Name) or extents[other] in {TIME, TEMPERATURE}:
+            pair = [trees[0], trees[1]]
+            pair[bare] = Number(value / scale)
+            return Call(operation, tuple(pair)), extents[other]
+    raise FormulaError(
+        f"{extents[0]} and {extents[1]} cannot be joined by {operation}; write a number as a parameter"
+    )
+
+
+def _constant(tree: Tree) -> float | None:
+    return None if names_in(tree) else float(computed(tree, {}))
+
+
+def computed(tree: Tree, values: Mapping[str, FloatArray | float]) -> FloatArray:
+    """Return the value of a formula, an infinity or NaN where it has none."""
+    if isinstance(tree, Number):
+        return np.asarray(tree.value)
+    if isinstance(tree, Name):
+        return np.asarray(values[tree.text], dtype=np.float64)
+    with np.errstate(all="ignore"):
+        return np.asarray(
+            _OPERATIONS[tree.operation](*(computed(each, values) for each in tree.arguments)),
+            dtype=np.float64,
+        )
+
+
+def terms_of(tree: Tree) -> tuple[tuple[Tree, ...], ...]:
+    """Return the products of which a formula is the sum, each by its factors."""
+    if not isinstance(tree, Call) or tree.operation not in {"+", "-", "*", "/"}:
+        return ((tree,),)
+    one, other = tree.arguments
+    if tree.operation == "/":
+        return tuple((*term, Call("/", (Number(1.0), other))) for term in terms_of(one))
+    if tree.operation == "*":
+        return tuple((*mine, *its) for mine in terms_of(one) for its in terms_of(other))
+    sign = (Number(-1.0),) if tree.operation == "-" else ()
+    return (*terms_of(one), *((*sign, *term) for term in terms_of(other)))

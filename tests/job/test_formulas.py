@@ -1,0 +1,112 @@
+"""Effects that a file writes as formulas: parsed, held against their units, never executed."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from pydantic import ValidationError
+
+from zlmreport.job.formula_keys import UNITS, Formula, FormulaKeys
+from zlmreport.measurement.axis import AxisKind
+from zlmreport.model.effect import Dimension, unit_of
+from zlmreport.quantities.formula import FormulaError, computed, parse_formula
+
+_UM: dict[str, Any] = {"unit": "um", "range": [-20, 20]}
+
+
+def _keys(formula: str, **parameters: dict[str, Any]) -> FormulaKeys:
+    return FormulaKeys(name="own", formula=formula, parameters=parameters or {"a": _UM})
+
+
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [
+        ("1 + 2*3", 7.0),
+        ("-2^2", -4.0),
+        ("2^-1", 0.5),
+        ("2**3**2", 512.0),
+        ("(1 - 2) - 3/4/5", -1.15),
+        ("max(0, -1) + min(2, 3)", 2.0),
+        ("sin(pi/2) + step(0) + abs(-.5e1)", 7.0),
+    ],
+)
+def test_formula_means_what_arithmetic_says(text: str, value: float) -> None:
+    assert float(computed(parse_formula(text), {})) == pytest.approx(value, rel=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        ("a*(P", "a bracket is not closed"),
+        ("a*", "it ends where a number"),
+        ("a P", "'P' cannot stand there"),
+        ("a*sine(P)", "there is no function 'sine'; did you mean 'sin'"),
+        ("max(a)", "max takes 2 arguments, not 1"),
+        ("a['x']", "'[' means nothing in a formula"),
+        ("a.real", "'.' means nothing in a formula"),
+        ("(" * 200 + "a", "nested deeper"),
+        ("a" * 501, "at most 500 characters"),
+    ],
+)
+def test_what_is_no_formula_is_refused(text: str, sentence: str) -> None:
+    with pytest.raises(FormulaError, match=sentence.replace("[", r"\[").replace(".", r"\.")):
+        parse_formula(text)
+
+
+@pytest.mark.parametrize(
+    ("formula", "parameters", "sentence"),
+    [
+        ("a*P", {"a": _UM}, "its value must be a deviation"),
+        ("a*sin(P)", {"a": _UM}, "sin takes a number, not travel"),
+        ("a + P/L", {"a": _UM, "L": {"unit": "mm", "range": [1, 2]}}, "travel and a number cannot be joined"),
+        ("P*P/L", {"L": {"unit": "mm", "range": [1, 2]}}, "each term must have a size"),
+        ("a*sin(P/L)", {"a": _UM, "L": {"unit": "mm"}}, "L is no factor of a whole term"),
+        ("a", {"a": _UM, "b": _UM}, "the parameter b does not stand in it"),
+        ("a*k", {"a": _UM, "k": {"unit": "1", "range": [1, 2]}}, "no readings could tell a, k apart"),
+        ("a", {"a": {"unit": "furlong"}}, "'furlong' is no unit"),
+        ("P", {"P": {"unit": "mm"}}, "cannot be called 'P'"),
+    ],
+)
+def test_formula_that_cannot_be_meant_is_refused(
+    formula: str, parameters: dict[str, Any], sentence: str
+) -> None:
+    with pytest.raises(ValidationError, match=sentence):
+        _keys(formula, **parameters)
+
+
+def test_bare_number_is_in_the_unit_of_the_name_beside_it() -> None:
+    formula = Formula.of(
+        _keys("k*(P - 300)*(axis_temperature - 20)", k={"unit": "um/(m K)"}), AxisKind.LINEAR
+    )
+    readings = {"P": np.array([0.5]), "axis_temperature": np.array([23.0])}
+    assert formula.values(readings, {}) == pytest.approx(0.2 * 3.0)
+
+
+def test_factors_of_whole_terms_are_solved_and_the_rest_is_searched() -> None:
+    keys = _keys(
+        "a*sin(2*pi*P/L) - D*(b*P + a*cos(2*pi*P/L))",
+        a=_UM,
+        b={"unit": "um/m"},
+        L={"unit": "mm", "range": [5, 50]},
+    )
+    formula = Formula.of(keys, AxisKind.LINEAR)
+    assert (formula.linear, formula.searched) == (("a", "b"), ("L",))
+    place, sign = np.array([0.1, 0.203]), np.array([1.0, -1.0])
+    angle = 2 * np.pi * place / 0.01
+    expected = np.column_stack([np.sin(angle) - sign * np.cos(angle), -sign * place])
+    np.testing.assert_allclose(formula.values({"P": place, "D": sign}, {"L": 0.01}), expected, rtol=1e-12)
+
+
+def test_formula_of_a_rotary_axis_is_in_angles() -> None:
+    keys = _keys("a*sin(2*pi*P/L)", a={"unit": "arcsec"}, L={"unit": "deg", "range": [5, 90]})
+    assert Formula.of(keys, AxisKind.ROTARY).linear == ("a",)
+    with pytest.raises(FormulaError, match="does not belong to a linear axis"):
+        Formula.of(keys, AxisKind.LINEAR)
+
+
+def test_every_unit_is_one_that_results_print() -> None:
+    for kind, units in UNITS.items():
+        printed = {unit_of(each, kind).ascii: unit_of(each, kind).per_si for each in Dimension}
+        assert {name: unit.per_si for name, unit in units.items()} == {name: printed[name] for name in units}
