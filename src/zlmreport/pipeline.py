@@ -172,7 +172,7 @@ def modelled(job: Job, measurements: MeasurementSet, registry: Registry) -> Mode
         history,
         diagnosis,
         forecasts(standards(job, registry), study, history),
-        {effect.identifier: effect.title for effect in registry.effects},
+        study.titles(registry.effects),
         study,
     )
 

@@ -201,3 +201,21 @@ def test_help_tells_every_action(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["model", "--help"]) == 0
     text = capsys.readouterr().out
     assert all(f"  {action} " in text for action in ("fit", "diagnose", "add", "remove", "history"))
+
+
+_FORMULA = """  candidates:
+    - name: my-wave
+      formula: "a*sin(2*pi*P/L) + b*cos(2*pi*P/L)"
+      parameters: {a: {unit: um}, b: {unit: um}, L: {unit: mm, range: [5, 50]}}
+"""
+
+
+def test_formula_is_tried_added_checked_and_certified(shop: Shop) -> None:
+    change(shop, (LAST, f"{LAST}{_FORMULA}"))
+    found = told(shop.run("model", "diagnose", "job.yaml", "--json"))
+    assert "my-wave" in [each["effect"] for each in (*found["candidates"], *found["not_testable"])]
+    assert shop.run("model", "add", "job.yaml", "my-wave").code == 0
+    model = told(shop.run("model", "fit", "job.yaml", "--json"))["model"]
+    assert [each["name"] for each in model["parameters"] if each["effect"] == "my-wave"] == ["a", "b", "L"]
+    assert shop.run("check", "job.yaml").code == 0
+    assert shop.run("job.yaml").code == 0
