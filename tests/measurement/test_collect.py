@@ -13,6 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from zlmreport.errors import InputError, Place, Problem
+from zlmreport.language import Language
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.measurement.collect import MOST_NAMED, Reading, collect
@@ -317,3 +318,28 @@ def test_the_order_of_readings_does_not_change_the_grid(order: list[int]) -> Non
     ]
     expected = collected(readings).deviations()
     np.testing.assert_array_equal(collected([readings[index] for index in order]).deviations(), expected)
+
+
+def test_positions_of_a_rotary_axis_count_modulo_a_turn() -> None:
+    # 359.99° for a target of 0° is −0.01°, 0.02° for one of 360° is +0.02°; half a turn and less is left alone
+    turn, shown = 2 * math.pi, math.radians(0.01)
+    readings = [
+        dataclasses.replace(reading(2), target_position=0.0, deviation=turn - shown),
+        dataclasses.replace(reading(3), target_position=turn, deviation=2 * shown - turn),
+        dataclasses.replace(reading(4), target_position=turn / 2, deviation=shown),
+    ]
+    measurements = collected(readings, Axis("C", AxisKind.ROTARY))
+    assert measurements.deviation == pytest.approx([-shown, 2 * shown, shown], abs=1e-15)
+    remarks = [each.in_language(Language.ENGLISH) for each in measurements.provenance.remarks]
+    assert "Whole turns were taken off 2 readings: positions were displayed modulo 360°." in remarks
+
+
+def test_missing_and_ordinary_readings_of_a_rotary_axis_are_as_they_were() -> None:
+    readings = [
+        dataclasses.replace(reading(2), target_position=0.0, deviation=math.nan),
+        dataclasses.replace(reading(3), target_position=1.0, deviation=1e-5),
+    ]
+    measurements = collected(readings, Axis("C", AxisKind.ROTARY))
+    assert np.isnan(measurements.deviation[0])
+    assert measurements.deviation[1] == 1e-5
+    assert all("Whole turns" not in each.en for each in measurements.provenance.remarks)

@@ -66,13 +66,16 @@ def _faults(measurements: MeasurementSet) -> tuple[Fault, ...]:
     """Return what the rows of a file themselves show to be wrong."""
     import numpy as np  # noqa: PLC0415 - the same
 
-    from zlmreport.model.faults import recorded_faults  # noqa: PLC0415 - only where data are checked
+    from zlmreport.model.faults import FaultKind, recorded_faults  # noqa: PLC0415 - only where data are checked
     from zlmreport.model.observations import observations_of  # noqa: PLC0415 - the same
 
     if np.all(np.isnan(measurements.deviation)):
         return ()
     observed = observations_of(measurements)
-    return tuple(each for each in recorded_faults(observed.design, observed.deviation) if each.is_sure)
+    found = recorded_faults(observed.design, observed.deviation)
+    return tuple(
+        each for each in found if each.is_sure or (each.kind is FaultKind.WRONG_UNIT and each.run is not None)
+    )
 
 
 def requirements(designation: str, found: Iterable[Finding], writer: Writer) -> Iterator[str]:

@@ -37,6 +37,10 @@ class LimitedQuantity(Protocol):
         """As jobs and results name it."""
 
     @property
+    def notation(self) -> str:
+        """As the standard prints it (`zlmreport.quantities.notation`)."""
+
+    @property
     def name(self) -> Words:
         """In the wording of the standard."""
 

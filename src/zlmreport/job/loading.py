@@ -26,6 +26,7 @@ from zlmreport.job.tree import Entry, Items, Keys, Node, Scalar, found_at, keys_
 from zlmreport.job.validate import validate
 from zlmreport.measurement.axis import Axis, position_units
 from zlmreport.measurement.position_table import TableColumn, read_position_table
+from zlmreport.quantities.notation import plain
 from zlmreport.quantities.units import ANGLE_UNITS, MICRORADIAN, MILLIMETRE
 
 _SOURCE = ("measurement", "source")
@@ -184,13 +185,15 @@ def _unknown_tolerances(keys: Keys, standard: InstalledStandard) -> Iterator[Pro
     tolerances = found_at(keys, ("tolerances",))
     limitable = [quantity.symbol for quantity in standard.quantities if quantity.can_be_limited]
     symbols = {quantity.symbol for quantity in standard.quantities}
+    printed = {plain(each.notation): each.symbol for each in standard.quantities if each.symbol in limitable}
     for symbol, entry in tolerances.entries.items() if isinstance(tolerances, Keys) else ():
         spelt = symbol.replace("↑", "_fwd").replace("↓", "_bwd")
         if symbol.isdecimal():
             yield Problem(entry.place, f"a comma parts keys: write {symbol} behind a decimal point")
             continue
-        if spelt != symbol and spelt in limitable:
-            yield Problem(entry.place, f"{quoted(symbol)} is written {spelt} in a job")
+        written = printed.get(symbol, spelt)
+        if written != symbol and written in limitable:
+            yield Problem(entry.place, f"{quoted(symbol)} is written {written} in a job")
             continue
         if symbol not in symbols:
             message = f"{quoted(symbol)} is no parameter of {standard.identifier}; "

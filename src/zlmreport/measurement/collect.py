@@ -11,7 +11,7 @@ import numpy as np
 from zlmreport.errors import InputError, Place, Problem
 from zlmreport.language import Words
 from zlmreport.measurement.approach import Approach
-from zlmreport.measurement.axis import Axis
+from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.measurement.checks import problems_of
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.measurement.provenance import Provenance
@@ -29,6 +29,10 @@ _MOST_RUNS = 1_000_000
 _NO_TIMES = Words(
     en="No times were logged: drift and warm-up cannot be judged from the readings.",
     de="Es wurden keine Zeiten aufgezeichnet: Drift und Warmlauf sind an den Messwerten nicht zu erkennen.",
+)
+_MODULO = Words(
+    en="Whole turns were taken off {count} readings: positions were displayed modulo 360°.",
+    de="Von {count} Messwerten wurden ganze Umdrehungen abgezogen: Die Positionen waren modulo 360° angezeigt.",
 )
 
 
@@ -135,6 +139,12 @@ def _wrong_alone(reading: Reading) -> Iterator[Problem]:
 def _arranged(readings: Sequence[Reading], axis: Axis, provenance: Provenance) -> MeasurementSet:
     """Return the readings as a measurement set that nobody has checked yet."""
     positions, target = _targets(np.array([reading.target_position for reading in readings]))
+    deviation = np.array([reading.deviation for reading in readings])
+    if axis.kind is AxisKind.ROTARY:
+        deviation, wrapped = _unwrapped(deviation)
+        if wrapped:
+            remark = _MODULO.given(count=wrapped)
+            provenance = replace(provenance, remarks=(*provenance.remarks, remark))
     names = list(dict.fromkeys(name for reading in readings for name in reading.conditions))
     conditions = {
         name: read_only_floats([reading.conditions.get(name, math.nan) for reading in readings])
@@ -150,11 +160,20 @@ def _arranged(readings: Sequence[Reading], axis: Axis, provenance: Provenance) -
         target=read_only_integers(target),
         approach=read_only_integers([reading.approach for reading in readings]),
         run=read_only_integers([int(reading.run) for reading in readings]),
-        deviation=read_only_floats([reading.deviation for reading in readings]),
+        deviation=read_only_floats(deviation),
         time=read_only_floats(times - logged[0]) if logged.size else None,
         conditions={name: values for name, values in conditions.items() if not np.all(np.isnan(values))},
         provenance=provenance,
     )
+
+
+def _unwrapped(deviation: FloatArray) -> tuple[FloatArray, int]:
+    """Return deviations without the whole turns in them, and how many had some.
+
+    A display that counts modulo 360° shows 359.99° for a target of 0°, and 0.01° for one of 360°.
+    """
+    turns = np.nan_to_num(np.round(deviation / (2 * math.pi)), posinf=0.0, neginf=0.0)
+    return np.where(turns == 0, deviation, deviation - 2 * math.pi * turns), int(np.count_nonzero(turns))
 
 
 def _targets(positions: FloatArray) -> tuple[FloatArray, IntArray]:
