@@ -321,7 +321,7 @@ def test_the_order_of_readings_does_not_change_the_grid(order: list[int]) -> Non
 
 
 def test_positions_of_a_rotary_axis_count_modulo_a_turn() -> None:
-    # 359.99° for a target of 0° is −0.01°, 0.02° for one of 360° is +0.02°; half a turn and less is left alone
+    # 359.99° for a target of 0° is −0.01°, 0.02° for one of 360° is +0.02°; the third is left alone
     turn, shown = 2 * math.pi, math.radians(0.01)
     readings = [
         dataclasses.replace(reading(2), target_position=0.0, deviation=turn - shown),

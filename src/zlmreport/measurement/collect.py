@@ -32,7 +32,8 @@ _NO_TIMES = Words(
 )
 _MODULO = Words(
     en="Whole turns were taken off {count} readings: positions were displayed modulo 360°.",
-    de="Von {count} Messwerten wurden ganze Umdrehungen abgezogen: Die Positionen waren modulo 360° angezeigt.",
+    de="Von {count} Messwerten wurden ganze Umdrehungen abgezogen: Die Positionen waren modulo 360° "
+    "angezeigt.",
 )
 
 
