@@ -112,6 +112,21 @@ CERTIFICATES = Table(
     Column("files", JSON, nullable=False),
 )
 
+#: What was new in a night; `told` has the ways by which people heard of it, and `ended` the night in which a
+#: condition was over.
+NEWS = Table(
+    "news",
+    METADATA,
+    Column("id", Integer, primary_key=True),
+    Column("fleet", String, nullable=False),
+    Column("night", ForeignKey("nights.id"), nullable=False),
+    Column("kind", String, nullable=False),
+    Column("subject", String, nullable=False),
+    Column("text", Text, nullable=False),
+    Column("told", JSON, nullable=False),
+    Column("ended", Integer),
+)
+
 
 #: That are copied at a time.
 _ROWS = 1000

@@ -22,6 +22,7 @@ from zlmreport.fleet.basis import Basis, KnownFile
 from zlmreport.fleet.database import (
     CERTIFICATES,
     ENTRIES,
+    NEWS,
     NIGHTS,
     PARAMETERS,
     Database,
@@ -30,7 +31,16 @@ from zlmreport.fleet.database import (
     locked,
     open_database,
 )
-from zlmreport.fleet.records import About, Entry, Notice, RecordedParameter, State, Subject
+from zlmreport.fleet.records import (
+    About,
+    Entry,
+    Kind,
+    News,
+    Notice,
+    RecordedParameter,
+    State,
+    Subject,
+)
 
 #: A night that has given no sign of life for so long does nothing any more.
 STUCK = dt.timedelta(minutes=15)
@@ -110,6 +120,61 @@ class Night:
         kept = [[each.about.value, each.text] for each in notices]
         with self.database.transaction() as connection:
             connection.execute(update(NIGHTS).where(NIGHTS.c.id == self.identity).values(notices=kept))
+
+    def report(self, news: Sequence[News], *, is_all: bool = True) -> None:
+        """Note what is new: what is not known yet, or had ended.
+
+        Parameters
+        ----------
+        news
+            All that is so now.
+        is_all
+            Whether a condition that is not among them has ended.
+        """
+        with self.database.transaction() as connection:
+            rows = connection.execute(select(NEWS).where(NEWS.c.fleet == self.fleet)).all()
+            known = {(row.kind, row.subject): row for row in rows if row.ended is None}
+            now = {(each.kind.value, each.subject): each for each in news}
+            over = [
+                row.id
+                for key, row in known.items()
+                if is_all and key not in now and Kind(row.kind).is_condition
+            ]
+            if over:
+                connection.execute(update(NEWS).where(NEWS.c.id.in_(over)).values(ended=self.identity))
+            new: list[dict[str, Any]] = [
+                {
+                    "fleet": self.fleet,
+                    "night": self.identity,
+                    "kind": each.kind.value,
+                    "subject": each.subject,
+                    "text": each.text,
+                    "told": [],
+                }
+                for key, each in now.items()
+                if key not in known
+            ]
+            if new:
+                connection.execute(insert(NEWS), new)
+
+    def untold(self, way: str) -> tuple[News, ...]:
+        """Return what nobody heard of by a way, oldest first."""
+        query = select(NEWS).where(NEWS.c.fleet == self.fleet).order_by(NEWS.c.id)
+        with self.database.transaction() as connection:
+            return tuple(
+                News(Kind(row.kind), row.subject, row.text)
+                for row in connection.execute(query)
+                if way not in row.told
+            )
+
+    def tell(self, way: str) -> None:
+        """Note that all news was told by a way."""
+        with self.database.transaction() as connection:
+            rows = connection.execute(select(NEWS).where(NEWS.c.fleet == self.fleet)).all()
+            for row in rows:
+                if way not in row.told:
+                    told = [*row.told, way]
+                    connection.execute(update(NEWS).where(NEWS.c.id == row.id).values(told=told))
 
     def end(self, ended: str) -> None:
         """Note that the night has come to its end."""

@@ -18,9 +18,13 @@ from zlmreport.fleet.cluster import Cluster
 from zlmreport.fleet.issuing import Desk, Happened, What, tidy
 from zlmreport.fleet.ledger import Ledger, Night, PastNight, Standing
 from zlmreport.fleet.making import Failed, Limits, Task, defaults_digest
+from zlmreport.fleet.news import digest, news_of, news_of_night, title
 from zlmreport.fleet.plan import Due, Evening, Planned, plan, reasons
 from zlmreport.fleet.pool import Pool
 from zlmreport.fleet.records import About, Notice, State, due_date
+from zlmreport.fleet.state import Night as PastRun
+from zlmreport.fleet.state import Rules, state_of
+from zlmreport.fleet.telling import NotToldError, tell
 from zlmreport.job.fleet import FleetFile, is_retired, job_files, number_of
 
 #: A job may take so many times as long as it ever took.
@@ -118,6 +122,8 @@ def spend(fleet: FleetFile, order: Order, watch: Watch) -> None:
         with ledger.night(_now(), str(fleet.path)) as night:
             if missing:
                 night.notice([missing.notice])
+                night.report(tuple(news_of_night([missing.notice])), is_all=False)
+                _tell(fleet, night, watch)
                 if not night.was_interrupted:  # else the next night still has to tidy up
                     night.end(_now())
                 raise MissingError.at(missing.place, missing.notice.text)
@@ -125,10 +131,49 @@ def spend(fleet: FleetFile, order: Order, watch: Watch) -> None:
             night.notice(noticed)
             for notice in noticed:
                 watch.noticed(notice)
-            _spend(
-                known, order, watch, _Work(night, gone, last.began if last else "", ends, ledger.longest())
-            )
+            before = last.began if last else ""
+            witness = _Witness(watch)
+            _spend(known, order, witness, _Work(night, gone, before, ends, ledger.longest()))
+            if witness.saw_something or noticed or (last and (last.notices or not last.ended)):
+                began = dt.datetime.fromisoformat(night.began)
+                rules = Rules(fleet.keys.interval, lambda job: is_retired(job, fleet))
+                names = [known.job_of(path) for path in jobs]
+                now = PastRun(began, None, noticed)
+                night.report(tuple(news_of(state_of(fleet.name, ledger.entries(), names, now, rules))))
+            _tell(fleet, night, watch)
             night.end(_now())
+
+
+@dataclass(slots=True)
+class _Witness:
+    """Passes on what happens, and remembers whether anything did."""
+
+    watch: Watch
+    saw_something: bool = False
+
+    def planned(self, jobs: Sequence[Planned]) -> None:
+        self.watch.planned(jobs)
+
+    def noticed(self, notice: Notice) -> None:
+        self.watch.noticed(notice)
+
+    def happened(self, happened: Happened) -> None:
+        self.saw_something |= happened.what is not What.UNCHANGED
+        self.watch.happened(happened)
+
+
+def _tell(fleet: FleetFile, night: Night, watch: Watch) -> None:
+    """Tell people what is new, each way once; what could not be told is told by the next night."""
+    for keys in fleet.keys.notify:
+        news = night.untold(keys.way)
+        if not news:
+            continue
+        try:
+            tell(keys, title(fleet.name, news), digest(news))
+        except NotToldError as error:
+            watch.noticed(Notice(About.UNTOLD, f"the news was not sent by {keys.way}: {error}"))
+        else:
+            night.tell(keys.way)
 
 
 def _notices(known: Evening, night: Night, gone: Sequence[str], last: PastNight | None) -> Iterator[Notice]:

@@ -48,6 +48,7 @@ ABOUTS = {
     About.FOLDER: Words(en="Folder of certificates", de="Ordner der Kalibrierscheine"),
     About.LEDGER: Words(en="Ledger", de="Verzeichnis"),
     About.CLOCK: Words(en="Clock", de="Uhr"),
+    About.UNTOLD: Words(en="News that was not sent", de="Nicht zugestellte Meldungen"),
     About.STUCK: Words(en="A run that hung", de="Ein Lauf, der hing"),
 }
 FAILED = Words(en="Failed", de="Fehlgeschlagen")

@@ -60,6 +60,44 @@ class About(StrEnum):
     CLOCK = "clock"
     #: The night before gave no sign of life.
     STUCK = "stuck"
+    #: News could not be sent.
+    UNTOLD = "untold"
+
+
+class Kind(StrEnum):
+    """Of news, in the order in which they are told."""
+
+    NIGHT = "the whole night"
+    FAILED = "failed"
+    NOT_MET = "limit not met"
+    CHANGED = "changed"
+    DRIFTING = "drifting"
+    OVERDUE = "overdue"
+    DRAFT = "draft"
+
+    @property
+    def is_condition(self) -> bool:
+        """Whether it ends, and is news again if it comes back; what a measurement says is news once."""
+        return self in {Kind.NIGHT, Kind.FAILED, Kind.NOT_MET, Kind.DRAFT}
+
+
+@dataclass(frozen=True, slots=True)
+class News:
+    """One event.
+
+    Attributes
+    ----------
+    kind
+        Of the event.
+    subject
+        What makes it this event and no other.
+    text
+        For people, in one line.
+    """
+
+    kind: Kind
+    subject: str
+    text: str
 
 
 @dataclass(frozen=True, slots=True)

@@ -18,6 +18,7 @@ from zlmreport.job.extends import FLEET, Defaults, compose, refuse_other_format
 from zlmreport.job.fields import keys_in
 from zlmreport.job.installed import InstalledExtension
 from zlmreport.job.keys import JobKeys
+from zlmreport.job.notify import NotifyKeys
 from zlmreport.job.parse import parse
 from zlmreport.job.references import LocatedText, path_named
 from zlmreport.job.text import quoted
@@ -170,6 +171,9 @@ class FleetKeys(JobPart):
         description="The ledger: an SQLite file, or the URL of a PostgreSQL database; the file's stem with "
         "`.ledger.db` without it.",
         examples=["postgresql+psycopg://zlmreport@server/fleet"],
+    )
+    notify: list[NotifyKeys] = Field(
+        default_factory=list, description="Who is told what is new after a night, and how."
     )
     log: LogKeys | None = Field(None, description="What is kept of each night for people.")
 
