@@ -41,7 +41,7 @@ def test_a_certificate_that_holds_is_told_with_what_that_rests_on(report: bytes,
     code, output, messages = run(report)
     assert (code, messages) == (0, "")
     head, identity, _, *others = output.splitlines()
-    assert head == "report.pdf  holds"
+    assert head == "report.pdf  holds: consistent, origin unknown"
     assert identity == "  Measuring Report VERIFY-1, issued 2026-11-20, made by zlmreport 0.1.0"
     assert others[0] == "  signature  not signed: nothing tells who made the file"
     assert others[1] == "  files      6 of 6 attached files as the certificate states"

@@ -20,6 +20,11 @@ def issued(tmp_path_factory: pytest.TempPathFactory) -> bytes:
     return issue(lay_out(tmp_path_factory.mktemp("issued")))
 
 
+@pytest.fixture(scope="session")
+def by_typst(tmp_path_factory: pytest.TempPathFactory) -> bytes:
+    return issue(lay_out(tmp_path_factory.mktemp("by-typst")), "pdf-typst")
+
+
 @pytest.fixture
 def verified(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[[bytes], Verification]:
     """Verify the bytes of a PDF; what the same files give is printed once for all tests."""

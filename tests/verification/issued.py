@@ -77,9 +77,9 @@ def lay_out(folder: Path, **changed: str) -> Path:
     return folder / "jobs" / "job.yaml"
 
 
-def issue(job: Path) -> bytes:
+def issue(job: Path, printed: str = "pdf") -> bytes:
     """Return the PDF of a job."""
-    outcome = pipeline.run(load(job, registry(), formats=("pdf",)), registry())
+    outcome = pipeline.run(load(job, registry(), formats=(printed,)), registry())
     return outcome.documents[0].content
 
 
@@ -117,7 +117,9 @@ def with_attachment(pdf: bytes, name: str, content: bytes) -> bytes:
         new["/Params"][NameObject("/CheckSum")] = ByteStringObject(
             md5(content, usedforsecurity=False).digest()
         )
-        entry["/EF"][NameObject("/F")] = writer._add_object(new)
+        reference = writer._add_object(new)
+        for key in list(entry["/EF"]):
+            entry["/EF"][NameObject(key)] = reference
 
     return altered(pdf, change)
 

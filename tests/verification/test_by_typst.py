@@ -5,19 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
-import pytest
-
 from verification.issued import (
     READINGS,
-    lay_out,
     page_with,
     registry,
     with_page_content,
     with_source,
 )
 from verification.test_verify import differing
-from zlmreport import pipeline
-from zlmreport.job.loading import load
 from zlmreport.plugin.protocols import made
 from zlmreport.plugins import DISABLE, find_plugins
 from zlmreport.verification import verify as verifying
@@ -26,28 +21,22 @@ from zlmreport.verification.findings import Verdict, Verification
 Verify = Callable[[bytes], Verification]
 
 
-@pytest.fixture(scope="module")
-def printed(tmp_path_factory: pytest.TempPathFactory) -> bytes:
-    job = load(lay_out(tmp_path_factory.mktemp("by-typst")), registry(), formats=("pdf-typst",))
-    return pipeline.run(job, registry()).documents[0].content
-
-
-def test_it_holds_as_it_was_issued(printed: bytes, verified: Verify) -> None:
-    found = verified(printed)
+def test_it_holds_as_it_was_issued(by_typst: bytes, verified: Verify) -> None:
+    found = verified(by_typst)
     assert found.holds
     verdicts = {each.verdict for each in (*found.files, *found.values, *found.pages, *found.document)}
     assert verdicts == {Verdict.HOLDS}
     assert len(found.pages) > 2
 
 
-def test_a_line_that_is_drawn_over_a_page_is_found(printed: bytes, verified: Verify) -> None:
-    page = page_with(printed, "Figure 1")
-    altered = with_page_content(printed, page, lambda content: content + b"\n0 0 m 100 100 l S\n")
+def test_a_line_that_is_drawn_over_a_page_is_found(by_typst: bytes, verified: Verify) -> None:
+    page = page_with(by_typst, "Figure 1")
+    altered = with_page_content(by_typst, page, lambda content: content + b"\n0 0 m 100 100 l S\n")
     assert differing(verified(altered)) == [f"page {page}"]
 
 
-def test_another_reading_is_found(printed: bytes, verified: Verify) -> None:
-    found = verified(with_source(printed, "x-axis.csv", READINGS.replace("1.3", "1.9").encode()))
+def test_another_reading_is_found(by_typst: bytes, verified: Verify) -> None:
+    found = verified(with_source(by_typst, "x-axis.csv", READINGS.replace("1.3", "1.9").encode()))
     assert "page 1" in differing(found)
 
 
@@ -59,10 +48,10 @@ def test_the_other_renderers_documents_are_not_taken_for_its_own() -> None:
 
 
 def test_where_its_renderer_is_missing_nothing_of_its_drawing_is_said_to_hold(
-    printed: bytes, tmp_path: Path
+    by_typst: bytes, tmp_path: Path
 ) -> None:
     path = tmp_path / "certificate.pdf"
-    path.write_bytes(printed)
+    path.write_bytes(by_typst)
     found = verifying.verify(path, find_plugins({DISABLE: "pdf_typst"}))
     assert Verdict.HOLDS not in {each.verdict for each in found.pages}
     assert {each.verdict for each in found.values} == {Verdict.HOLDS}

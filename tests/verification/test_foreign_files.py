@@ -172,7 +172,8 @@ def test_two_attachments_of_one_name_are_refused(verified: Verify) -> None:
     def attach(writer: PdfWriter) -> None:
         writer.add_attachment("same", b"1")
         writer.add_attachment("other", b"2")
-        specification(writer, "other")[NameObject("/UF")] = TextStringObject("same")
+        entry = specification(writer, "other")
+        entry[NameObject("/F")] = entry[NameObject("/UF")] = TextStringObject("same")
 
     assert "two files of the name 'same'" in refusal(verified, blank(attach))
 

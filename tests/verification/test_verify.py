@@ -26,7 +26,7 @@ from verification.issued import (
     with_results,
     with_source,
 )
-from zlmreport.verification.findings import Finding, Verdict, Verification
+from zlmreport.verification.findings import Finding, Outcome, Verdict, Verification
 
 Verify = Callable[[bytes], Verification]
 RESULTS = f"{NUMBER}.json"
@@ -117,8 +117,8 @@ def test_a_picture_that_is_put_over_a_page_is_found(issued: bytes, verified: Ver
         drawn.set_data(drawn.get_data() + b"\n/Over Do\n")
 
     found = verified(altered(issued, put))
-    assert differing(found) == ["page 2"]
-    assert "something is drawn on it" in finding(found, "page 2").detail
+    assert differing(found) == ["page 2", "structure of the file"]
+    assert "draws by a form" in finding(found, "page 2").detail
 
 
 def with_font(pdf: bytes, change: Callable[[TTFont], None]) -> bytes:
@@ -309,7 +309,9 @@ def test_a_program_that_runs_when_the_file_is_opened_is_found(issued: bytes, ver
         )
         writer.root_object[NameObject("/OpenAction")] = action
 
-    assert differing(verified(altered(issued, change))) == ["/OpenAction"]
+    found = verified(altered(issued, change))
+    assert differing(found) == ["structure of the file", "/OpenAction"]
+    assert "/OpenAction" in finding(found, "structure of the file").detail
 
 
 def test_results_that_state_a_key_twice_are_found(issued: bytes, verified: Verify) -> None:
@@ -326,15 +328,25 @@ def test_a_checksum_that_is_not_the_files_is_found(issued: bytes, verified: Veri
     assert differing(verified(altered(issued, change))) == [RESULTS]
 
 
-def test_numbers_of_another_release_are_compared_and_words_are_not(issued: bytes, verified: Verify) -> None:
+def test_what_another_release_worded_otherwise_is_not_decided(issued: bytes, verified: Verify) -> None:
     def older(results: dict[str, Any]) -> None:
         results["provenance"]["generator"] = "zlmreport 0.0.9"
         results["evaluations"][0]["parameters"][0]["name"] = "Worded otherwise"
 
     found = verified(with_results(issued, older))
-    assert found.holds
-    assert [each.subject for each in found.pages] == ["NMTBA (1972)"]
-    assert "other releases made the certificate" in found.remarks[0]
+    assert (found.outcome, found.undecided) == (Outcome.UNDECIDED, ("values",))
+    assert not found.holds
+    assert found.remarks[0].startswith("made by zlmreport 0.0.9, ")
+
+
+def test_an_uncertainty_of_another_release_that_cannot_be_repeated_is_not_decided(
+    issued: bytes, verified: Verify
+) -> None:
+    def older(results: dict[str, Any]) -> None:
+        results["provenance"]["generator"] = "zlmreport 0.0.9"
+        results["evaluations"][0]["parameters"][0]["expanded_uncertainty"] = 0.5
+
+    assert verified(with_results(issued, older)).outcome is Outcome.UNDECIDED
 
 
 def test_a_number_that_another_release_printed_wrongly_is_found(issued: bytes, verified: Verify) -> None:

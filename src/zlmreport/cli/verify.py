@@ -11,11 +11,12 @@ from typing import Any
 from zlmreport.cli.terminal import Colour, print_json, shown_path, table, visible
 from zlmreport.plugins import find_plugins
 from zlmreport.quantities.units import printed_symbol
-from zlmreport.verification.findings import Finding, Value, Verdict, Verification, is_number
+from zlmreport.verification.findings import Finding, Outcome, Value, Verdict, Verification, is_number
 from zlmreport.verification.verify import verify
 from zlmreport.version import __version__
 
-_DOES_NOT_HOLD = 1
+_CODES = {Outcome.HOLDS: 0, Outcome.DOES_NOT_HOLD: 1, Outcome.UNDECIDED: 5}
+_HOLDS = {Outcome.HOLDS: True, Outcome.DOES_NOT_HOLD: False, Outcome.UNDECIDED: None}
 _COLOURS = {Verdict.HOLDS: Colour.GREEN, Verdict.DIFFERS: Colour.RED, Verdict.OPEN: Colour.YELLOW}
 _MOST_LINES = 12
 _LONGEST_TEXT = 40
@@ -26,9 +27,9 @@ SCHEMA = "zlmreport/verification/1"
 
 
 def run(options: Namespace) -> int:
-    """Verify a certificate; return 1 if anything in it does not hold."""
+    """Verify a certificate; return 1 if anything in it does not hold, 5 if that cannot be decided here."""
     found = verify(options.certificate, find_plugins(files=options.plugin), options.dcc_schema)
-    code = 0 if found.holds else _DOES_NOT_HOLD
+    code = _CODES[found.outcome]
     if options.json:
         print_json(_values(options.certificate, found, code))
     else:
@@ -61,8 +62,12 @@ def _lines(path: Path, found: Verification) -> Iterator[str]:
 
 
 def _verdict(found: Verification) -> str:
-    if found.holds:
-        return Colour.GREEN.of("holds")
+    match found.outcome:
+        case Outcome.HOLDS:
+            return Colour.GREEN.of("holds") + ": consistent, origin unknown"
+        case Outcome.UNDECIDED:
+            parts = " and ".join(found.undecided)
+            return f"{Colour.YELLOW.of('not decided')}: {parts} could not be compared whole"
     count = found.differences
     return f"{Colour.RED.of('does not hold')}: {count} {'difference' if count == 1 else 'differences'}"
 
@@ -157,7 +162,10 @@ def _values(path: Path, found: Verification, exit_code: int) -> dict[str, Any]:
         "zlmreport": __version__,
         "exit_code": exit_code,
         "file": str(path),
-        "holds": found.holds,
+        "verdict": found.outcome.value,
+        "holds": _HOLDS[found.outcome],
+        "trusted": False,
+        "undecided": list(found.undecided),
         "differences": found.differences,
         "certificate": asdict(found.identity),
         "signature": _finding(found.signature),

@@ -179,7 +179,16 @@ def _carried(specification: Any, room: int, place: Place) -> Carried:
     name = str(specification.get("/UF") or specification.get("/F") or "")
     if _UNSAFE.search(name) or len(name) > _LONGEST_NAME:
         raise InputError.at(place, f"carries a file whose name is none: {name[:60]!a}")
-    stream = specification["/EF"].get_object()["/F"].get_object()
+    embedded = specification["/EF"].get_object()
+    stream = embedded["/F"].get_object()
+    if (
+        any(each.get_object() is not stream for each in embedded.values())
+        or len({str(specification[key]) for key in ("/F", "/UF") if key in specification}) > 1
+    ):
+        raise InputError.at(
+            place,
+            f"carries {name!r} with two names or two contents, one for some viewers; no certificate does",
+        )
     parameters = stream["/Params"].get_object() if "/Params" in stream else {}
     content = unpacked(stream, room)
     return Carried(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass, field
 from enum import StrEnum
 
@@ -13,6 +12,14 @@ class Verdict(StrEnum):
     HOLDS = "holds"
     DIFFERS = "differs"
     OPEN = "not compared"
+
+
+class Outcome(StrEnum):
+    """What a verification comes to."""
+
+    HOLDS = "holds"
+    DOES_NOT_HOLD = "does-not-hold"
+    UNDECIDED = "undecided"
 
 
 def is_number(value: object) -> bool:
@@ -94,6 +101,8 @@ class Verification:
         What else the file holds: metadata, bookmarks, structure with the alternative texts.
     remarks
         What limits the comparison.
+    is_signed
+        Whether there is a signature, be it intact or not.
     """
 
     identity: Identity
@@ -103,18 +112,36 @@ class Verification:
     pages: tuple[Finding, ...] = ()
     document: tuple[Finding, ...] = ()
     remarks: tuple[str, ...] = field(default=())
+    is_signed: bool = False
+
+    @property
+    def outcome(self) -> Outcome:
+        """Whether all holds; what could not be compared leaves it undecided."""
+        if self.differences:
+            return Outcome.DOES_NOT_HOLD
+        return Outcome.UNDECIDED if self.undecided else Outcome.HOLDS
 
     @property
     def holds(self) -> bool:
-        """Whether nothing differs."""
-        return all(verdict is not Verdict.DIFFERS for verdict in self._verdicts())
+        """Whether everything was compared, and nothing differs."""
+        return self.outcome is Outcome.HOLDS
+
+    @property
+    def undecided(self) -> tuple[str, ...]:
+        """The parts in which something could not be compared, such as ``("values", "pages")``."""
+        return tuple(name for name, verdicts in self._parts().items() if Verdict.OPEN in verdicts)
 
     @property
     def differences(self) -> int:
         """How many statements differ."""
-        return sum(verdict is Verdict.DIFFERS for verdict in self._verdicts())
+        return sum(verdicts.count(Verdict.DIFFERS) for verdicts in self._parts().values())
 
-    def _verdicts(self) -> Iterator[Verdict]:
-        yield self.signature.verdict
-        yield from (finding.verdict for finding in (*self.files, *self.pages, *self.document))
-        yield from (value.verdict for value in self.values)
+    def _parts(self) -> dict[str, list[Verdict]]:
+        """Return the verdicts of each part; that nobody signed leaves nothing of it open."""
+        is_unsigned = self.signature.verdict is Verdict.OPEN and not self.is_signed
+        findings = {"files": self.files, "pages": self.pages, "document": self.document}
+        return {
+            "signature": [] if is_unsigned else [self.signature.verdict],
+            "values": [value.verdict for value in self.values],
+            **{name: [each.verdict for each in found] for name, found in findings.items()},
+        }

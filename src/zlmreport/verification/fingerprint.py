@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Iterator, Mapping
+from itertools import zip_longest
 from typing import Any, TypeAlias
 
 from zlmreport.errors import InputError, Place
+from zlmreport.verification.increment import is_of_signature
 from zlmreport.verification.streams import TooLargeError, unpacked
 
 #: An object of pypdf.
@@ -51,13 +53,29 @@ class Fingerprints:
         self._streams: dict[int, bytes] = {}
 
     def of(self, part: PdfObject, without: frozenset[str] = frozenset()) -> str:
-        """Return the digest of an object with all that it leads to, but for what stands under some keys.
+        """Return the digest of an object with all that it leads to, but for what stands under some keys."""
+        digest = hashlib.sha256()
+        for each in self._tokens(part, without):
+            digest.update(each if type(each) is bytes else f"{each!r};".encode("utf-8", "replace"))
+        return digest.hexdigest()
+
+    def is_like(
+        self, part: PdfObject, other: Fingerprints, part_of_other: PdfObject, tolerance: float
+    ) -> bool:
+        """Whether two objects of two documents are the same, but for numbers that differ a little.
+
+        Whole numbers count and name things: they must agree.
+        """
+        ours, theirs = self._tokens(part), other._tokens(part_of_other)
+        return all(_is_like(one, two, tolerance) for one, two in zip_longest(ours, theirs, fillvalue=None))
+
+    def _tokens(self, part: PdfObject, without: frozenset[str] = frozenset()) -> Iterator[Any]:
+        """Yield what an object is made of, marks as bytes.
 
         The objects are walked without recursion: a foreign file may nest them as deep as it likes.
         """
         from pypdf.generic import DictionaryObject, IndirectObject  # noqa: PLC0415 - slow to load
 
-        digest = hashlib.sha256()
         met: dict[int, int] = {}
         waiting: list[Any] = [part]
         while waiting:
@@ -66,9 +84,9 @@ class Fingerprints:
             if isinstance(each, IndirectObject):
                 number = each.idnum
                 if number in self._pages:
-                    digest.update(f"page {self._pages[number]};".encode())
+                    yield f"page {self._pages[number]};".encode()
                 elif number in met:
-                    digest.update(f"again {met[number]};".encode())
+                    yield f"again {met[number]};".encode()
                 else:
                     met[number] = len(met)
                     waiting.append(each.get_object())
@@ -77,8 +95,7 @@ class Fingerprints:
             elif isinstance(each, list):
                 waiting.extend((b"]", *reversed(each), b"["))
             else:
-                digest.update(each if type(each) is bytes else f"{each!r};".encode("utf-8", "replace"))
-        return digest.hexdigest()
+                yield each
 
     def _entries(self, dictionary: PdfObject, without: frozenset[str]) -> Iterator[Any]:
         """Yield what a dictionary is made of: marks as bytes, and objects."""
@@ -118,14 +135,10 @@ class Fingerprints:
             raise InputError.at(self._place, "holds more objects than any certificate")
 
 
-def is_of_signature(item: PdfObject) -> bool:
-    """Whether an object is what a signature that nobody sees adds: its field, and its place in the structure.
-
-    A field that takes room on a page could cover what is printed there: it counts as a change of the page.
-    """
-    if not isinstance(item, dict):
-        return False
-    if item.get("/Subtype") == "/Widget" and item.get("/FT") == "/Sig":
-        left, bottom, right, top = item.get("/Rect", (0, 0, 1, 1))
-        return bool(left == right or bottom == top)
-    return bool(item.get("/S") == "/Form" and not {"/Alt", "/ActualText", "/E"} & item.keys())
+def _is_like(one: Any, other: Any, tolerance: float) -> bool:
+    if isinstance(one, float) or isinstance(other, float):
+        try:
+            return abs(float(one) - float(other)) <= tolerance
+        except (TypeError, ValueError):
+            return False
+    return type(one) is type(other) and bool(one == other)

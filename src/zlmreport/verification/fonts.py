@@ -1,54 +1,179 @@
-"""Whether two embedded fonts show the same: a font that draws a 3 for a 2 leaves a page's text as it is."""
+"""Whether two embedded fonts show the same: a font that draws a 3 for a 2 leaves a page's text as it is.
+
+A font is closed: every entry of it, its encoding and its map from codes to glyphs, must be that of the
+font printed again. Only what depends on the library that packs it may differ: its name's prefix, which other
+glyphs it has, and tables that nothing is drawn by. The glyphs are compared one by one.
+"""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Hashable, Mapping
+from collections.abc import Callable, Hashable, Mapping
 from io import BytesIO
 from itertools import count
 from typing import Any
 
 _MAPPED = re.compile(rb"<([0-9a-fA-F]{4})>\s*<([0-9a-fA-F]+)>")
+_SECTION = re.compile(rb"\d+\s+beginbfchar\b(.*?)\bendbfchar\b", re.DOTALL)
+#: What depends on the library that packs a font, or is compared glyph by glyph.
+_OWN_NAME = frozenset({"/BaseFont", "/FontName"})
+_GLYPHS = frozenset({"/DescendantFonts", "/ToUnicode", "/W", "/FontDescriptor", "/FontFile2", "/CIDSet"})
+#: Tables of a font program by which nothing is drawn once its outlines are.
+_NOT_DRAWN_BY = frozenset(
+    {"DSIG", "GDEF", "GPOS", "GSUB", "GlyphOrder", "OS/2", "cmap", "gasp", "kern", "name", "post"}
+)
+_OUTLINES = frozenset({"CFF ", "glyf", "head", "hhea", "hmtx", "loca", "maxp", "vhea", "vmtx"})
+#: Programs that move the points of outlines where these are fitted to pixels.
+_INSTRUCTIONS = frozenset({"cvt ", "fpgm", "prep"})
+
+#: The digest of an object of a PDF.
+Digest = Callable[[Any], str]
 
 
-def show_the_same(font: Any, again: Any, *, completely: bool) -> bool:
-    """Compare two fonts glyph by glyph: their shape, their width, and the text that they stand for.
-
-    Which other glyphs and tables a font has depends on the library that packed it.
+def show_the_same(font: Any, again: Any, digest: Digest, digest_again: Digest, *, completely: bool) -> bool:
+    """Compare two fonts entry by entry, and glyph by glyph: shape, width, and the text that it stands for.
 
     Parameters
     ----------
     font, again
         Fonts of pypdf, of the certificate and of the one printed again.
+    digest, digest_again
+        Return the digests of the objects of either document.
     completely
         Whether every glyph of the font printed again must be there; otherwise those that both have count.
     """
-    glyphs, glyphs_again = _glyphs(font), _glyphs(again)
-    codes = glyphs_again.keys() if completely else glyphs_again.keys() & glyphs.keys()
-    return all(glyphs.get(code) == glyphs_again[code] for code in codes)
+    parts, parts_again = _parts(font), _parts(again)
+    if parts is None or parts_again is None:
+        return False
+    for part, part_again in zip(parts, parts_again, strict=True):
+        if _entries(part, digest) != _entries(part_again, digest_again):
+            return False
+    (_, inner, described), (_, inner_again, described_again) = parts, parts_again
+    program, program_again = _program(described), _program(described_again)
+    if program is None or program_again is None or not _is_packed_alike(program, program_again):
+        return False
+    (frame, mapped), (frame_again, mapped_again) = _mapped(font), _mapped(again)
+    if frame != frame_again:
+        return False
+    widths, widths_again = _widths(inner["/W"]), _widths(inner_again["/W"])
+    codes = mapped_again.keys() | widths_again.keys()
+    if not completely:
+        codes &= mapped.keys() | widths.keys()
+    return all(
+        mapped.get(code) == mapped_again.get(code)
+        and widths.get(code) == widths_again.get(code)
+        and _outline(program, code) == _outline(program_again, code)
+        for code in codes
+    )
 
 
-def _glyphs(font: Any) -> Mapping[int, Hashable]:
-    """Return text, width and outline of each glyph that a font says a text of, by its code."""
-    from fontTools.pens.recordingPen import RecordingPen  # noqa: PLC0415 - slow to load
-    from fontTools.ttLib import TTFont  # noqa: PLC0415 - slow to load
+def glyphs(font: Any) -> Mapping[int, tuple[str, float, Hashable]]:
+    """Return the text, the width and the outline of each glyph that a font says a text of, by its code."""
+    parts = _parts(font)
+    program = _program(parts[2]) if parts else None
+    if parts is None or program is None:
+        raise ValueError("a font that is packed as in no certificate")
+    widths = _widths(parts[1]["/W"])
+    default = float(parts[1].get("/DW", 1000))
+    return {
+        code: (text, widths.get(code, default), _outline(program, code))
+        for code, text in _mapped(font)[1].items()
+    }
 
-    descendant = font["/DescendantFonts"][0].get_object()
-    program = TTFont(BytesIO(descendant["/FontDescriptor"]["/FontFile2"].get_data()), lazy=True)
-    shapes, names = program.getGlyphSet(), program.getGlyphOrder()
-    widths = _widths(descendant["/W"])
-    found: dict[int, Hashable] = {}
-    for code, text in _MAPPED.findall(font["/ToUnicode"].get_data()):
-        number = int(code, 16)
-        pen = RecordingPen()
-        shapes[names[number]].draw(pen)
-        found[number] = (text.lower(), widths.get(number), repr(pen.value))
+
+def _parts(font: Any) -> tuple[Any, Any, Any] | None:
+    """Return a font, the font of its glyphs, and what describes that; None if it is made otherwise."""
+    inner: Any = font.get("/DescendantFonts", ())
+    inner = inner.get_object() if hasattr(inner, "get_object") else inner
+    if len(inner) != 1 or "/ToUnicode" not in font:
+        return None
+    described = inner[0].get_object().get("/FontDescriptor")
+    if described is None or "/W" not in inner[0].get_object():
+        return None
+    return font, inner[0].get_object(), described.get_object()
+
+
+def _entries(part: Any, digest: Digest) -> dict[str, str]:
+    """Return the entries that both must have alike, and the names of those that are compared by glyphs."""
+    found = {}
+    for key in part:
+        if key in _OWN_NAME:
+            found[key] = str(part[key]).rpartition("+")[2]
+        elif key != "/CIDSet":
+            found[key] = "" if key in _GLYPHS else digest(part.raw_get(key))
     return found
 
 
+def _program(described: Any) -> Any:
+    from fontTools.ttLib import TTFont  # noqa: PLC0415 - slow to load
+
+    if "/FontFile2" not in described:
+        return None
+    return TTFont(BytesIO(described["/FontFile2"].get_data()), lazy=True)
+
+
+def _is_packed_alike(program: Any, again: Any) -> bool:
+    """Whether two programs draw by the same tables, in the same units and by the same instructions."""
+    tables, tables_again = ({*each.keys()} - _NOT_DRAWN_BY for each in (program, again))
+    return (
+        tables <= _OUTLINES | _INSTRUCTIONS
+        and program["head"].unitsPerEm == again["head"].unitsPerEm
+        and all(
+            (key in tables) == (key in tables_again)
+            and (key not in tables or program.getTableData(key) == again.getTableData(key))
+            for key in _INSTRUCTIONS
+        )
+    )
+
+
+def _outline(program: Any, code: int) -> Hashable:
+    """Return what a glyph draws: its contours, and the instructions that would move them."""
+    from fontTools.pens.recordingPen import DecomposingRecordingPen  # noqa: PLC0415 - slow to load
+
+    names = program.getGlyphOrder()
+    if code >= len(names):
+        return None
+    shapes = program.getGlyphSet()
+    pen = DecomposingRecordingPen(shapes)
+    shapes[names[code]].draw(pen)
+    return repr(pen.value), _instructions(program, names[code])
+
+
+def _instructions(program: Any, name: str) -> bytes:
+    if "glyf" not in program:
+        return b""
+    glyph = program["glyf"][name]
+    glyph.expand(program["glyf"])
+    own: bytes = glyph.program.getBytecode() if hasattr(glyph, "program") else b""
+    inner = getattr(glyph, "components", ())
+    return own + b"".join(_instructions(program, each.glyphName) for each in inner)
+
+
+def _mapped(font: Any) -> tuple[bytes, dict[int, str]]:
+    """Return what stands around the texts of the codes, and the texts, in hexadecimal.
+
+    A code that is there twice leaves its second text in what stands around: one reader takes the first, and
+    another the last.
+    """
+    found: dict[int, str] = {}
+
+    def take(pair: re.Match[bytes]) -> bytes:
+        code, text = int(pair[1], 16), pair[2].decode().lower()
+        return b"" if found.setdefault(code, text) == text else pair[0]
+
+    frame = _SECTION.sub(lambda section: _MAPPED.sub(take, section[1]), font["/ToUnicode"].get_data())
+    return b" ".join(frame.split()), found
+
+
 def _widths(entries: Any) -> dict[int, float]:
-    """Return the widths of glyphs as a PDF lists them: a code, and the widths from there on."""
+    """Return the widths of glyphs as a PDF lists them: a code, and the widths from there on; or a range."""
     found: dict[int, float] = {}
-    for first, widths in zip(entries[::2], entries[1::2], strict=True):
-        found.update(zip(count(int(first)), map(float, widths), strict=False))
+    rest = list(entries)
+    while rest:
+        first, widths = int(rest.pop(0)), rest.pop(0)
+        widths = widths.get_object() if hasattr(widths, "get_object") else widths
+        if isinstance(widths, list):
+            found.update(zip(count(first), map(float, widths), strict=False))
+        else:
+            found.update(dict.fromkeys(range(first, min(int(widths), 65535) + 1), float(rest.pop(0))))
     return found

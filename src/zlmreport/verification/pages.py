@@ -5,18 +5,25 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from difflib import SequenceMatcher
+from functools import cached_property
 from typing import Any
 
+from zlmreport.verification import raster, shape
 from zlmreport.verification.carrier import Carrier, guarded
 from zlmreport.verification.findings import Finding, Verdict
 from zlmreport.verification.fingerprint import Fingerprints
 from zlmreport.verification.fonts import show_the_same
+from zlmreport.verification.increment import is_of_signature
+from zlmreport.verification.marks import TOLERANCE, ForeignError, Mark, marks
 
 #: Words of a page that are compared, and differences of a page that are told.
 _MOST_WORDS = 5000
 _MOST_DIFFERENCES = 4
 _LONGEST_PASSAGE = 60
 
+_COLOURS = "/ColorSpace"
+#: What of a page is compared mark by mark, and link by link.
+_DRAWN = frozenset({"/Annots", "/Contents", "/Resources"})
 _RESOURCES = {"/Font": "fonts", "/XObject": "pictures", "/ColorSpace": "colours"}
 _PARTS = {
     "/Dests": "targets of links",
@@ -52,8 +59,8 @@ class Compared:
     pages, document
         The findings.
     is_drawn_alike
-        Whether some page is the same, stroke for stroke. If none is, other libraries printed the document:
-        then its words are compared, and its drawing is left open.
+        Whether some page is the same, stroke for stroke. If none is, other libraries printed the document, or
+        every page is altered: then each mark of each page is compared.
     """
 
     pages: tuple[Finding, ...]
@@ -61,9 +68,12 @@ class Compared:
     is_drawn_alike: bool
 
 
-def compare(carrier: Carrier, again: Carrier) -> Compared:
-    """Compare a document with the same one printed again, page by page and part by part."""
-    return guarded(lambda: _Comparison(carrier, again).compared(), carrier.place)
+def compare(carrier: Carrier, again: Prints, *, is_signed: bool) -> Compared:
+    """Compare a document with the same one printed again, page by page and part by part.
+
+    `is_signed` says whether it may have what belongs to a signature.
+    """
+    return guarded(lambda: _Comparison(Prints(carrier), again).compared(is_signed=is_signed), carrier.place)
 
 
 def words(carrier: Carrier, number: int) -> list[str]:
@@ -75,18 +85,28 @@ def words(carrier: Carrier, number: int) -> list[str]:
 class _Comparison:
     """Two documents, the certificate and the one printed again, with the digests of their pages."""
 
-    def __init__(self, carrier: Carrier, again: Carrier) -> None:
-        self._carrier = carrier
-        self._again = again
-        self._prints = _Prints(carrier)
-        self._prints_again = _Prints(again)
-        self._pages = self._prints.of_pages()
-        self._pages_again = self._prints_again.of_pages()
+    def __init__(self, prints: Prints, again: Prints) -> None:
+        self._prints = prints
+        self._prints_again = again
+        self._pages = prints.pages
+        self._pages_again = again.pages
         self._is_drawn_alike = bool(set(self._pages) & set(self._pages_again))
         self._same: dict[tuple[str, str], bool] = {}
 
-    def compared(self) -> Compared:
-        return Compared(tuple(self._of_pages()), tuple(self._of_document()), self._is_drawn_alike)
+    def compared(self, *, is_signed: bool) -> Compared:
+        structure = shape.compare(self._prints.carrier, self._prints_again.traits, is_signed=is_signed)
+        document = (structure, *self._of_document())
+        pages = tuple(self._of_pages())
+        if all(each.verdict is Verdict.HOLDS for each in (*pages, *document)):
+            pages = self._seen(pages)
+        return Compared(pages, document, self._is_drawn_alike)
+
+    def _seen(self, pages: tuple[Finding, ...]) -> tuple[Finding, ...]:
+        """Return what is found of pages that are the same on paper, looked at as a viewer shows them."""
+        is_alike = list(map(str.__eq__, self._pages, self._pages_again))
+        content, again = self._prints.carrier.content, self._prints_again.carrier.content
+        differing = raster.compare(content, again, is_alike)
+        return tuple(differing.get(number, finding) for number, finding in enumerate(pages))
 
     def _of_pages(self) -> Iterator[Finding]:
         """Yield a finding for each page; pages that were put in or taken out shift those that follow."""
@@ -106,11 +126,17 @@ class _Comparison:
     def _drawn_with(self, number: int, number_again: int) -> Finding:
         """Return whether a page of the same strokes is drawn with the same fonts and pictures."""
         used = self._prints.resources(number)
-        for name, again in self._prints_again.resources(number_again).items():
-            if name not in used or not self._is_same_resource(name, used[name], again):
-                return Finding(
-                    _page(number), Verdict.DIFFERS, f"its {_RESOURCES.get(name[0], name[0])} differ"
-                )
+        again = self._prints_again.resources(number_again)
+        differing = [
+            name
+            for name in (*again, *(name for name in used if name[0] == _COLOURS))
+            if name not in used
+            or name not in again
+            or not self._is_same_resource(name, used[name], again[name])
+        ]
+        if differing:
+            kind = differing[0][0]
+            return Finding(_page(number), Verdict.DIFFERS, f"its {_RESOURCES.get(kind, kind)} differ")
         return Finding(_page(number), Verdict.HOLDS)
 
     def _is_same_resource(self, name: tuple[str, str], used: Any, again: Any) -> bool:
@@ -120,7 +146,11 @@ class _Comparison:
             self._same[digests] = digests[0] == digests[1] or (
                 is_font
                 and show_the_same(
-                    used.get_object(), again.get_object(), completely=self._pages == self._pages_again
+                    used.get_object(),
+                    again.get_object(),
+                    self._prints.of,
+                    self._prints_again.of,
+                    completely=self._pages == self._pages_again,
                 )
             )
         return self._same[digests]
@@ -128,41 +158,61 @@ class _Comparison:
     def _altered(self, number: int, number_again: int) -> Finding:
         """Return what is to be said of a page that is not the same, stroke for stroke."""
         subject = _page(number)
-        if _draws_forms(self._carrier, number) and not _draws_forms(self._again, number_again):
-            # Their text is not looked for: forms that draw forms that draw forms are read without end.
-            return Finding(subject, Verdict.DIFFERS, "something is drawn on it that is not printed again")
-        differences = list(_differences(words(self._carrier, number), words(self._again, number_again)))
+        if not self._prints.is_framed_like(number, self._prints_again, number_again):
+            return Finding(subject, Verdict.DIFFERS, "its size, its frame or its links differ")
+        try:
+            drawn, drawn_again = self._prints.marks(number), self._prints_again.marks(number_again)
+        except (ForeignError, ValueError, RecursionError) as error:
+            return Finding(subject, Verdict.DIFFERS, f"is drawn as no certificate is: {error}")
+        is_same = len(drawn) == len(drawn_again) and all(map(Mark.is_as, drawn, drawn_again))
+        if is_same and all(map(Mark.is_where, drawn, drawn_again)):
+            return Finding(subject, Verdict.HOLDS)
+        differences = list(
+            _differences(words(self._prints.carrier, number), words(self._prints_again.carrier, number_again))
+        )
         if differences:
             shown = "; ".join(differences[:_MOST_DIFFERENCES])
             more = len(differences) - _MOST_DIFFERENCES
             return Finding(subject, Verdict.DIFFERS, shown + (f"; and {more} more" if more > 0 else ""))
-        if self._is_drawn_alike:
-            return Finding(subject, Verdict.DIFFERS, "its words are the same, but it is drawn otherwise")
-        return Finding(subject, Verdict.OPEN, "its words are the same; its drawing is not compared")
+        if is_same and not self._is_drawn_alike:
+            return Finding(
+                subject, Verdict.OPEN, "the same is drawn, but not where it is printed again: look at it"
+            )
+        return Finding(subject, Verdict.DIFFERS, "its words are the same, but it is drawn otherwise")
 
     def _of_document(self) -> Iterator[Finding]:
         """Yield what else a document holds, part by part."""
-        otherwise = Verdict.DIFFERS if self._is_drawn_alike else Verdict.OPEN
-        stated, again = self._prints.of_parts(), self._prints_again.of_parts()
+        stated, again = self._prints.parts, self._prints_again.parts
         for key in sorted({*stated, *again}):
             subject = _PARTS.get(key, key)
-            if stated.get(key) == again.get(key):
-                yield Finding(subject, Verdict.HOLDS)
-            elif key not in again:
+            if key not in again:
                 yield Finding(subject, Verdict.DIFFERS, "is added")
+            elif key not in stated:
+                yield Finding(subject, Verdict.DIFFERS, "is missing")
+            elif self._is_same_part(stated[key], again[key]):
+                yield Finding(subject, Verdict.HOLDS)
             else:
-                yield Finding(
-                    subject, otherwise, "is not what is printed again" if key in stated else "is missing"
-                )
-        yield from _metadata(self._carrier.metadata, self._again.metadata)
+                yield Finding(subject, Verdict.DIFFERS, "is not what is printed again")
+        yield from _metadata(self._prints.carrier.metadata, self._prints_again.carrier.metadata)
+
+    def _is_same_part(self, stated: Any, again: Any) -> bool:
+        if self._prints.of(stated) == self._prints_again.of(again):
+            return True
+        return not self._is_drawn_alike and self._prints.is_like(stated, self._prints_again, again)
 
 
-class _Prints:
-    """The digests of a document's pages and parts."""
+class Prints:
+    """What is compared of a document: the digests of its pages and parts, how it is built, and what it draws.
+
+    Each is found when it is first asked for.
+    """
 
     def __init__(self, carrier: Carrier) -> None:
+        self.carrier = carrier
         self._reader = carrier.reader
         self._known: dict[int, str] = {}
+        self._fonts: dict[str, Any] = {}
+        self._marks: dict[int, list[Mark]] = {}
         pages = {page.indirect_reference.idnum: number for number, page in enumerate(self._reader.pages, 1)}
         self._fingerprints = Fingerprints(pages, carrier.place)
 
@@ -175,9 +225,35 @@ class _Prints:
             self._known[number] = self._fingerprints.of(part)
         return self._known[number]
 
-    def of_pages(self) -> list[str]:
+    @cached_property
+    def pages(self) -> list[str]:
         """Return the digest of each page, of its strokes and links without the fonts and pictures it uses."""
         return [self._fingerprints.of(page, without=frozenset({"/Resources"})) for page in self._reader.pages]
+
+    def is_like(self, part: Any, other: Prints, part_of_other: Any) -> bool:
+        """Whether two parts are the same but for places on the pages, which other libraries compute."""
+        return self._fingerprints.is_like(part, other._fingerprints, part_of_other, TOLERANCE)
+
+    def is_framed_like(self, number: int, other: Prints, number_of_other: int) -> bool:
+        """Whether two pages are the same but for what they draw, and for the places of their links."""
+        page, page_of_other = self._reader.pages[number], other._reader.pages[number_of_other]
+        digests = (
+            prints._fingerprints.of(each, without=_DRAWN)  # noqa: SLF001 - another of its kind
+            for prints, each in ((self, page), (other, page_of_other))
+        )
+        links = [_links(each) for each in (page, page_of_other)]
+        return len(set(digests)) == 1 and self.is_like(links[0], other, links[1])
+
+    @cached_property
+    def traits(self) -> frozenset[shape.Trait]:
+        """How it is built."""
+        return frozenset(shape.traits(self.carrier))
+
+    def marks(self, number: int) -> list[Mark]:
+        """Return what a page draws."""
+        if number not in self._marks:
+            self._marks[number] = marks(self._reader.pages[number], self.of, self._fonts)
+        return self._marks[number]
 
     def resources(self, number: int) -> dict[tuple[str, str], Any]:
         """Return what a page may draw with, by kind and name."""
@@ -189,27 +265,29 @@ class _Prints:
             for name in kinds[kind]
         }
 
-    def of_parts(self) -> dict[str, str]:
-        """Return the digest of each part beside pages and attachments, by its key."""
+    @cached_property
+    def parts(self) -> dict[str, Any]:
+        """Return each part beside pages and attachments, by its key."""
         root = self._reader.trailer["/Root"].get_object()
         names: Any = root["/Names"].get_object() if "/Names" in root else {}
-        parts: dict[str, Any] = {
+        return {
             str(key): holder.raw_get(key)
             for holder in (root, names)
             for key in holder
             if key not in _NOT_COMPARED
         }
-        return {key: self.of(part) for key, part in parts.items()}
+
+
+def _links(page: Any) -> Any:
+    from pypdf.generic import ArrayObject  # noqa: PLC0415 - slow to load
+
+    listed = page.get("/Annots", ())
+    listed = listed.get_object() if hasattr(listed, "get_object") else listed
+    return ArrayObject(each for each in listed if not is_of_signature(each.get_object()))
 
 
 def _page(number: int) -> str:
     return f"page {number + 1}"
-
-
-def _draws_forms(carrier: Carrier, number: int) -> bool:
-    resources = carrier.reader.pages[number].get("/Resources", {}).get_object()
-    objects = resources["/XObject"].get_object() if "/XObject" in resources else {}
-    return any(objects[name].get("/Subtype") == "/Form" for name in objects)
 
 
 def _differences(stated: list[str], again: list[str]) -> Iterator[str]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from zlmreport.signing.state import Integrity, Signature, signature_state
+from zlmreport.signing.state import Integrity, Signature, SignatureState
 from zlmreport.verification.findings import Finding, Verdict
 
 _SUBJECT = "signature"
@@ -14,9 +14,8 @@ _VERDICTS = {
 }
 
 
-def signature_finding(content: bytes) -> Finding:
+def signature_finding(state: SignatureState) -> Finding:
     """Return what is to be said of the signatures of a PDF."""
-    state = signature_state(content)
     details = {
         Integrity.INTACT: "; ".join(map(_signed, state.signatures)),
         Integrity.ALTERED: f"the file is signed, but {state.reason}",

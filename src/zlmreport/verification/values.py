@@ -13,6 +13,8 @@ _TOLERANCE = 1e-9
 #: Of fitted parameters: an iteration multiplies such differences.
 _TOLERANCE_OF_FITS = 1e-6
 _FITTED = "model"
+#: What every release computes alike of a parameter.
+_KEPT = frozenset({"value", "limit"})
 #: What names an item of a list, first found.
 _NAMES = ("standard", "symbol", "name", "target", "effect", "path", "requirement")
 
@@ -25,8 +27,9 @@ def compare(stated: Any, recomputed: Any, *, same_programs: bool) -> tuple[Value
     stated, recomputed
         The files' trees.
     same_programs
-        Whether both come from the same releases. Otherwise only numbers are compared, words are left open,
-        and the file may have keys that only the later release knows.
+        Whether both come from the same releases. Otherwise readings, parameters and limits are compared;
+        words, uncertainties and whatever else differs are left open, and the file may have keys that only the
+        later release knows.
     """
     return tuple(
         value if same_programs else _of_another_release(value)
@@ -36,7 +39,10 @@ def compare(stated: Any, recomputed: Any, *, same_programs: bool) -> tuple[Value
 
 
 def _of_another_release(value: Value) -> Value:
-    if value.is_number or value.verdict is Verdict.HOLDS:
+    is_kept = value.path[0] == "measurements" or (
+        value.path[2:3] == ("parameters",) and value.path[-1] in _KEPT
+    )
+    if value.verdict is Verdict.HOLDS or (value.is_number and is_kept):
         return value
     return Value(value.path, value.stated, value.recomputed, Verdict.OPEN)
 

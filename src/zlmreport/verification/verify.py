@@ -14,7 +14,8 @@ from zlmreport.errors import InputError, Place, ZlmreportError
 from zlmreport.job.loading import load
 from zlmreport.plugin.protocols import Renderer, made, relationship_of
 from zlmreport.plugins import Registry
-from zlmreport.verification import files, numerals, pages, values
+from zlmreport.signing.state import Integrity, signature_state
+from zlmreport.verification import files, pages, values
 from zlmreport.verification.carrier import Carrier, guarded, opened, read_file
 from zlmreport.verification.digital import digital_findings
 from zlmreport.verification.findings import Finding, Identity, Verdict, Verification
@@ -26,12 +27,16 @@ from zlmreport.verification.unpacking import laid_out
 PRINTED = "pdf"
 _PROGRAM = GENERATOR.partition(" ")[0]
 _OTHER_RELEASES = (
-    "this is {programs}, and other releases made the certificate: its numbers are compared, its words and "
-    "graphs are not"
+    "made by {stated}, and this is {here}: readings and parameters are compared, and what else differs is "
+    "not decided; to decide, install the releases that made it, and verify it there"
+)
+_OTHER_RENDERER = (
+    "printed by {creator}, which is not installed here: how pages are drawn is not decided; to decide, "
+    "install it"
 )
 _OTHER_LIBRARIES = (
-    "no page is drawn here as it was: other libraries printed it, so words and numbers are compared, and the "
-    "drawing is not"
+    "no page is drawn here as it was: other libraries printed it, or every page is altered; each mark on "
+    "each page is compared by its shape, its colour and its place"
 )
 
 
@@ -39,13 +44,15 @@ _OTHER_LIBRARIES = (
 class _Again:
     """A certificate that was made again from its attachments.
 
-    `programs` are its generator and its plugins, `results` its results file.
+    `programs` are its generator and its plugins, `results` its results file; it may be that another renderer
+    than the one that made it had to print it.
     """
 
     certificate: Certificate
     programs: tuple[str, Mapping[str, str]]
-    carrier: Carrier
+    prints: pages.Prints
     results: bytes
+    is_by_its_own_renderer: bool
 
 
 def verify(path: Path, registry: Registry, dcc_schema: Path | None = None) -> Verification:
@@ -69,7 +76,12 @@ def verify(path: Path, registry: Registry, dcc_schema: Path | None = None) -> Ve
         sources was changed: because a plugin is not installed, for example.
     """
     carrier = opened(read_file(path), Place(str(path)))
-    found = Verification(Identity(generator=carrier.creator), signature_finding(carrier.content))
+    state = signature_state(carrier.content)
+    found = Verification(
+        Identity(generator=carrier.creator),
+        signature_finding(state),
+        is_signed=state.integrity is not Integrity.UNSIGNED,
+    )
     try:
         stated = stated_by(carrier)
     except ValueError as error:
@@ -123,8 +135,9 @@ def _again(job_path: Path, carrier: Carrier, registry: Registry) -> _Again:
     return _Again(
         certificate,
         (GENERATOR, registry.versions(job)),
-        opened(contents[printer.identifier], Place(f"{carrier.place} (printed again)")),
+        pages.Prints(opened(contents[printer.identifier], Place(f"{carrier.place} (printed again)"))),
         contents[pipeline.RESULTS],
+        made(printer, carrier.creator) or carrier.creator.startswith(f"{_PROGRAM} "),
     )
 
 
@@ -143,26 +156,42 @@ def _compared(found: Verification, carrier: Carrier, stated: Stated, again: _Aga
     """Return all that is found of a certificate that could be made again."""
     provenance = stated.results.provenance
     by_same_programs = again.programs == (provenance.generator, provenance.plugins)
+    printed = pages.compare(carrier, again.prints, is_signed=found.is_signed)
     found = replace(
         found,
-        files=files.compare(provenance.sources, carrier.carried, again.carrier.carried),
+        files=files.compare(provenance.sources, carrier.carried, again.prints.carrier.carried),
         values=guarded(
             lambda: values.compare(stated.tree, json.loads(again.results), same_programs=by_same_programs),
             carrier.place,
         ),
-    )
-    if not by_same_programs:
-        generator, plugins = again.programs
-        programs = ", ".join(dict.fromkeys((generator, *sorted(plugins.values()))))
-        return replace(
-            found,
-            pages=numerals.compare(carrier, again.certificate),
-            remarks=(_OTHER_RELEASES.format(programs=programs),),
-        )
-    printed = pages.compare(carrier, again.carrier)
-    return replace(
-        found,
         pages=printed.pages,
         document=printed.document,
-        remarks=() if printed.is_drawn_alike else (_OTHER_LIBRARIES,),
+    )
+    if not by_same_programs:
+        return _left_open(
+            found,
+            _OTHER_RELEASES.format(
+                stated=_named(provenance.generator, provenance.plugins), here=_named(*again.programs)
+            ),
+        )
+    if not again.is_by_its_own_renderer:
+        return _left_open(found, _OTHER_RENDERER.format(creator=carrier.creator or "another renderer"))
+    return found if printed.is_drawn_alike else replace(found, remarks=(_OTHER_LIBRARIES,))
+
+
+def _named(generator: str, plugins: Mapping[str, str]) -> str:
+    return ", ".join(dict.fromkeys((generator, *sorted(plugins.values()))))
+
+
+def _left_open(found: Verification, remark: str) -> Verification:
+    """Return what is found of pages that cannot be printed here as they were: what differs is not decided."""
+
+    def left_open(finding: Finding) -> Finding:
+        return replace(finding, verdict=Verdict.OPEN) if finding.verdict is Verdict.DIFFERS else finding
+
+    return replace(
+        found,
+        pages=tuple(map(left_open, found.pages)),
+        document=tuple(map(left_open, found.document)),
+        remarks=(remark,),
     )

@@ -160,7 +160,8 @@ def verify(command: str) -> CommandParser:
         "say for every number, page and attached file whether it holds. Nothing is written.",
         "example:\n  zlmreport verify CAL-2026-0117.pdf\n\n"
         "exit codes: 0 everything holds; 1 something does not; 2 the file is no certificate of zlmreport,\n"
-        "or cannot be evaluated here; 3 the file cannot be read",
+        "or cannot be evaluated here; 3 the file cannot be read; 5 not decided: something could not be\n"
+        "compared here",
     )
     parser.add_argument("certificate", metavar="FILE.pdf", type=Path, help="certificate, signed or not")
     parser.add_argument("--json", action="store_true", help="print every finding as JSON")

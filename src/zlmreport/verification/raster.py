@@ -1,0 +1,101 @@
+"""The second line: both documents as a viewer draws them, whatever they are built of.
+
+PDFium, the engine of Chromium, knows nothing of what is compared elsewhere: its text and its pixels must be
+the same, or something is seen that the comparison of the structure overlooked.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from zlmreport.verification.findings import Finding, Verdict
+
+#: Dots to the inch: a digit of 7 points is 7 pixels high.
+_RESOLUTION = 96
+#: Of 255: the edge of a glyph that another library packed may be smoothed otherwise.
+_STEP = 48
+#: Pixels by which a mark may be off on a page that other libraries drew.
+_REACH = 1
+_MILLIMETRES = 25.4 / _RESOLUTION
+_LONGEST = 40
+
+
+def compare(content: bytes, again: bytes, is_alike: Sequence[bool]) -> dict[int, Finding]:
+    """Return what is seen otherwise, by the number of the page from 0.
+
+    Parameters
+    ----------
+    content, again
+        Two PDFs.
+    is_alike
+        For each page whether both draw stroke for stroke alike; otherwise marks may be off by a pixel.
+    """
+    import pypdfium2  # type: ignore[import-untyped]  # noqa: PLC0415 - slow to load
+
+    found: dict[int, Finding] = {}
+    with pypdfium2.PdfDocument(content) as one, pypdfium2.PdfDocument(again) as other:
+        for number, is_same in enumerate(is_alike):
+            if number >= len(one):
+                difference = "it is not there"
+            else:
+                difference = _difference(one[number], other[number], is_alike=is_same)
+            if difference:
+                detail = f"PDFium shows it otherwise: {difference}"
+                found[number] = Finding(f"page {number + 1}", Verdict.DIFFERS, detail)
+    return found
+
+
+def _difference(page: Any, again: Any, *, is_alike: bool) -> str:
+    size, size_again = page.get_size(), again.get_size()
+    if size != size_again or page.get_rotation() != again.get_rotation():
+        return "in another size"
+    text, text_again = _text(page), _text(again)
+    if text != text_again:
+        at = next((i for i, pair in enumerate(zip(text, text_again, strict=False)) if len(set(pair)) > 1), 0)
+        return (
+            f"{text[at : at + _LONGEST]!r} stands where {text_again[at : at + _LONGEST]!r} is printed again"
+        )
+    pixels, pixels_again = _pixels(page), _pixels(again)
+    if pixels.shape != pixels_again.shape:
+        return "in another size"
+    if np.array_equal(pixels, pixels_again):
+        return ""
+    reach = 0 if is_alike else _REACH
+    rows, columns = np.vstack([_off(pixels, pixels_again, reach), _off(pixels_again, pixels, reach)]).T
+    if not len(rows):
+        return ""
+    across, down = columns[0] * _MILLIMETRES, rows[0] * _MILLIMETRES
+    return f"{len(rows)} pixels, the first {across:.0f} mm from the left and {down:.0f} mm from the top"
+
+
+def _text(page: Any) -> str:
+    return " ".join(page.get_textpage().get_text_bounded().split())
+
+
+def _pixels(page: Any) -> NDArray[np.uint8]:
+    pixels: NDArray[np.uint8] = page.render(scale=_RESOLUTION / 72).to_numpy()
+    return pixels
+
+
+def _off(pixels: NDArray[np.uint8], again: NDArray[np.uint8], reach: int) -> NDArray[np.intp]:
+    """Return row and column of the pixels that have on the other page none alike within reach."""
+    rows, columns = np.nonzero(_step(pixels, again))
+    colours = pixels[rows, columns]
+    is_off = np.ones(len(rows), dtype=bool)
+    height, width, _ = again.shape
+    for down in range(-reach, reach + 1):
+        for across in range(-reach, reach + 1):
+            near = again[(rows + down).clip(0, height - 1), (columns + across).clip(0, width - 1)]
+            is_off &= _step(colours, near)
+    return np.stack([rows[is_off], columns[is_off]], axis=1)
+
+
+def _step(one: NDArray[np.uint8], other: NDArray[np.uint8]) -> NDArray[np.bool_]:
+    """Return where two colours differ by more than another smoothing of an edge."""
+    greater = np.maximum(one, other) - np.minimum(one, other)
+    found: NDArray[np.bool_] = np.any(greater > _STEP, axis=-1)
+    return found

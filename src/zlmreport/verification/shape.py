@@ -1,0 +1,165 @@
+"""How a PDF is built: nothing may be there that the same certificate, printed again, does not have.
+
+The document that is printed again is the list of what is allowed: which entries its dictionaries have, of
+what kind they are, and which names they have as values. A form, a script, a layer, a box that pages inherit,
+an encoding of one's own: whatever a viewer might make of it, it is a difference. Beside it only a signature
+of our own making is allowed, and streams that are packed otherwise.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Iterator
+from typing import Any, TypeAlias
+
+from zlmreport.errors import InputError
+from zlmreport.verification.carrier import Carrier
+from zlmreport.verification.findings import Finding, Verdict
+from zlmreport.verification.increment import is_of_signature, strangers
+
+#: Where an entry stands, its key, and what kind of value it has.
+Trait: TypeAlias = tuple[str, str, str]
+#: An object, what holds it, and under which key.
+_Place: TypeAlias = tuple[Any, str, str]
+
+_MOST_OBJECTS = 2_000_000
+_MOST_TOLD = 4
+_SUBJECT = "structure of the file"
+#: How a stream is packed; looked at on its own.
+_PACKING = frozenset({"/DecodeParms", "/Filter", "/Length"})
+_PACKED = frozenset({"/FlateDecode"})
+_PREDICTION = frozenset({"/BitsPerComponent", "/Colors", "/Columns", "/Predictor"})
+#: Entries whose keys are names that a renderer gives.
+_MAPS = frozenset({"/ColorSpace", "/ExtGState", "/Font", "/Pattern", "/Properties", "/Shading", "/XObject"})
+#: Names of which a part is given by chance.
+_NAMES_BY_CHANCE = frozenset({"/BaseFont", "/FontName"})
+#: Added by a signature, and looked at with it.
+_OF_SIGNATURES = frozenset({"/AcroForm", "/DSS", "/Extensions", "/Perms", "/Version"})
+_BEGIN = re.compile(rb"%PDF-\d\.\d[\r\n]")
+_END = re.compile(rb"startxref\s+(\d+)\s+%%EOF\s*\Z")
+_OBJECTS = re.compile(rb"\s*(xref\b|\d+\s+\d+\s+obj\b)")
+
+
+def compare(carrier: Carrier, known: Collection[Trait], *, is_signed: bool) -> Finding:
+    """Return whether a document is built of nothing but what the one printed again is built of.
+
+    Parameters
+    ----------
+    carrier
+        The document.
+    known
+        How the one printed again is built.
+    is_signed
+        Whether it bears a signature, so that it may have what belongs to one.
+    """
+    told = [
+        *_around(carrier.content),
+        *strangers(carrier.reader, is_signed=is_signed),
+        *dict.fromkeys(_said(trait) for trait in traits(carrier) if trait not in known),
+    ]
+    if not told:
+        return Finding(_SUBJECT, Verdict.HOLDS)
+    more = len(told) - _MOST_TOLD
+    return Finding(
+        _SUBJECT, Verdict.DIFFERS, "; ".join(told[:_MOST_TOLD]) + (f"; and {more} more" if more > 0 else "")
+    )
+
+
+def _around(content: bytes) -> Iterator[str]:
+    if not _BEGIN.match(content):
+        yield "something stands before the PDF"
+    end = _END.search(content, max(0, len(content) - 4096))
+    if end is None:
+        yield "something stands behind the PDF"
+    elif not _OBJECTS.match(content, int(end[1])):
+        yield "the table of its objects is not where the file says"
+
+
+def _said(trait: Trait) -> str:
+    where, key, kind = trait
+    return f"{where} has {key} ({kind}), which is not printed again"
+
+
+def traits(carrier: Carrier) -> Iterator[Trait]:
+    """Yield what each dictionary that the document leads to has, and of what kind.
+
+    The objects are walked without recursion: a foreign file may nest them as deep as it likes.
+    """
+    from pypdf.generic import IndirectObject  # noqa: PLC0415 - slow to load
+
+    root = carrier.reader.trailer.raw_get("/Root")
+    if root.get_object()["/Pages"].get("/Count") != len(carrier.reader.pages):
+        yield "the page tree", "/Count", "another number of pages"
+    seen: set[int] = set()
+    walked = 0
+    waiting: list[_Place] = [(root, "the file", "/Root")]
+    while waiting:
+        value, where, key = waiting.pop()
+        walked += 1
+        if walked > _MOST_OBJECTS:
+            raise InputError.at(carrier.place, "holds more objects than any certificate")
+        is_met = False
+        if isinstance(value, IndirectObject):
+            is_met = value.idnum in seen
+            seen.add(value.idnum)
+            value = value.get_object()
+        if is_of_signature(value):
+            continue
+        yield where, key, _kind(value, key)
+        if not is_met:
+            waiting.extend(_inside(value, where, key))
+            yield from _packing(value, key)
+
+
+def _inside(value: Any, where: str, key: str) -> Iterator[_Place]:
+    """Yield what stands in a dictionary or a list."""
+    if isinstance(value, list):
+        yield from ((item, where, f"{key} []") for item in value)
+    elif isinstance(value, dict):
+        dictionary: Any = value
+        left_out = _PACKING | (_OF_SIGNATURES if where == "the file" else frozenset())
+        for inner in dictionary:
+            if inner not in left_out:
+                named = _named(inner, key, is_map=key in _MAPS)
+                yield dictionary.raw_get(inner), _role(dictionary, key), named
+
+
+def _named(key: str, holder: str, *, is_map: bool) -> str:
+    """Return the key of an entry, or a mark for a name that a renderer gave; a default colour rules all."""
+    return f"{holder}/*" if is_map and not key.startswith("/Default") else key
+
+
+def _role(dictionary: Any, key: str) -> str:
+    names = (str(dictionary.get(name, "")) for name in ("/Type", "/Subtype", "/S"))
+    stream = "stream " if hasattr(dictionary, "get_data") else ""
+    return f"{stream}{key}{''.join(names)}" if "/Type" not in dictionary else f"{stream}{''.join(names)}"
+
+
+def _packing(stream: Any, key: str) -> Iterator[Trait]:
+    """Yield how a stream is packed, unless it is as any program packs."""
+    if not hasattr(stream, "get_data"):
+        return
+    role = _role(stream, key)
+    packing = stream.get("/Filter", [])
+    for each in packing if isinstance(packing, list) else [packing]:
+        if each not in _PACKED:
+            yield role, "/Filter", str(each)
+    parameters = stream.get("/DecodeParms", [])
+    for each in parameters if isinstance(parameters, list) else [parameters]:
+        for entry in getattr(each.get_object(), "keys", tuple)():
+            if entry not in _PREDICTION:
+                yield role, "/DecodeParms", str(entry)
+
+
+def _kind(value: Any, key: str) -> str:
+    if isinstance(value, dict):
+        return _role(value, key)
+    if isinstance(value, list):
+        return "a list"
+    from pypdf.generic import NameObject, NullObject, NumberObject  # noqa: PLC0415 - slow to load
+
+    if isinstance(value, NameObject):
+        return "a name" if key in _NAMES_BY_CHANCE else str(value)
+    if isinstance(value, NullObject):
+        return "nothing"
+    return "a number" if isinstance(value, NumberObject | float) else type(value).__name__
