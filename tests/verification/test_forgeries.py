@@ -25,7 +25,7 @@ def test_a_forged_certificate_does_not_hold(forgery: Forgery, issued: bytes, ver
     is_found(forgery, issued, verified)
 
 
-@pytest.mark.parametrize("forgery", FORGERIES[::4], ids=lambda each: each.name)  # each way costs time
+@pytest.mark.parametrize("forgery", FORGERIES[::10], ids=lambda each: each.name)  # each way costs time
 def test_a_forged_certificate_of_typst_does_not_hold(
     forgery: Forgery, by_typst: bytes, verified: Verify
 ) -> None:
