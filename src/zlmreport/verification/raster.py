@@ -34,7 +34,7 @@ def compare(content: bytes, again: bytes, is_alike: Sequence[bool]) -> dict[int,
     is_alike
         For each page whether both draw stroke for stroke alike; otherwise marks may be off by a pixel.
     """
-    import pypdfium2  # type: ignore[import-untyped]  # noqa: PLC0415 - slow to load
+    import pypdfium2  # noqa: PLC0415 - slow to load
 
     found: dict[int, Finding] = {}
     with pypdfium2.PdfDocument(content) as one, pypdfium2.PdfDocument(again) as other:
