@@ -7,8 +7,8 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from zlmreport.evaluation.evaluation import Arithmetic
 from zlmreport.evaluation.evaluate import is_negative, reach
+from zlmreport.evaluation.evaluation import Arithmetic
 from zlmreport.evaluation.statistics import PositionStatistics, position_statistics
 from zlmreport.job.types import Options
 from zlmreport.measurement.approach import Approach
