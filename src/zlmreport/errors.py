@@ -8,6 +8,9 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+#: Letters of a foreign text that a message shows.
+_LONGEST_QUOTE = 60
+
 
 @dataclass(frozen=True, slots=True, order=True)
 class Place:
@@ -127,3 +130,14 @@ def did_you_mean(name: str, known: Sequence[str]) -> str:
     by_letters = {each.casefold(): each for each in known}
     nearest = difflib.get_close_matches(name.casefold(), by_letters, n=1)
     return f"did you mean {by_letters[nearest[0]]!r}? (known: {listed})" if nearest else f"known: {listed}"
+
+
+def quoted(text: str) -> str:
+    """Return what a file or a user says as a message shows it: in quotation marks, on one line, not too long.
+
+    >>> quoted("12,5"), quoted("x" * 61)[-20:]
+    ("'12,5'", "x'… (61 characters)")
+    """
+    if len(text) <= _LONGEST_QUOTE:
+        return repr(text)
+    return f"{text[:_LONGEST_QUOTE]!r}… ({len(text):,} characters)"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -68,3 +69,20 @@ def test_the_changelog_speaks_of_this_version() -> None:
     assert re.search(
         rf"^## .*{re.escape(zlmreport.__version__)}", (ROOT / "CHANGELOG.md").read_text(), re.MULTILINE
     )
+
+
+def test_the_page_on_the_architecture_has_every_room_in_the_order_of_the_floors() -> None:
+    rooms = re.findall(
+        r"^\| `(\w+)(?:/|\.py)` \|", (DOCS / "architecture.md").read_text("utf-8"), re.MULTILINE
+    )
+    house = Path(zlmreport.__file__).parent
+    there = {path.parent.name for path in house.glob("*/__init__.py")} | {
+        path.stem for path in house.glob("*.py")
+    }
+    assert set(rooms) == there - {"__init__", "__main__", "version"}
+    contracts = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["tool"]["importlinter"][
+        "contracts"
+    ]
+    floors = [set(floor.split(" | ")) for floor in contracts[0]["layers"]]
+    floor_of = [next(number for number, floor in enumerate(floors) if room in floor) for room in rooms]
+    assert floor_of == sorted(floor_of)

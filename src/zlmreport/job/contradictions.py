@@ -8,13 +8,12 @@ from typing import TypeAlias
 
 from pydantic import BaseModel
 
-from zlmreport.errors import Problem, did_you_mean
+from zlmreport.errors import Problem, did_you_mean, quoted
 from zlmreport.job.evaluation_keys import uncertainty_contradictions
 from zlmreport.job.fields import keys_in, model_at
 from zlmreport.job.keys import JobKeys
 from zlmreport.job.measurement_keys import Measurement
 from zlmreport.job.plan_keys import plan_contradictions
-from zlmreport.job.text import quoted
 from zlmreport.job.tree import Items, Keys, Node, Step, place_of
 from zlmreport.measurement.axis import AxisKind
 

@@ -12,7 +12,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, BeforeValidator, Field, model_validator
 
-from zlmreport.errors import InputError, Place, Problem, did_you_mean
+from zlmreport.errors import InputError, Place, Problem, did_you_mean, quoted
 from zlmreport.files import unreadable
 from zlmreport.job.extends import FLEET, Defaults, compose, refuse_other_format
 from zlmreport.job.fields import keys_in
@@ -21,7 +21,6 @@ from zlmreport.job.keys import JobKeys
 from zlmreport.job.notify import NotifyKeys
 from zlmreport.job.parse import parse
 from zlmreport.job.references import LocatedText, path_named
-from zlmreport.job.text import quoted
 from zlmreport.job.tree import Items, Keys, Scalar, key_place, place_of, walk
 from zlmreport.job.types import JobPart, JobPath, Text
 from zlmreport.job.validate import problems_in_part, validate

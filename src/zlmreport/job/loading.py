@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
 
-from zlmreport.errors import InputError, Place, Problem, did_you_mean
+from zlmreport.errors import InputError, Place, Problem, did_you_mean, quoted
 from zlmreport.job.choices import (
     candidate_choices,
     controller_choice,
@@ -21,7 +21,6 @@ from zlmreport.job.installed import Installed, InstalledStandard
 from zlmreport.job.job import Job, SourceChoice, StandardChoice
 from zlmreport.job.keys import JobKeys
 from zlmreport.job.measurement_keys import AxisKeys
-from zlmreport.job.text import quoted
 from zlmreport.job.tree import Entry, Items, Keys, Node, Scalar, found_at, keys_of, place_of
 from zlmreport.job.validate import validate
 from zlmreport.measurement.axis import Axis, position_units

@@ -14,8 +14,8 @@ from typing import Any
 import yaml
 from yaml import MarkedYAMLError
 
-from zlmreport.errors import InputError, Place, Problem
-from zlmreport.job.text import decoded, described, quoted, unprintable
+from zlmreport.errors import InputError, Place, Problem, quoted
+from zlmreport.job.text import decoded, described, unprintable
 from zlmreport.job.tree import Entry, Items, Keys, Node, Scalar
 
 #: A job needs five levels, and some hundred values.

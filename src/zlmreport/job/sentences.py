@@ -11,9 +11,9 @@ from pydantic import BaseModel, ValidationError
 from pydantic.fields import FieldInfo
 from pydantic_core import ErrorDetails
 
-from zlmreport.errors import Place, Problem, did_you_mean
+from zlmreport.errors import Place, Problem, did_you_mean, quoted
 from zlmreport.job.fields import choices_in, field_at, keys_in, model_at
-from zlmreport.job.text import counted, quoted
+from zlmreport.job.text import counted
 from zlmreport.job.tree import Items, Keys, Node, Scalar, Step, key_place, place_of, walk
 from zlmreport.job.types import with_decimal_point
 

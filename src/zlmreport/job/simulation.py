@@ -9,7 +9,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, Field
 
-from zlmreport.errors import InputError, Place, Problem
+from zlmreport.errors import InputError, Place, Problem, quoted
 from zlmreport.job.choices import EffectChoice, effect_choices
 from zlmreport.job.document_keys import Number
 from zlmreport.job.evaluation_keys import Model
@@ -17,7 +17,6 @@ from zlmreport.job.extends import SIMULATION, compose, refuse_other_format
 from zlmreport.job.installed import Installed
 from zlmreport.job.loading import axis_in_si
 from zlmreport.job.measurement_keys import AxisKeys
-from zlmreport.job.text import quoted
 from zlmreport.job.tree import Keys, Node, key_place, place_of
 from zlmreport.job.types import Finite, JobPart, NotNegative, Positive, Text
 from zlmreport.job.validate import validate

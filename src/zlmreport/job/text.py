@@ -12,7 +12,6 @@ from zlmreport.errors import InputError, Place, Problem
 LARGEST = 1024 * 1024
 #: Characters of one file that are complained of one by one.
 _MOST_NAMED = 10
-_LONGEST_QUOTE = 60
 
 #: Control characters and lone surrogates, for which there is nothing to print; overrides and isolates of
 #: the writing direction, with which a text reads otherwise than it is stored; separators that split lines
@@ -74,13 +73,6 @@ def described(character: str) -> str:
     code = f"U+{ord(character):04X}"
     name = unicodedata.name(character, "").lower()
     return f"invisible character {code} ({name})" if name else f"control character {code}"
-
-
-def quoted(text: str) -> str:
-    """Return a text in quotes, on one line, shortened if it is very long."""
-    if len(text) <= _LONGEST_QUOTE:
-        return repr(text)
-    return f"{text[:_LONGEST_QUOTE]!r}… ({counted(len(text), 'character')})"
 
 
 def counted(number: int, thing: str) -> str:

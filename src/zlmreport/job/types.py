@@ -13,8 +13,8 @@ from typing import Annotated, Any
 
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, StringConstraints
 
+from zlmreport.errors import quoted
 from zlmreport.job.references import LocatedText, path_named
-from zlmreport.job.text import quoted
 
 _LONGEST_LINE = 500
 _LONGEST_TEXT = 5000

@@ -9,9 +9,9 @@ from pathlib import Path
 
 import numpy as np
 
-from zlmreport.errors import InputError, Place, Problem
+from zlmreport.errors import InputError, Place, Problem, quoted
 from zlmreport.measurement.axis import PositionTable
-from zlmreport.measurement.text_file import TextFile, parse_number, quoted, read_text
+from zlmreport.measurement.text_file import TextFile, parse_number, read_text
 from zlmreport.quantities.formatting import DecimalSign
 from zlmreport.quantities.units import Unit, unit_named
 

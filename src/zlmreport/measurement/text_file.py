@@ -11,7 +11,7 @@ import unicodedata
 from dataclasses import dataclass
 from pathlib import Path
 
-from zlmreport.errors import AccessError, InputError, Place
+from zlmreport.errors import AccessError, InputError, Place, quoted
 from zlmreport.measurement.provenance import SourceFile
 from zlmreport.quantities.formatting import MINUS, DecimalSign
 
@@ -112,15 +112,6 @@ def known_encoding(name: str) -> str:
             f"{quoted(name)} is no encoding of text; for example utf-8, utf-16, cp1252 or gbk"
         ) from error
     return name
-
-
-def quoted(text: str) -> str:
-    """Return a piece of a file as a message shows it: in quotation marks, on one line, and not too long.
-
-    >>> quoted("12,5"), quoted("x" * 60)
-    ("'12,5'", "'xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx…'")
-    """
-    return repr(text if len(text) <= 40 else f"{text[:39]}…")
 
 
 def _content(path: Path, file: Place) -> bytes:

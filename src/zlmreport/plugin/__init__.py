@@ -60,7 +60,7 @@ if TYPE_CHECKING:
         refractive_index,
     )
     from zlmreport.emulation.emulator import Emulator, Scene, Trouble
-    from zlmreport.errors import AccessError, InputError, Place, Problem, did_you_mean
+    from zlmreport.errors import AccessError, InputError, Place, Problem, did_you_mean, quoted
     from zlmreport.evaluation.checks.positions import (
         exceeds,
         measured_length,
@@ -158,7 +158,7 @@ if TYPE_CHECKING:
         MeasurementSet,
     )
     from zlmreport.measurement.provenance import Correction, Provenance, SourceFile
-    from zlmreport.measurement.text_file import TextFile, known_encoding, parse_number, quoted, read_text
+    from zlmreport.measurement.text_file import TextFile, known_encoding, parse_number, read_text
     from zlmreport.model.design import Design
     from zlmreport.model.effect import (
         Confusion,
@@ -583,7 +583,7 @@ _ROOMS = {
         "STANDARD_HUMIDITY STANDARD_PRESSURE index_change refractive_index"
     ),
     "zlmreport.emulation.emulator": "Emulator Scene Trouble",
-    "zlmreport.errors": "AccessError InputError Place Problem did_you_mean",
+    "zlmreport.errors": "AccessError InputError Place Problem did_you_mean quoted",
     "zlmreport.evaluation.checks.positions": (
         "exceeds measured_length positions_by_angle positions_in_all positions_over_travel "
         "positions_per_metre positions_per_scale_element principal_angles"
@@ -639,7 +639,7 @@ _ROOMS = {
     ),
     "zlmreport.measurement.measurement_set": "CONDITIONS CONDITION_NAMES MeasurementSet STATE_OF_AIR",
     "zlmreport.measurement.provenance": "Provenance SourceFile Correction",
-    "zlmreport.measurement.text_file": "TextFile known_encoding parse_number quoted read_text",
+    "zlmreport.measurement.text_file": "TextFile known_encoding parse_number read_text",
     "zlmreport.model.design": "Design",
     "zlmreport.model.effect": (
         "Confusion Dimension Effect Parameter Shape needs_both_directions needs_linear_axis needs_logged "
