@@ -191,11 +191,15 @@ class Formula:
         searched
             The searched parameters, SI.
         """
-        known = {**readings, **searched}
+        known: dict[str, FloatArray | float] = {**readings, **searched}
         count = max((np.size(each) for each in readings.values()), default=1)
         found = np.zeros((count, len(self.linear)))
         for term in self._terms:
-            place = next(self.linear.index(each.text) for each in term if _is_one_of(each, self.linear))
+            place = next(
+                self.linear.index(each.text)
+                for each in term
+                if isinstance(each, Name) and each.text in self.linear
+            )
             factors = [computed(each, known) for each in term if not _is_one_of(each, self.linear)]
             with np.errstate(all="ignore"):
                 found[:, place] += np.prod(np.broadcast_arrays(np.ones(count), *factors), axis=0)

@@ -197,7 +197,7 @@ def _function(tokens: list[str], place: int, depth: int) -> tuple[Tree, int]:
     name, place = tokens[place], place + 1
     if name not in FUNCTIONS:
         raise FormulaError(f"there is no function {name!r}; {did_you_mean(name, FUNCTIONS)}")
-    arguments = []
+    arguments: list[Tree] = []
     while not arguments or (place < len(tokens) and tokens[place] == ","):
         argument, place = _sum(tokens, place + 1, depth + 1)
         arguments.append(argument)
