@@ -13,6 +13,7 @@ from zlmreport.version import __version__
 
 if TYPE_CHECKING:
     from zlmreport.errors import AccessError, InputError, ZlmreportError
+    from zlmreport.notebook.compensations import Compensation, compensate
     from zlmreport.notebook.documents import Certificate, Verification, certificate, verify
     from zlmreport.notebook.models import Diagnosis, Model, fit
     from zlmreport.notebook.readings import Readings, read, simulate
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
 __all__ = [
     "AccessError",
     "Certificate",
+    "Compensation",
     "Diagnosis",
     "InputError",
     "Model",
@@ -34,6 +36,7 @@ __all__ = [
     "ZlmreportError",
     "__version__",
     "certificate",
+    "compensate",
     "evaluate",
     "fit",
     "read",
@@ -43,6 +46,7 @@ __all__ = [
 ]
 _ROOMS = {
     "errors": "AccessError InputError ZlmreportError",
+    "notebook.compensations": "Compensation compensate",
     "notebook.documents": "Certificate Verification certificate verify",
     "notebook.models": "Diagnosis Model fit",
     "notebook.readings": "Readings read simulate test=of_arrays",

@@ -289,3 +289,42 @@ def test_a_certificate_is_verified(tmp_path: Path) -> None:
 def test_a_tolerance_of_a_printed_symbol_is_answered_with_its_spelling() -> None:
     with pytest.raises(z.InputError, match="'A↑' is written A_fwd in a job"):
         z.evaluate(data(), "iso230-2:2014", tolerances={"A↑": 5})
+
+
+def test_compensation_takes_away_the_means() -> None:
+    made = z.compensate(data(), "csv", active="none")
+    assert (made.controller, made.confidence) == ("csv", "verified")
+    assert made.table["position"].tolist() == TARGETS
+    np.testing.assert_allclose(made.table["forward"], np.mean(UP, axis=0), atol=1e-9)
+    np.testing.assert_allclose(made.table["reverse"], np.mean(DOWN, axis=0), atol=1e-9)
+    assert made.before["E"] == pytest.approx(z.evaluate(data(), "iso230-2:2014")["E"].value)
+    assert made.after["E"] < 0.02 * made.before["E"]
+    assert made.between < 2.0
+    assert "E" in made._repr_html_()
+    assert repr(made).startswith("<compensation for csv (verified): E 3.25 → ")
+
+
+def test_files_of_a_compensation_are_those_of_the_command(tmp_path: Path) -> None:
+    made = z.compensate(data(), "linuxcnc", active="none", number="X17", type=0)
+    assert made.save(tmp_path / "tables") == tmp_path / "tables"
+    (file,) = (tmp_path / "tables").iterdir()
+    assert (file.name, file.read_text(encoding="ascii")) == ("X17.comp", made.files["X17.comp"])
+    with pytest.raises(z.ZlmreportError):
+        made.save(tmp_path / "tables")
+
+
+@pytest.mark.parametrize(
+    ("controller", "keys", "sentence"),
+    [
+        ("linuxnc", {"active": "none"}, "did you mean 'linuxcnc'?"),
+        ("fanuc", {"active": "none"}, "unconfirmed=True writes it all the same"),
+        ("linuxcnc", {"active": "none", "typ": 0}, "did you mean 'type'?"),
+        ("csv", {"active": "of the axis"}, "the axis of these readings has no table"),
+    ],
+)
+def test_compensation_that_would_be_wrong_is_refused(
+    controller: str, keys: dict[str, object], sentence: str
+) -> None:
+    with pytest.raises(z.InputError) as caught:
+        z.compensate(data(), controller, **keys)  # type: ignore[arg-type]  # of every kind of mistake
+    assert sentence in str(caught.value)
