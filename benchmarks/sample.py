@@ -14,6 +14,7 @@ _JOB = """\
 schema: zlmreport/job/1
 certificate:
   number: {number}
+  layout: full
   issued: 2026-11-20
   authorised_by: {{name: Erika Example, function: Head of laboratory}}
 laboratory:

@@ -53,7 +53,7 @@ def lines(document, key):
 
 def test_results_and_readings_of_both_measurements_stand_in_the_document(adjusted):
     keys = [each.key for each in adjusted().sections]
-    assert [key for key in keys if key not in {"conditions", "uncertainty", "origin"}] == [
+    assert [key for key in keys if key not in {"definitions", "uncertainty", "origin"}] == [
         "as-found-as-left",
         "iso230-2-2014",
         "nmtba",

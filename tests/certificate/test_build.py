@@ -55,7 +55,8 @@ def test_the_title_of_the_job_stands_instead_of_the_usual_one(tmp_path):
 
 
 def test_every_standard_has_a_section_of_its_own_in_the_order_of_the_job(tmp_path):
-    sections = [section.key for section in certificate(tmp_path, in_language("en")).sections]
+    full = having("certificate.layout", "full", in_language("en"))
+    sections = [section.key for section in certificate(tmp_path, full).sections]
     standards = ["iso230-2-1988", "iso230-2-1997", "iso230-2-2006", "iso230-2-2014"]
     assert sections == [
         "conditions",

@@ -83,10 +83,9 @@ def test_the_annex_is_marked_as_an_opinion_before_anything_else() -> None:
     )
 
 
-def test_the_annex_stands_on_pages_of_its_own_after_all_results(tmp_path: Path) -> None:
+def test_the_annex_stands_after_all_results(tmp_path: Path) -> None:
     document = composed(job(written(tmp_path)))
     assert [each.key for each in document.sections][-1] == "model"
-    assert document.sections[-1].new_page
 
 
 def test_a_job_without_a_model_has_no_annex(tmp_path: Path) -> None:

@@ -175,7 +175,7 @@ def _comparison(
         changes(pairs, writer),
         *limits(pairs, writer),
     ]
-    return Section("as-found-as-left", writer.say(_TITLE), tuple(blocks), new_page=True)
+    return Section("as-found-as-left", writer.say(_TITLE), tuple(blocks))
 
 
 def _results(

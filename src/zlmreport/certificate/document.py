@@ -146,7 +146,7 @@ Block: TypeAlias = Table | Facts | Paragraph | Notice | Graph | Formulas
 class Section:
     """A section: its key (an anchor, stable over languages), title, and blocks.
 
-    `new_page` asks to begin a page, as each standard's results do.
+    `new_page` asks to begin a page.
     """
 
     key: str

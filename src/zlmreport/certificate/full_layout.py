@@ -26,7 +26,7 @@ def lay_out(of: Material) -> LaidOut:
             *uncertainty_sections(of),
             *readings_sections(of),
             origin_section(of),
-            *opinions_and_model(of, new_page=True),
+            *opinions_and_model(of),
         ),
     )
 

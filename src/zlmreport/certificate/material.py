@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from zlmreport.certificate import origin, readings, uncertainty
@@ -110,10 +110,9 @@ def origin_section(of: Material) -> Section:
     return origin.section(of.sources, of.read, of.generator, of.plugins, of.writer)
 
 
-def opinions_and_model(of: Material, *, new_page: bool) -> Iterator[Section]:
+def opinions_and_model(of: Material) -> Iterator[Section]:
     """Yield what is an opinion and no result: the job's, and what the error model says."""
-    for each in opinion_sections(of.job.keys, of.writer):
-        yield replace(each, new_page=new_page)
+    yield from opinion_sections(of.job.keys, of.writer)
     if of.modelled:
         from zlmreport.certificate.model_annex import section  # noqa: PLC0415 - brings the error model
 

@@ -112,7 +112,7 @@ def section(modelled: Modelled, writer: Writer) -> Section:
         blocks.append(Notice(writer.say(_NOT_TRIED), tuple(not_tried)))
     if rows.remarks:
         blocks.append(Notice(writer.say(_ASSUMED), rows.remarks))
-    return Section(_KEY, writer.say(_TITLE), tuple(blocks), new_page=True)
+    return Section(_KEY, writer.say(_TITLE), tuple(blocks))
 
 
 def linked_graphs(modelled: Modelled, writer: Writer) -> Linked:

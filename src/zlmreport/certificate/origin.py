@@ -50,16 +50,22 @@ def section(
     programs = Facts(
         (
             (writer.say(Words(en="Program", de="Programm")), generator),
-            *((name, version) for name, version in sorted(plugins.items())),
+            (
+                writer.say(Words(en="Plugins", de="Plugins")),
+                ", ".join(f"{name} {version}" for name, version in sorted(plugins.items())),
+            ),
         ),
         writer.say(Words(en="Evaluated with", de="Ausgewertet mit")),
     )
-    blocks: list[Block] = [_files(sources, measurements, writer), programs]
+    deviation = _INDICATED if measurements[0].is_indication else _ACTUAL
+    blocks: list[Block] = [
+        *(Paragraph(writer.say(words)) for words in (_READING_AID, _SIGNS.given(deviation=deviation))),
+        _files(sources, measurements, writer),
+        programs,
+    ]
     remarks = tuple(remark for each in measurements for remark in each.provenance.remarks)
     if remarks:
         blocks.append(_remarks(remarks, writer))
-    deviation = _INDICATED if measurements[0].is_indication else _ACTUAL
-    blocks.extend(Paragraph(writer.say(words)) for words in (_READING_AID, _SIGNS.given(deviation=deviation)))
     return Section("origin", writer.say(_TITLE), tuple(blocks))
 
 

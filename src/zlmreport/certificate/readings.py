@@ -63,7 +63,7 @@ def section(measurements: MeasurementSet, writer: Writer, key: str = "measuremen
     blocks.extend(
         _table(measurements, chosen, writer) for chosen in ([columns] if fit else _by_approach(columns))
     )
-    return Section("readings", writer.say(_TITLE) + writer.marks.after(key), tuple(blocks), new_page=True)
+    return Section("readings", writer.say(_TITLE) + writer.marks.after(key), tuple(blocks))
 
 
 def missing_readings(measurements: MeasurementSet, writer: Writer) -> Iterator[Notice]:

@@ -108,7 +108,6 @@ def section(evaluated: Evaluated, writer: Writer) -> Section:
         key=section_key(evaluation),
         title=writer.say(title.given(designation=evaluation.designation)),
         blocks=tuple(blocks),
-        new_page=True,
     )
 
 

@@ -61,11 +61,14 @@ def lay_out(of: Material) -> LaidOut:
         above = 0.0 if sections else room.head(of.letterhead, of.title)
         section, left_over = _sheet(of, page, above)
         beyond |= left_over
-        sections.append(replace(section, new_page=bool(sections)))
+        sections.append(section)
     if beyond and of.job.keys.certificate.kind == "certificate":
         raise InputError(_refusals(of, beyond))
-    opinions = statements.opinion_sections(of.job.keys, of.writer)
-    return LaidOut((), (*_beside_as_found(of, sections), *opinions), is_compact=True)
+    first, *others = (
+        *_beside_as_found(of, sections),
+        *statements.opinion_sections(of.job.keys, of.writer),
+    )
+    return LaidOut((), (first, *(replace(each, new_page=True) for each in others)), is_compact=True)
 
 
 def _of_no_sheet(of: Material) -> Iterator[tuple[str, str]]:

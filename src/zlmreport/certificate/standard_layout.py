@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from typing import TypeAlias
 
-from zlmreport.certificate import conditions, conformity, cover, results
+from zlmreport.certificate import conditions, conformity, cover, results, room
 from zlmreport.certificate.document import (
     Block,
     Column,
@@ -62,18 +62,26 @@ _DEFINED = Words(en="{caption} {designations}.", de="{caption} {designations}.")
 
 
 def lay_out(of: Material) -> LaidOut:
-    """Return the document."""
+    """Return the document.
+
+    Each standard begins a page where the first page holds all that stands before the results; where it does
+    not, parts follow each other without a break.
+    """
     pages = together(of.evaluated, of.writer)
+    on_cover = cover.blocks(of, pages)
+    besides = tuple(map(_in_less_room, _besides_conditions(of)))
+    taken = room.head(of.letterhead, of.title) + room.height(on_cover)
+    breaks = not besides and taken <= room.PAGES[of.job.keys.certificate.paper]
     return LaidOut(
-        cover.blocks(of, pages),
+        on_cover,
         (
-            *_besides_conditions(of),
-            *_results(of, pages),
+            *besides,
+            *_results(of, pages, breaks=breaks),
             *in_common(pages, of.writer),
             *map(_without_graphs, uncertainty_sections(of)),
-            *(replace(each, new_page=False) for each in readings_sections(of)),
+            *readings_sections(of),
             origin_section(of),
-            *map(_in_less_room, opinions_and_model(of, new_page=False)),
+            *map(_in_less_room, opinions_and_model(of)),
         ),
         is_compact=True,
     )
@@ -87,15 +95,19 @@ def _besides_conditions(of: Material) -> Iterator[Section]:
         yield replace(section, blocks=blocks)
 
 
-def _results(of: Material, pages: Pages) -> Iterator[Section]:
-    """Yield the results; of an axis that was adjusted, those before, after, and compared."""
-    sections = (page(each, of.writer) for each in pages)
-    keys = of.job.keys.as_found
-    if keys is None:
-        return sections
-    from zlmreport.certificate.as_found import beside_as_found  # noqa: PLC0415 - of the few that need it
+def _results(of: Material, pages: Pages, *, breaks: bool) -> Iterator[Section]:
+    """Yield the results; of an axis that was adjusted, compared first, after and before.
 
-    return beside_as_found(keys, sections, of.as_found, of.evaluated, of.writer, page_of_one)
+    Each standard `breaks` the page before it, or goes on where the one before ends.
+    """
+    sections: Iterator[Section] = (page(each, of.writer) for each in pages)
+    keys = of.job.keys.as_found
+    if keys:
+        from zlmreport.certificate.as_found import beside_as_found  # noqa: PLC0415 - of the few that need it
+
+        sections = beside_as_found(keys, sections, of.as_found, of.evaluated, of.writer, page_of_one)
+        yield _in_less_room(next(sections))
+    yield from (replace(each, new_page=breaks) for each in sections)
 
 
 def _without_graphs(section: Section) -> Section:
@@ -104,14 +116,18 @@ def _without_graphs(section: Section) -> Section:
 
 
 def _in_less_room(section: Section) -> Section:
-    """Return a section that goes on where the one before ends, its graphs no higher than they must be."""
-    blocks = (
-        Graph(replace(each.figure, height=_OTHER * len(each.figure.panels)))
-        if isinstance(each, Graph)
-        else each
-        for each in section.blocks
-    )
-    return replace(section, blocks=tuple(blocks), new_page=False)
+    """Return a section with graphs no higher than they must be, and tables in smaller type."""
+    return replace(section, blocks=tuple(map(_smaller, section.blocks)))
+
+
+def _smaller(block: Block) -> Block:
+    match block:
+        case Graph(figure):
+            return Graph(replace(figure, height=_OTHER * len(figure.panels)))
+        case Table():
+            return replace(block, dense=True)
+        case _:
+            return block
 
 
 def together(evaluated: Iterable[Evaluated], writer: Writer) -> Pages:
@@ -141,7 +157,7 @@ def page(shared: Sequence[Evaluated], writer: Writer) -> Section:
     blocks += map(Graph, in_less_room(shared[0].figures))
     blocks.append(results.positions(first, writer))
     title = _TITLE.given(designations=designations(shared))
-    return Section(section_key(first), writer.say(title), tuple(blocks), new_page=True)
+    return Section(section_key(first), writer.say(title), tuple(blocks))
 
 
 def said_of_all(evaluations: Sequence[Evaluation], writer: Writer) -> Iterator[Block]:

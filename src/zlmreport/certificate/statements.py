@@ -241,7 +241,7 @@ def opinion_sections(keys: JobKeys, writer: Writer) -> Iterator[Section]:
     """Yield the opinion_sections of a job's opinions, if it states any."""
     if keys.opinions:
         apart = Notice(writer.say(OPINION), (writer.say(_RESTS),))
-        yield Section("opinions", writer.say(_OPINIONS), (apart, _opinion_table(keys, writer)), new_page=True)
+        yield Section("opinions", writer.say(_OPINIONS), (apart, _opinion_table(keys, writer)))
 
 
 def _opinion_table(keys: JobKeys, writer: Writer) -> Table:

@@ -142,7 +142,7 @@ class CertificateKeys(JobPart):
         examples=[{"number": "CAL-2026-0117", "reason": "The serial number of the machine was wrong."}],
     )
     layout: Literal["sheet", "standard", "full"] = Field(
-        "full",
+        "standard",
         description="How much room the document takes: `sheet` has one page for each standard and no more; "
         "`standard` has a page or so for each, and says once for all what they share; `full` has a chapter "
         "for each.",
