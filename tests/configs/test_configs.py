@@ -31,8 +31,8 @@ SIMULATIONS = sorted(
     for path in CONFIGS.rglob("*.yaml")
     if "schema: zlmreport/simulation/1" in path.read_text(encoding="utf-8")
 )
-#: Real readings; beside a simulation, or a script that makes them, stand simulated ones.
-MADE = {each.parent for each in (*SIMULATIONS, *CONFIGS.rglob("make.py"))}
+#: Real readings; beside a simulation, a script that makes them, or an emulated capture stand others.
+MADE = {each.parent for each in (*SIMULATIONS, *CONFIGS.rglob("make.py"), *CONFIGS.rglob("*.journal"))}
 DATA = sorted(
     path for path in CONFIGS.rglob("*.csv") if FLEET not in path.parents and path.parent not in MADE
 )
