@@ -6,7 +6,7 @@ import re
 from collections.abc import Mapping
 from fractions import Fraction
 from types import MappingProxyType
-from typing import Annotated
+from typing import Annotated, TypeGuard
 
 import numpy as np
 from pydantic import Field, model_validator
@@ -283,5 +283,5 @@ def _linear(terms: tuple[tuple[Tree, ...], ...], parameters: list[str]) -> tuple
     return tuple(name for name in parameters if name in found)
 
 
-def _is_one_of(factor: Tree, names: tuple[str, ...] | list[str]) -> bool:
+def _is_one_of(factor: Tree, names: tuple[str, ...] | list[str]) -> TypeGuard[Name]:
     return isinstance(factor, Name) and factor.text in names
