@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import os
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
-from fleet.fleets import FLEET, VERSIONS, Fleet, without_processes
+from fleet.fleets import FLEET, REGISTRY, VERSIONS, Fleet, without_processes
 from zlmreport.errors import AccessError, InputError
 from zlmreport.fleet import making
 from zlmreport.fleet import night as nights
@@ -253,6 +254,50 @@ def test_a_new_release_of_a_plugin_is_named(fleet: Fleet, monkeypatch: pytest.Mo
     happened = fleet.spend().of("x")
     assert happened.why.startswith("exemplary-plugins changed from 1.2 to 1.3 since ")
     assert happened.what is What.CONFIRMED
+
+
+def with_another_page(monkeypatch: pytest.MonkeyPatch, factor: float = 1.0) -> None:
+    """Let a new release print another page, and come to other values by a factor."""
+    newer = VERSIONS | {"exemplary-plugins": "1.3 code"}
+    monkeypatch.setattr(nights, "program_versions", lambda **_: newer)
+    monkeypatch.setattr(making, "_versions", lambda _: newer)
+    page = REGISTRY.renderer("exemplary")
+    monkeypatch.setattr(page, "render", lambda certificate: f"1.3: {certificate.title}".encode())
+    states = making.parameters_of
+    monkeypatch.setattr(
+        making,
+        "parameters_of",
+        lambda certificate: (replace(each, value=factor * each.value) for each in states(certificate)),
+    )
+
+
+def test_a_new_release_that_prints_another_page_of_the_same_values_is_no_news(
+    fleet: Fleet, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    fleet.spend()
+    before = fleet.certificate("x").read_bytes()
+    with_another_page(monkeypatch)
+    assert fleet.spend().what == {"x": What.CONFIRMED, "y": What.CONFIRMED}
+    assert fleet.certificate("x").read_bytes() == before
+    assert fleet.files() == {"CAL-X.txt", "CAL-Y.txt"}
+    assert fleet.spend().what == {"x": What.UNCHANGED, "y": What.UNCHANGED}
+
+
+def test_a_new_release_that_comes_to_other_values_makes_drafts(
+    fleet: Fleet, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    fleet.spend()
+    with_another_page(monkeypatch, factor=1.001)
+    assert fleet.spend().what == {"x": What.DRAFT, "y": What.DRAFT}
+
+
+def test_a_new_release_does_not_hide_that_a_reading_changed(
+    fleet: Fleet, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    fleet.spend()
+    fleet.readings("x", "1 2 3 -1 -2 -3 ")
+    with_another_page(monkeypatch)
+    assert fleet.spend().what == {"x": What.DRAFT, "y": What.CONFIRMED}
 
 
 def test_a_plugin_that_no_job_uses_changes_nothing(fleet: Fleet, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -110,6 +110,14 @@ class Night:
         except IntegrityError as error:
             raise NumberTakenError(entry.number) from error
 
+    def stated(self, job: str) -> tuple[RecordedParameter, ...]:
+        """Return what the latest certificate of a job states."""
+        own = (ENTRIES.c.fleet == self.fleet, ENTRIES.c.job == job, ENTRIES.c.state == State.MADE.value)
+        latest = select(func.max(ENTRIES.c.id)).where(*own).scalar_subquery()
+        query = select(PARAMETERS).where(PARAMETERS.c.entry == latest).order_by(PARAMETERS.c.row)
+        with self.database.transaction() as connection:
+            return tuple(map(_parameter, connection.execute(query)))
+
     def beat(self, now: str) -> None:
         """Give a sign of life."""
         with self.database.transaction() as connection:

@@ -9,7 +9,7 @@ import functools
 import hashlib
 import threading
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path, PurePosixPath
 
@@ -75,6 +75,8 @@ class Task:
         Versions of the program and of all plugins, as the night began with them.
     limits
         What it may take.
+    stated
+        What the certificate states that has this number, where nothing but programs changed since; else None.
     """
 
     fleet: Path
@@ -85,6 +87,7 @@ class Task:
     plugins: tuple[Path, ...]
     programs: Mapping[str, str]
     limits: Limits = Limits()
+    stated: tuple[RecordedParameter, ...] | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -195,6 +198,10 @@ def _made(task: Task, job: Job, fleet: FleetFile, begun: float) -> Made:
         issued.get(suffix, digest) != digest
         for suffix, digest in zip(suffixes, map(_digest, contents), strict=True)
     )
+    parameters = tuple(parameters_of(certificate))
+    kept = _kept(task, fleet.output / folder, certificate.number, suffixes)
+    if is_draft and kept and task.stated is not None and _are_alike(task.stated, parameters):
+        is_draft, contents = False, kept
     if is_draft:
         rendered = pipeline.render(drafted(certificate), renderers, registry)
         contents = [rendered[each.identifier] for each in renderers]
@@ -207,9 +214,28 @@ def _made(task: Task, job: Job, fleet: FleetFile, begun: float) -> Made:
             Finished(suffix, str(folder / f"{stem}{suffix}"), content)
             for suffix, content in zip(suffixes, contents, strict=True)
         ),
-        parameters=tuple(parameters_of(certificate)),
+        parameters=parameters,
         is_draft=is_draft,
     )
+
+
+def _kept(task: Task, folder: Path, number: str, suffixes: Sequence[str]) -> list[bytes]:
+    """Return the files of the certificate that has this number; nothing if they are not all as issued."""
+    paths = [folder / f"{number}{suffix}" for suffix in suffixes]
+    contents = [path.read_bytes() for path in paths if path.is_file()]
+    issued = [task.issued.get(suffix) for suffix in suffixes]
+    return contents if list(map(_digest, contents)) == issued else []
+
+
+def _are_alike(before: Iterable[RecordedParameter], now: Iterable[RecordedParameter]) -> bool:
+    """Whether two certificates state the same values, to the rounding of doubles."""
+    return sorted(map(_rounded, before)) == sorted(map(_rounded, now))
+
+
+def _rounded(parameter: RecordedParameter) -> str:
+    numbers = (parameter.value, parameter.expanded_uncertainty, parameter.limit)
+    shown = ("" if number is None else f"{number:.9g}" for number in numbers)
+    return repr((parameter.standard, parameter.symbol, parameter.unit, *shown, parameter.conforms))
 
 
 def defaults_digest(fleet: FleetFile) -> str:

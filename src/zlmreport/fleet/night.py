@@ -8,12 +8,12 @@ import math
 import os
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Protocol
 
 from zlmreport.errors import AccessError, Place, ZlmreportError
-from zlmreport.fleet.basis import Basis, KnownFile, program_versions
+from zlmreport.fleet.basis import Basis, Disk, KnownFile, changes, program_versions
 from zlmreport.fleet.cluster import Cluster
 from zlmreport.fleet.issuing import Desk, Happened, What, tidy
 from zlmreport.fleet.ledger import Ledger, Night, PastNight, Standing
@@ -343,7 +343,17 @@ def _task(planned: Planned, known: Evening, plugins: tuple[Path, ...], work: _Wo
         plugins=plugins,
         programs=known.now.programs,
         limits=Limits(limits.seconds or patience, limits.megabytes),
+        stated=work.night.stated(planned.job) if _is_upgrade(planned, known) else None,
     )
+
+
+def _is_upgrade(planned: Planned, known: Evening) -> bool:
+    """Whether nothing but programs changed since a certificate was issued."""
+    standing = known.standings.get(planned.job)
+    if standing is None or standing.basis is None or standing.state is not State.MADE:
+        return False
+    as_before = replace(known.now, programs=standing.basis.programs)
+    return not any(changes(standing.basis, Disk(known.fleet.path.parent), as_before))
 
 
 def _executor(fleet: FleetFile, order: Order, due: int, beat: Callable[[], None]) -> Pool | Cluster:

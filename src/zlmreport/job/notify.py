@@ -13,7 +13,7 @@ class NotifyKeys(JobPart):
     """One way to tell people; passwords and addresses with secrets come from the environment."""
 
     plugin: Literal["mail", "apprise"] = Field(
-        description="A mail, or any of the services that apprise knows (extra `notify`)."
+        description="A mail, or any of the services that apprise knows, where it is installed."
     )
     to: list[Text] | Text | None = Field(
         None, description="Who gets the mail.", examples=["calibration@example.com"]
