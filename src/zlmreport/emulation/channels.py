@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-import fcntl
 import os
 import select
 import socket
 import struct
-import termios
 import time
-import tty
 from collections.abc import Callable
 from pathlib import Path
 from random import Random
@@ -64,6 +61,11 @@ class PseudoTerminal:
     """
 
     def __init__(self, link: Path | None = None) -> None:
+        try:
+            import tty  # noqa: PLC0415 - not on every system
+        except ImportError as error:
+            message = "this system has no pseudo-terminals: put the instrument on a socket, with --port"
+            raise AccessError.at(Place("zlmreport emulate"), message) from error
         self._ours, self._theirs = os.openpty()  # held open: or it would hang up when a host closes it
         tty.setraw(self._theirs)
         os.set_blocking(self._ours, False)
@@ -136,6 +138,9 @@ class PseudoTerminal:
 
     def _waiting(self) -> int:
         """Return how many bytes wait for a host."""
+        import fcntl  # noqa: PLC0415 - where there are pseudo-terminals
+        import termios  # noqa: PLC0415
+
         (count,) = struct.unpack("i", fcntl.ioctl(self._theirs, termios.FIONREAD, bytes(4)))
         return int(count)
 

@@ -6,7 +6,6 @@ The lock is gone when its holder is, however that ended.
 from __future__ import annotations
 
 import contextlib
-import fcntl
 import hashlib
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -330,6 +329,11 @@ def locked(database: Database, holder: str) -> Iterator[None]:
 
 @contextlib.contextmanager
 def _locked_file(path: Path, address: str, holder: str) -> Iterator[None]:
+    try:
+        import fcntl  # noqa: PLC0415 - not on every system
+    except ImportError as error:
+        message = "a ledger in a file needs Linux or macOS; state one in a PostgreSQL database"
+        raise AccessError.at(Place(address), message) from error
     with path.open("a+", encoding="utf-8") as file:
         try:
             fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)

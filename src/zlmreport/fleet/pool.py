@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import resource
 import signal
 import time
 from collections import deque
@@ -169,13 +168,19 @@ def _serve(line: Connection, plugins: tuple[Path, ...]) -> None:
     with contextlib.suppress(EOFError, OSError):
         while True:
             task: Task = line.recv()
-            _, hard = resource.getrlimit(resource.RLIMIT_DATA)
-            resource.setrlimit(resource.RLIMIT_DATA, (_within(task.limits.megabytes * 10**6, hard), hard))
+            _limit_memory(task.limits.megabytes * 10**6)
             line.send(work(task))
 
 
-def _within(soft: int, hard: int) -> int:
-    return soft if hard == resource.RLIM_INFINITY else min(soft, hard)
+def _limit_memory(size: int) -> None:
+    """Let this process have no more data than that, bytes, where the system can hold it to that."""
+    try:
+        import resource  # noqa: PLC0415 - not on every system
+    except ImportError:
+        return
+    _, hard = resource.getrlimit(resource.RLIMIT_DATA)
+    soft = size if hard == resource.RLIM_INFINITY else min(size, hard)
+    resource.setrlimit(resource.RLIMIT_DATA, (soft, hard))
 
 
 def _killed(task: Task, code: int) -> Failed:
