@@ -33,6 +33,7 @@ CONDITIONS = {
     "relative_humidity": 45,
     "expansion_coefficient": 11.5,
     "remarks": "none",
+    "sensors": "air beside the beam",
 }
 EVERYTHING: Mapping[str, Any] = {
     **COMPLETE,
@@ -65,6 +66,7 @@ EVERYTHING: Mapping[str, Any] = {
         "calibrated": "2022-01-01",
         "expanded_uncertainty_per_metre": 0.5,
         "expansion_coefficient": 8,
+        "compensation": "none",
     },
     "environment": CONDITIONS,
     "uncertainty": {**COMPLETE["uncertainty"], "resolution": 0.01},
