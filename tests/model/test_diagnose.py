@@ -316,12 +316,3 @@ class TestReport:
         german = report(screw(), Language.GERMAN)["candidates"][0]["explains"]
         assert re.match(r"explains (9\d|100) % of what the noise leaves open", english)
         assert re.match(r"erklärt (9\d|100) % dessen, was das Rauschen offen lässt", german)
-
-
-def test_backlash_is_named_where_a_shape_that_holds_it_explains_as_much() -> None:
-    """With the offset alone, a smooth reversal value has as much evidence: nothing is left after the name."""
-    design, model = linear_test(11, 5), model_of("offset")
-    deviation = hidden(design, "backlash", size=0.6, model=model) + realistic_noise(design, seed=3)
-    found = diagnose(model, observations(design, deviation), INSTALLED)
-    assert found.verdict is Verdict.MISSING
-    assert found.candidates[0].identifier == "backlash"

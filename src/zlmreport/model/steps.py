@@ -213,8 +213,7 @@ def named_effects(found: Sequence[Step]) -> tuple[str, ...]:
     names: list[str] = []
     named, unnamed = 0.0, -np.inf
     for step in found:
-        # A shape that holds the effect, and more, is no better where nothing is left after the effect.
-        price = NAMED * step.something_is_missing + FURTHER * max(0, len(names) - 1)
+        price = NAMED + FURTHER * max(0, len(names) - 1)
         if names and named >= unnamed + price and named * (1 - EXPLAINED) >= EXPLAINED * step.left:
             return tuple(names)
         if not step.something_is_missing or step.best is None:
