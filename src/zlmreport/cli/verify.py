@@ -9,8 +9,10 @@ from pathlib import Path
 from typing import Any
 
 from zlmreport.cli.terminal import Colour, print_json, shown_path, table, visible
+from zlmreport.errors import Place
 from zlmreport.plugins import find_plugins
 from zlmreport.quantities.units import printed_symbol
+from zlmreport.signing.trust import trusted_by_user, trusted_certificates
 from zlmreport.verification.findings import Finding, Outcome, Value, Verdict, Verification, is_number
 from zlmreport.verification.verify import verify
 from zlmreport.version import __version__
@@ -28,7 +30,14 @@ SCHEMA = "zlmreport/verification/1"
 
 def run(options: Namespace) -> int:
     """Verify a certificate; return 1 if anything in it does not hold, 5 if that cannot be decided here."""
-    found = verify(options.certificate, find_plugins(files=options.plugin), options.dcc_schema)
+    named = options.trusted or trusted_by_user()
+    found = verify(
+        options.certificate,
+        find_plugins(files=options.plugin),
+        options.dcc_schema,
+        trusted=trusted_certificates(named, Place("zlmreport --trusted")) if named else (),
+        require_signature=options.require_signature,
+    )
     code = _CODES[found.outcome]
     if options.json:
         print_json(_values(options.certificate, found, code))
@@ -64,7 +73,8 @@ def _lines(path: Path, found: Verification) -> Iterator[str]:
 def _verdict(found: Verification) -> str:
     match found.outcome:
         case Outcome.HOLDS:
-            return Colour.GREEN.of("holds") + ": consistent, origin unknown"
+            origin = "signed by a key that is trusted" if found.is_trusted else "consistent, origin unknown"
+            return f"{Colour.GREEN.of('holds')}: {origin}"
         case Outcome.UNDECIDED:
             parts = " and ".join(found.undecided)
             return f"{Colour.YELLOW.of('not decided')}: {parts} could not be compared whole"
@@ -164,7 +174,7 @@ def _values(path: Path, found: Verification, exit_code: int) -> dict[str, Any]:
         "file": str(path),
         "verdict": found.outcome.value,
         "holds": _HOLDS[found.outcome],
-        "trusted": False,
+        "trusted": found.is_trusted,
         "undecided": list(found.undecided),
         "differences": found.differences,
         "certificate": asdict(found.identity),

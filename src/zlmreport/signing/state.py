@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from datetime import datetime
 from enum import Enum
 from io import BytesIO
 from typing import Any
+
+from zlmreport.signing.trust import is_trusted
 
 # A signature states which bytes it covers; this name cannot be packed away.
 _MARK = b"/ByteRange"
@@ -29,8 +32,7 @@ class Signature:
     Attributes
     ----------
     signer
-        Name on the signer's certificate. Whether that certificate is to be trusted is not judged here:
-        anybody can make one with any name.
+        Name on the signer's certificate: anybody can make one with any name.
     fingerprint
         SHA-256 of the certificate in hexadecimal, to compare with the one that the laboratory publishes.
     stated_time
@@ -39,6 +41,8 @@ class Signature:
         Whether the bytes that it covers are the bytes that were signed with the certificate's key.
     covers_file
         Whether it covers the whole file: nothing was appended after it.
+    is_trusted
+        Whether the certificate, or an authority that issued it, is among those that are trusted.
     """
 
     signer: str
@@ -46,6 +50,7 @@ class Signature:
     stated_time: datetime | None
     holds: bool
     covers_file: bool
+    is_trusted: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,16 +72,21 @@ class SignatureState:
     signatures: tuple[Signature, ...] = ()
     reason: str = ""
 
+    @property
+    def is_trusted(self) -> bool:
+        """Whether every signature is intact and trusted."""
+        return self.integrity is Integrity.INTACT and all(each.is_trusted for each in self.signatures)
 
-def signature_state(pdf: bytes) -> SignatureState:
+
+def signature_state(pdf: bytes, trusted: Sequence[Any] = ()) -> SignatureState:
     """Return what can be said of the signatures of a PDF, be it foreign, damaged or forged.
 
-    Nothing is fetched from anywhere.
+    `trusted` are certificates in the terms of asn1crypto. Nothing is fetched from anywhere.
     """
     if _MARK not in pdf:
         return SignatureState(Integrity.UNSIGNED)
     try:
-        signatures = _read(pdf)
+        signatures = _read(pdf, trusted)
     except ImportError:
         return SignatureState(Integrity.UNCHECKED, reason="pyHanko is not installed: zlmreport[sign]")
     except Exception as error:  # noqa: BLE001 (pyHanko meets a forger's bytes with many kinds of them)
@@ -95,16 +105,16 @@ def _fault(signatures: tuple[Signature, ...]) -> str:
     return ""
 
 
-def _read(pdf: bytes) -> tuple[Signature, ...]:
+def _read(pdf: bytes, trusted: Sequence[Any]) -> tuple[Signature, ...]:
     from pyhanko.pdf_utils.reader import PdfFileReader  # noqa: PLC0415 (an optional extra)
 
     embedded = PdfFileReader(BytesIO(pdf)).embedded_signatures
     if len(embedded) > _MOST_SIGNATURES:
         raise ValueError(f"it has {len(embedded)} signatures")
-    return tuple(map(_checked, embedded))
+    return tuple(_checked(each, trusted) for each in embedded)
 
 
-def _checked(embedded: Any) -> Signature:
+def _checked(embedded: Any, trusted: Sequence[Any]) -> Signature:
     from pyhanko.sign.validation.generic_cms import validate_sig_integrity  # noqa: PLC0415 (an optional extra)
     from pyhanko.sign.validation.status import SignatureCoverageLevel  # noqa: PLC0415 (an optional extra)
 
@@ -119,4 +129,6 @@ def _checked(embedded: Any) -> Signature:
         stated_time=embedded.self_reported_timestamp,
         holds=intact and valid,
         covers_file=embedded.coverage == SignatureCoverageLevel.ENTIRE_FILE,
+        is_trusted=bool(trusted)
+        and is_trusted(certificate, embedded.other_embedded_certs, trusted, embedded.self_reported_timestamp),
     )

@@ -103,6 +103,8 @@ class Verification:
         What limits the comparison.
     is_signed
         Whether there is a signature, be it intact or not.
+    is_trusted
+        Whether it is intact, and made with a certificate that is trusted.
     """
 
     identity: Identity
@@ -113,6 +115,7 @@ class Verification:
     document: tuple[Finding, ...] = ()
     remarks: tuple[str, ...] = field(default=())
     is_signed: bool = False
+    is_trusted: bool = False
 
     @property
     def outcome(self) -> Outcome:

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 from zlmreport import pipeline
 from zlmreport.certificate.build import GENERATOR
@@ -55,7 +56,14 @@ class _Again:
     is_by_its_own_renderer: bool
 
 
-def verify(path: Path, registry: Registry, dcc_schema: Path | None = None) -> Verification:
+def verify(
+    path: Path,
+    registry: Registry,
+    dcc_schema: Path | None = None,
+    *,
+    trusted: Sequence[Any] = (),
+    require_signature: bool = False,
+) -> Verification:
     """Verify a certificate.
 
     Parameters
@@ -66,6 +74,10 @@ def verify(path: Path, registry: Registry, dcc_schema: Path | None = None) -> Ve
         The plugins that evaluate and print again.
     dcc_schema
         A folder with PTB's schema, to check an attached digital certificate by it and by PTB's rules.
+    trusted
+        Certificates of signers or of authorities, as `zlmreport.signing.trust` reads them.
+    require_signature
+        Whether it must bear an intact signature that is trusted.
 
     Raises
     ------
@@ -76,11 +88,12 @@ def verify(path: Path, registry: Registry, dcc_schema: Path | None = None) -> Ve
         sources was changed: because a plugin is not installed, for example.
     """
     carrier = opened(read_file(path), Place(str(path)))
-    state = signature_state(carrier.content)
+    state = signature_state(carrier.content, trusted)
     found = Verification(
         Identity(generator=carrier.creator),
-        signature_finding(state),
+        signature_finding(state, is_required=require_signature),
         is_signed=state.integrity is not Integrity.UNSIGNED,
+        is_trusted=state.is_trusted,
     )
     try:
         stated = stated_by(carrier)

@@ -166,6 +166,17 @@ def verify(command: str) -> CommandParser:
     parser.add_argument("certificate", metavar="FILE.pdf", type=Path, help="certificate, signed or not")
     parser.add_argument("--json", action="store_true", help="print every finding as JSON")
     parser.add_argument(
+        "--trusted",
+        metavar="CERT.pem|FOLDER",
+        type=Path,
+        help="certificates of signers or authorities that are trusted (default: the user's configuration)",
+    )
+    parser.add_argument(
+        "--require-signature",
+        action="store_true",
+        help="only what bears an intact signature that is trusted holds",
+    )
+    parser.add_argument(
         "--dcc-schema",
         metavar="DIR",
         type=Path,
