@@ -33,7 +33,9 @@ def test_a_key_is_marked_by_itself_or_its_group_and_a_group_by_what_is_in_it(key
 
 def test_what_the_customer_supplied_is_marked_on_every_page_that_has_it(tmp_path):
     keys = {**COMPLETE, "provided_by_customer": ["machine.serial"]}
-    assert text_of(certificate(tmp_path, keys)).count("Serial number †: S-1") == 2
+    text = text_of(certificate(tmp_path, keys))
+    assert "Serial number †: S-1" in text
+    assert "Serial number: S-1" not in text
 
 
 def test_data_of_the_customer_are_disclaimed(tmp_path):

@@ -30,8 +30,11 @@ def readings(shape: st.SearchStrategy[tuple[int, ...]]) -> st.SearchStrategy[Flo
 
 
 def shapes() -> st.SearchStrategy[tuple[int, ...]]:
-    """Return shapes (approach, position, run): two directions, 1 to 8 positions, 2 to 6 runs."""
-    return st.tuples(st.just(2), st.integers(1, 8), st.integers(2, 6))
+    """Return shapes (approach, position, run): two directions, 2 to 8 positions, 2 to 6 runs.
+
+    At a single position the ranges over positions are not defined.
+    """
+    return st.tuples(st.just(2), st.integers(2, 8), st.integers(2, 6))
 
 
 def parameters(identifier: str, grid: FloatArray) -> dict[str, float]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import warnings
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from io import BytesIO
@@ -18,7 +19,8 @@ Change = Callable[[Pdf], None]
 def rewritten(pdf: bytes, change: Change) -> bytes:
     """Return a PDF as another program saves it, after a change."""
     saved = BytesIO()
-    with pikepdf.open(BytesIO(pdf)) as opened:
+    with warnings.catch_warnings(), pikepdf.open(BytesIO(pdf)) as opened:
+        warnings.simplefilter("ignore")  # what is made here is meant to be odd
         change(opened)
         opened.save(saved, fix_metadata_version=False)
     return saved.getvalue()

@@ -93,7 +93,12 @@ def test_the_heading_of_a_group_stays_with_its_rows(lines: int) -> None:
 
 def test_pages_part_columns_of_numbers_between_the_fives() -> None:
     rows = tuple((f"row{n:03d}", "1.0") for n in range(1, 204))
-    table = Table("numbers", (Column("text"), Column("x", align=Align.RIGHT)), (RowGroup(rows),), dense=True)
+    table = Table(
+        "numbers",
+        (Column("n", align=Align.RIGHT), Column("x", align=Align.RIGHT)),
+        (RowGroup(rows),),
+        dense=True,
+    )
     reader = read(with_blocks(Section("numbers", "Numbers", (table,))))
     pages = [page_of(reader, f"row{n:03d}") for n in range(1, 204)]
     ends = [n for n in range(1, 203) if pages[n - 1] != pages[n]]
