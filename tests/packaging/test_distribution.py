@@ -10,7 +10,7 @@ import tarfile
 import tomllib
 import zipfile
 from collections.abc import Iterable, Iterator
-from importlib.metadata import entry_points, packages_distributions, requires
+from importlib.metadata import PackageNotFoundError, entry_points, packages_distributions, requires
 from itertools import chain
 from pathlib import Path
 from typing import Any
@@ -142,10 +142,18 @@ def test_every_library_that_development_imports_comes_with_the_group_test() -> N
     assert not lacking, f"imported, but not in the dependency group 'test': {lacking}"
 
 
+def brought_by(name: str) -> list[str]:
+    """Return what a library requires; nothing of one of an extra that is not installed here."""
+    try:
+        return requires(name) or []
+    except PackageNotFoundError:
+        return []
+
+
 def undeclared(roots: list[Path], requirements: list[str]) -> set[str]:
     """Return the libraries imported that neither are requirements nor come with one."""
     declared = names_of(requirements)
-    installed = declared.union(*(names_of(requires(each) or []) for each in declared))
+    installed = declared.union(*(names_of(brought_by(each)) for each in declared))
     own = {path.stem for root in roots for path in root.iterdir()} | OWN
     distributions = packages_distributions()
     return {

@@ -131,6 +131,8 @@ class Cluster:
             return result
         if future.status == "error":
             return _Lost(str(future.exception()))
+        if self._client.status == "running":  # a worker ended while its result was fetched
+            return _Lost("its worker ended with the result")
         raise self._gone()
 
     def _gone(self) -> AccessError:
