@@ -82,7 +82,7 @@ def main() -> None:
         example = certificate(_ROOT / "configs" / "linear-axis" / "certificate.yaml", Path(folder, "example"))
         make("certificate-cover", example, 1)
         make("certificate-results", example, page_with(example, "Results by ISO 230-2:2014", after=1))
-        make("certificate-graphs", example, page_with(example, "Figure 2"))
+        make("certificate-graphs", example, page_with(example, "Results by VDI/DGQ 3441", after=1))
         first = Path(folder, "first")
         subprocess.run([_ZLMREPORT, "init", first], check=True, stdout=subprocess.DEVNULL)  # noqa: S603 - of our own files
         job = first / "job.yaml"
