@@ -54,10 +54,16 @@ def job(tmp_path: Path) -> Path:
 
 
 @pytest.fixture
-def address(job: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[str]:
+def others() -> list[Path]:
+    """Return the jobs of other tests that the page is opened with: none, unless a test names some."""
+    return []
+
+
+@pytest.fixture
+def address(job: Path, others: list[Path], monkeypatch: pytest.MonkeyPatch) -> Iterator[str]:
     """Return what the command prints: where the page of the job is."""
     monkeypatch.setenv("XDG_CACHE_HOME", str(job.with_name("cache")))
-    with started(*ZLMREPORT, "workbench", job, "--no-browser") as workbench:
+    with started(*ZLMREPORT, "workbench", job, *others, "--no-browser") as workbench:
         found = _ADDRESS.search(workbench.lines(1)[0])
         assert found
         yield found[0]

@@ -38,7 +38,7 @@ def job(tmp_path: Path) -> Path:
 
 @pytest.fixture
 def workbench(job: Path) -> Iterator[Workbench]:
-    made = Workbench.of(job, registry())
+    made = Workbench.of([job], registry())
     yield made
     made.diagnoses.end()
     made.commands.end()

@@ -30,7 +30,7 @@ from zlmreport.web.view import diagnosed, results, view
 @pytest.fixture(scope="module")
 def page() -> dict[str, Any]:
     """Return the example's job as the page is told of it."""
-    workbench = Workbench.of(EXAMPLE / "job.yaml", registry())
+    workbench = Workbench.of([EXAMPLE / "job.yaml"], registry())
     loaded = workbench.bench.loaded()
     return {
         **view(workbench.bench, loaded, Language.ENGLISH),
@@ -137,7 +137,7 @@ def test_a_diagnosis_that_was_made_is_there_at_once_also_for_a_copy_and_after_a_
     copy.mkdir()
     for name in ("job.yaml", "x-axis.csv"):
         shutil.copy(workbench.bench.path.with_name(name), copy)
-    again = Workbench.of(copy / "job.yaml", registry())
+    again = Workbench.of([copy / "job.yaml"], registry())
     assert again.diagnoses.of(again.bench.loaded().content).keys() == {"diagnosis"}
     (copy / "x-axis.csv").write_text((copy / "x-axis.csv").read_text("utf-8") + "# later\n", "utf-8")
     assert again.diagnoses.of(again.bench.loaded().content).keys() == {"seconds"}

@@ -25,6 +25,7 @@ export class Graphs {
     this.boxed = [];
     this.shown = [];
     this.step = null;
+    this.others = [];
     this.above = this.#plot("above", texts.measured);
     this.below = this.#plot("below", texts.residuals);
     this.choice = h("select", { id: "over", change: () => this.#switch(this.choice.value) });
@@ -78,6 +79,12 @@ export class Graphs {
     this.caption.hidden = step === null;
     fill(this.caption, step && [h("span", { class: "of-before" }, this.texts.before), " ", h("span", { class: "of-after" }, said(this.texts.after, { step: name }))]);
     this.#draw();
+  }
+
+  /** Lay the means of other tests over the readings. */
+  overlay(curves) {
+    this.others = curves;
+    if (this.graphs) this.#draw();
   }
 
   /** Mark the readings that show something, over what shows it best. */
@@ -149,7 +156,7 @@ export class Graphs {
     const position = this.axes.get("position");
     const alike = { direction: readings.direction, fitted: readings.fitted, alternative: graphs.alternative, hidden: this.hidden, shades: this.#shades() };
     this.above.show({
-      ...alike, x: position.values, y: readings.deviation, curves: step ? step.after.model : graphs.model, noise: null,
+      ...alike, x: position.values, y: readings.deviation, curves: step ? step.after.model : graphs.model, others: this.others, noise: null,
       ghost: step && { curves: step.before.model, y: readings.deviation },
       range: this.ranges.get("position") ?? null, span: this.spans.get("above") ?? null,
       xTitle: titled(position), yTitle: `${graphs.deviation} (${graphs.unit})`,
@@ -174,7 +181,7 @@ export class Graphs {
     if (this.shade === "direction") return null;
     const { values } = this.axes.get(this.shade);
     const [low, high] = [Math.min(...values.filter((value) => value !== null)), Math.max(...values)];
-    return values.map((value) => (value === null ? 0 : Math.min(SHADES - 1, Math.floor((SHADES * (value - low)) / (high - low || 1)))));
+    return values.map((value) => `shade-${value === null ? 0 : Math.min(SHADES - 1, Math.floor((SHADES * (value - low)) / (high - low || 1)))}`);
   }
 
   #rings() {

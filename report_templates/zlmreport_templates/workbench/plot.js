@@ -33,7 +33,8 @@ export class Plot {
 
   /**
    * Show readings (`x`, `y`, `direction`, `fitted` arrays), curves, bands, and the level of the noise; what was
-   * before (`ghost`: curves and `y`), lines, classes of colour; `range` and `span` are what is in sight.
+   * before (`ghost`: curves and `y`), curves of other tests, lines, a look for each reading; `range` and `span` are
+   * what is in sight.
    */
   show(data) {
     this.data = data;
@@ -94,7 +95,7 @@ export class Plot {
         if (data.ghost) found.push(data.ghost.y[index]);
       }
     }
-    for (const curve of this.#curvesShown()) {
+    for (const curve of [...this.#curvesShown(), ...this.#othersShown()]) {
       for (let index = 0; index < curve.x.length; index += 1) {
         if (curve.x[index] >= low && curve.x[index] <= high) found.push(curve.y[index], curve.low ? curve.low[index] : curve.y[index], curve.high ? curve.high[index] : curve.y[index]);
       }
@@ -104,6 +105,11 @@ export class Plot {
 
   #curvesShown() {
     return this.data.curves.filter((curve) => !this.data.hidden.has(curve.direction > 0 ? "model-up" : "model-down"));
+  }
+
+  /** Return the curves of other tests, those of a direction that is hidden left out. */
+  #othersShown() {
+    return (this.data.others ?? []).filter((curve) => !this.data.hidden.has(curve.direction > 0 ? "up" : "down"));
   }
 
   #draw() {
@@ -122,7 +128,7 @@ export class Plot {
     fill(this.svg,
       s("clipPath", { id: this.identifier }, s("rect", inside)),
       this.#axes(inside, height),
-      s("g", { "clip-path": `url(#${this.identifier})` }, this.#levels(inside), this.#ghost(), this.#curves(this.#curvesShown(), ""), this.#points(data.y, ""), this.#lines(), this.ringed, this.selection),
+      s("g", { "clip-path": `url(#${this.identifier})` }, this.#levels(inside), this.#ghost(), this.#curves(this.#curvesShown(), ""), this.#others(), this.#points(data.y, ""), this.#lines(), this.ringed, this.selection),
     );
     this.#drawRings();
   }
@@ -176,6 +182,14 @@ export class Plot {
     });
   }
 
+  /** The means of other tests, each with its number at its end: nothing is told by colour alone. */
+  #others() {
+    return this.#othersShown().filter((curve) => curve.x.length > 0).map((curve) => [
+      this.#curves([curve], ` ${curve.look}`),
+      s("text", { class: `label ${curve.look}`, x: this.x(curve.x.at(-1)) - 8, y: this.y(curve.y.at(-1)) - 5 }, curve.label),
+    ]);
+  }
+
   #points(heights, look) {
     const { data } = this;
     const paths = new Map();
@@ -186,7 +200,7 @@ export class Plot {
       if (value === null || value < this.x.low || value > this.x.high || !this.#isShown(index)) continue;
       const up = data.direction[index] > 0;
       const flagged = data.fitted[index] ? "" : " flagged";
-      const shade = look || flagged || !data.shades ? "" : ` shade-${data.shades[index]}`;
+      const shade = look || flagged || !data.shades ? "" : ` ${data.shades[index]}`;
       const name = `mark ${up ? "up" : "down"}${flagged}${shade}${many ? " many" : ""}${look}`;
       if (!paths.has(name)) paths.set(name, []);
       paths.get(name).push(triangle(this.x(value), this.y(heights[index]), up ? size : -size));

@@ -1,5 +1,6 @@
 // The page of the workbench: shows the job as it stands in its file, and sends clicks to it.
 
+import { Comparison } from "./comparison.js";
 import { fill, h, said } from "./dom.js";
 import { showEffect } from "./effect.js";
 import { Graphs } from "./graphs.js";
@@ -28,13 +29,14 @@ class Page {
       noTable: () => this.#change({ action: "state", parameter: "compensation_table" }),
     };
     this.graphs = new Graphs(texts, this.number, (readings, reason) => this.#change({ action: "exclude", readings, reason }));
+    this.comparison = new Comparison(texts, this.number, (curves) => this.graphs.overlay(curves));
     this.notice = h("div", { class: "notice", role: "alert", hidden: true });
     this.header = h("header", {}, h("p", { role: "status" }, texts.working));
     this.parts = Object.fromEntries(["verdict", "fall", "faults", "failures", "candidates", "hidden", "compensation", "certificate", "effects", "standards", "excluded", "steps"]
       .map((name) => [name, h("section", { class: "panel", id: `part-${name}` })]));
     const { verdict, fall, faults, failures, candidates, hidden, compensation, certificate, effects, standards, excluded, steps } = this.parts;
     document.body.replaceChildren(this.header, this.notice, h("main", {},
-      h("div", { class: "bench" }, h("div", { class: "always" }, verdict, fall), h("div", { class: "seen" }, this.graphs.element, effects, standards),
+      h("div", { class: "bench" }, h("div", { class: "always" }, verdict, fall), h("div", { class: "seen" }, this.graphs.element, this.comparison.element, effects, standards),
       h("div", { class: "findings" }, faults, failures, candidates, hidden, compensation, certificate, excluded, steps))));
   }
 
@@ -71,6 +73,7 @@ class Page {
     this.#showMade();
     this.#showDiagnosis();
     this.#results(job.stamp);
+    this.#compare(job.stamp);
     this.#diagnose(job.stamp);
   }
 
@@ -81,6 +84,18 @@ class Page {
       if (this.stamp !== stamp) return;
       fill(this.parts.fall, panels.fall(this.texts, results, this.actions));
       fill(this.parts.standards, panels.standards(this.texts, results));
+    } catch (error) {
+      if (!(error instanceof Refusal || error instanceof Silence)) throw error; // what is wrong is said already
+    }
+  }
+
+  /** Show other tests of the axis beside that of the job. */
+  async #compare(stamp) {
+    try {
+      const found = await get("/api/tests");
+      if (this.stamp !== stamp) return;
+      this.tests = found.stamp;
+      this.comparison.show(found, this.job.graphs);
     } catch (error) {
       if (!(error instanceof Refusal || error instanceof Silence)) throw error; // what is wrong is said already
     }
@@ -160,9 +175,13 @@ class Page {
   async #look() {
     if (this.working) return;
     try {
-      const { stamp } = await get("/api/stamp");
+      const { stamp, tests } = await get("/api/stamp");
       if (this.silent) this.#hush();
-      if (stamp === this.stamp || this.working) return;
+      if (this.working) return;
+      if (stamp === this.stamp) {
+        if (this.tests !== undefined && tests !== this.tests) await this.#compare(stamp);
+        return;
+      }
       this.stamp = stamp;
       if (await this.#load()) this.#say(this.texts.outside);
     } catch (error) {

@@ -25,7 +25,7 @@ def run(options: Namespace) -> int:
         raise AccessError.at(
             _PLACE, f"{package} is not installed; install the workbench: pip install 'zlmreport[workbench]'"
         ) from error
-    workbench = Workbench.of(options.job, find_plugins(files=options.plugin), tuple(options.plugin))
+    workbench = Workbench.of(options.jobs, find_plugins(files=options.plugin), tuple(options.plugin))
     signal.signal(signal.SIGTERM, _end)
     with contextlib.suppress(KeyboardInterrupt):
         serve(workbench, options.port, _print_address, open_browser=not options.no_browser)

@@ -26,6 +26,7 @@ from zlmreport.typesetting.templates import render
 from zlmreport.web.bench import Bench
 from zlmreport.web.changes import ConflictError, NothingToUndoError, Request, change
 from zlmreport.web.commands import Commands, Wanted
+from zlmreport.web.comparison import Comparison
 from zlmreport.web.diagnoses import Diagnoses
 from zlmreport.web.effect_page import effect_page
 from zlmreport.web.guard import HOST, Door, Guard
@@ -50,21 +51,32 @@ class Workbench:
     ----------
     bench
         The job.
+    comparison
+        Other tests of its axis beside it.
     diagnoses, commands
         Made beside, each in a process of its own.
     """
 
     bench: Bench
+    comparison: Comparison
     diagnoses: Diagnoses
     commands: Commands
 
     @classmethod
-    def of(cls, job: Path, registry: Registry, plugins: Sequence[Path] = ()) -> Workbench:
-        """Return the answers for a job; raise what is wrong with it as `Bench.loaded` does."""
+    def of(cls, jobs: Sequence[Path], registry: Registry, plugins: Sequence[Path] = ()) -> Workbench:
+        """Return the answers for a job, the first, beside other tests of its axis.
+
+        Raises
+        ------
+        InputError, AccessError
+            As `Bench.loaded`; or if a job is no test of the axis of the first.
+        """
+        job, *others = jobs
         bench = Bench(job, registry)
         bench.loaded()
+        comparison = Comparison.of(bench, [Bench(each, registry) for each in others])
         diagnoses = Diagnoses(job, Answers.of_user(registry.effects), plugins)
-        return cls(bench, diagnoses, Commands.of(bench, plugins))
+        return cls(bench, comparison, diagnoses, Commands.of(bench, plugins))
 
     def app(self, door: Door) -> Guard:
         """Return the application behind its guard."""
@@ -79,6 +91,7 @@ class Workbench:
             Route("/api/job", self.job),
             Route("/api/results", self.results),
             Route("/api/step", self.step),
+            Route("/api/tests", self.tests),
             Route("/api/diagnosis", self.diagnosis),
             Route("/api/effects/{effect}", self.effect),
             Route("/api/change", self.change, methods=["POST"]),
@@ -122,8 +135,9 @@ class Workbench:
         return JSONResponse(texts(await run_in_threadpool(self._language, request)))
 
     async def stamp(self, _: HttpRequest) -> Response:
-        """Answer with the state of the job's files: a page that shows another one asks for the job anew."""
-        return JSONResponse({"stamp": await run_in_threadpool(self.bench.stamp)})
+        """Answer with the state of all files: a page that shows another one asks for what follows anew."""
+        stamps = await run_in_threadpool(lambda: (self.bench.stamp(), self.comparison.stamp()))
+        return JSONResponse(dict(zip(("stamp", "tests"), stamps, strict=True)))
 
     async def job(self, request: HttpRequest) -> Response:
         """Answer with the job as values."""
@@ -143,6 +157,10 @@ class Workbench:
             return before_and_after(self.bench, self.bench.loaded(), wanted, self._language(request))
 
         return await self._answered(request, found)
+
+    async def tests(self, request: HttpRequest) -> Response:
+        """Answer with the other tests of the axis beside that of the job."""
+        return await self._answered(request, lambda: self.comparison.values(self._language(request)))
 
     async def diagnosis(self, request: HttpRequest) -> Response:
         """Answer with the diagnosis of the job, or with the seconds for which it has been under way."""

@@ -77,6 +77,16 @@ TEXTS: Mapping[str, Words] = MappingProxyType(
             de="Die zweite Prüfung zeigt diese Tabelle nicht; ist sie wirksam? E beträgt {share} % von "
             "vorher.",
         ),
+        "tests": Words(en="Tests of this axis", de="Prüfungen dieser Achse"),
+        "thisTest": Words(en="this page", de="diese Seite"),
+        "difference": Words(en="Difference to this test", de="Unterschied zu dieser Prüfung"),
+        "differenceIs": Words(
+            en="Mean deviation of the other test less that of this one; straight between its targets.",
+            de="Mittlere Abweichung der anderen Prüfung abzüglich der von dieser; gerade zwischen ihren "
+            "Sollpositionen.",
+        ),
+        "overDays": Words(en="over the tests, with U", de="über die Prüfungen, mit U"),
+        "models": Words(en="The models side by side", de="Die Modelle nebeneinander"),
         "excluded": Words(en="Readings set aside", de="Beiseite gelegte Messwerte"),
         "changes": Words(en="Steps so far", de="Bisherige Schritte"),
         "noChanges": Words(en="None on this page yet.", de="Auf dieser Seite noch keine."),

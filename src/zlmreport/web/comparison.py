@@ -1,0 +1,250 @@
+"""Several tests of one axis beside each other: deviations, differences, parameters with U over date, models."""
+
+from __future__ import annotations
+
+import datetime as dt
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from itertools import chain
+from typing import Any
+
+import numpy as np
+
+from zlmreport import pipeline
+from zlmreport.certificate.results import Evaluated
+from zlmreport.errors import InputError, Place, ZlmreportError
+from zlmreport.evaluation.evaluation import Parameter
+from zlmreport.evaluation.statistics import position_statistics
+from zlmreport.job.contradictions import last_day
+from zlmreport.job.job import Job
+from zlmreport.language import Language, Words
+from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.model.study import Fitted
+from zlmreport.presenting.amounts import written
+from zlmreport.presenting.model import parameter_rows
+from zlmreport.presenting.writer import NOTHING, Writer
+from zlmreport.quantities.arrays import FloatArray
+from zlmreport.web.bench import Bench, Loaded
+from zlmreport.web.panels import symbol
+
+#: Decimals of values that are drawn, in the units of the page: finer than any screen.
+_DECIMALS = 6
+_AS_FOUND = Words(en="{name}, as found", de="{name}, wie vorgefunden")
+
+
+@dataclass(frozen=True, slots=True)
+class _Test:
+    """One test of the axis: the job's own, or the one before its adjustment."""
+
+    name: Words
+    job: Job
+    measurements: MeasurementSet
+    evaluated: tuple[Evaluated, ...]
+    model: Fitted | None
+
+    @property
+    def day(self) -> dt.date | None:
+        return last_day(self.job.keys.measurement)
+
+    @property
+    def means(self) -> FloatArray:
+        """Mean deviations, shape (direction, target)."""
+        return position_statistics(self.measurements.deviations()).mean
+
+
+@dataclass(slots=True)
+class Comparison:
+    """The tests that are laid over that of the job on the bench.
+
+    Attributes
+    ----------
+    bench
+        The job that is worked on.
+    others
+        Jobs with other tests of its axis; nothing is written into them.
+    """
+
+    bench: Bench
+    others: Sequence[Bench]
+    _as_found: dict[str, tuple[MeasurementSet, tuple[Evaluated, ...]]] = field(default_factory=dict)
+
+    @classmethod
+    def of(cls, bench: Bench, others: Sequence[Bench]) -> Comparison:
+        """Return the comparison; raise what is wrong with the other jobs, all at once."""
+        problems = []
+        for each in others:
+            try:
+                _demand_same_axis(bench.loaded().job, each.loaded().job)
+            except ZlmreportError as error:
+                problems += error.problems
+        if problems:
+            raise InputError(problems)
+        return cls(bench, others)
+
+    def stamp(self) -> str:
+        """Return the name of the state in which the files of the other jobs are now."""
+        return " ".join(each.stamp() for each in self.others)
+
+    def values(self, language: Language) -> dict[str, Any]:
+        """Return what a page shows of the tests, in the order of their days; nothing of one test alone.
+
+        A job that cannot be read is named with what is wrong, and the rest is compared.
+        """
+        own = self.bench.loaded()
+        tests = list(self._tests(self.bench, own))
+        here = tests[-1]
+        problems = []
+        for each in self.others:
+            try:
+                loaded = each.loaded()
+                _demand_same_axis(own.job, loaded.job)
+                tests += self._tests(each, loaded)
+            except ZlmreportError as error:
+                problems += [str(problem) for problem in error.problems]
+        if all(each.day for each in tests):
+            tests.sort(key=lambda each: each.day or dt.date.min)  # stable: those of one day stay as named
+        shown = {
+            "tests": [_test(each, here, language) for each in tests],
+            "standards": list(_standards(tests, here, language)),
+            "models": list(_models(tests, language)),
+        }
+        return {"stamp": self.stamp(), "problems": problems, **(shown if len(tests) > 1 else {"tests": []})}
+
+    def _tests(self, bench: Bench, loaded: Loaded) -> Iterator[_Test]:
+        job, name = loaded.job, Words(en=bench.path.stem, de=bench.path.stem)
+        if job.as_found is not None:
+            measurements, evaluated = self._before(bench, loaded, job.as_found)
+            yield _Test(_AS_FOUND.given(name=name), job.as_found, measurements, evaluated, None)
+        yield _Test(name, job, loaded.measurements, bench.evaluated(loaded), bench.whole(loaded))
+
+    def _before(
+        self, bench: Bench, loaded: Loaded, job: Job
+    ) -> tuple[MeasurementSet, tuple[Evaluated, ...]]:
+        """Return the readings before an adjustment, and what the standards say of them."""
+        known = self._as_found.get(loaded.basis)
+        if known is None:
+            measurements = pipeline.read(job, bench.registry)
+            known = measurements, pipeline.evaluated(job, measurements, bench.registry)
+            self._as_found = {**dict(list(self._as_found.items())[-len(self.others) :]), loaded.basis: known}
+        return known
+
+
+def _demand_same_axis(own: Job, other: Job) -> None:
+    """Refuse a test of another kind of axis; what people call the axis may differ from test to test."""
+    if own.axis.kind is not other.axis.kind:
+        raise InputError.at(
+            Place(str(other.files[0].path)),
+            f"the axis is {other.axis.kind.value}, that of {own.files[0].path} {own.axis.kind.value}: "
+            "these are no tests of one axis",
+        )
+
+
+def _test(test: _Test, here: _Test, language: Language) -> dict[str, Any]:
+    """Return a test: its name and day, its means over the axis, and how they differ from those here."""
+    axis, means = here.job.axis, test.means
+    at = test.measurements.target_positions
+    curves = []
+    for approach in test.measurements.approaches:
+        mean = means[approach.index]
+        there = np.isfinite(mean)
+        difference = mean - _between(here, approach.index, at)
+        curves.append(
+            {
+                "direction": int(approach),
+                "x": _values(axis.position_unit.from_si(at[there])),
+                "y": _values(axis.deviation_unit.from_si(mean[there])),
+                "difference": _values(axis.deviation_unit.from_si(difference[there])),
+            }
+        )
+    return {
+        "name": test.name.in_language(language),
+        "day": None if test.day is None else test.day.isoformat(),
+        "axis": test.job.axis.name,
+        "isHere": test is here,
+        "curves": curves,
+    }
+
+
+def _between(test: _Test, direction: int, at: FloatArray) -> FloatArray:
+    """Return the means of a test at other targets: straight between its own, and nothing beyond them."""
+    mean = test.means[direction]
+    there = np.isfinite(mean)
+    if not there.any():
+        return np.full(len(at), np.nan)
+    own = test.measurements.target_positions[there]
+    # Beyond the last target by less than a micrometre is rounding of the file, not another place.
+    reach = 1e-6 if len(own) > 1 else 0.0
+    inside = (at >= own[0] - reach) & (at <= own[-1] + reach)
+    return np.where(inside, np.interp(at, own, mean[there]), np.nan)
+
+
+def _standards(tests: Sequence[_Test], here: _Test, language: Language) -> Iterator[dict[str, Any]]:
+    """Yield the parameters of each standard of the job, test by test."""
+    writer = Writer.of(here.measurements, language)
+    for evaluated in here.evaluated:
+        designation = evaluated.evaluation.designation
+        others = [
+            next((e.evaluation for e in each.evaluated if e.evaluation.designation == designation), None)
+            for each in tests
+        ]
+        yield {
+            "designation": designation,
+            "unit": writer.deviation_unit.symbol,
+            "rows": [
+                {
+                    "symbol": symbol(own.quantity.notation),
+                    "name": own.quantity.name.in_language(language),
+                    "limit": None if own.limit is None else writer.deviation_unit.from_si(own.limit),
+                    "cells": [
+                        _cell(None if other is None else other.parameter(own.quantity.symbol), writer)
+                        for other in others
+                    ],
+                }
+                for own in evaluated.evaluation.parameters
+            ],
+        }
+
+
+def _cell(parameter: Parameter | None, writer: Writer) -> dict[str, Any] | None:
+    """Return a parameter and its U as text, and as numbers to be drawn."""
+    if parameter is None:
+        return None
+    value, uncertainty = written(parameter, writer)
+    expanded = parameter.expanded_uncertainty
+    number = writer.deviation_unit.from_si(parameter.printed_value)
+    return {
+        "value": value,
+        "uncertainty": "" if uncertainty == NOTHING else uncertainty,
+        "number": number if np.isfinite(number) else None,
+        "expanded": None if expanded is None else writer.deviation_unit.from_si(expanded),
+    }
+
+
+def _models(tests: Sequence[_Test], language: Language) -> Iterator[dict[str, Any]]:
+    """Yield the parameters of all models, each with its amount in every test whose model has it."""
+    of_tests = [
+        {(each.effect, each.name): each for each in parameter_rows(test.model.fit, language)}
+        if test.model is not None
+        else {}
+        for test in tests
+    ]
+    for key in dict.fromkeys(chain.from_iterable(of_tests)):
+        found = [rows.get(key) for rows in of_tests]
+        first = next(each for each in found if each is not None)
+        yield {
+            "effect": first.effect,
+            "name": first.name,
+            "symbol": symbol(first.notation),
+            "description": first.description,
+            "unit": first.unit,
+            "cells": [
+                None
+                if each is None
+                else {"value": each.value, "uncertainty": each.uncertainty, "unit": each.unit}
+                for each in found
+            ],
+        }
+
+
+def _values(values: FloatArray) -> list[float | None]:
+    return [float(each) if np.isfinite(each) else None for each in np.round(values, _DECIMALS)]
