@@ -122,7 +122,7 @@ def test_one_test_is_compared_with_nothing(folder: Path) -> None:
 
 
 def test_another_kind_of_axis_is_refused(folder: Path) -> None:
-    with pytest.raises(InputError, match="the axis is rotary.*no tests of one axis"):
+    with pytest.raises(InputError, match=r"the axis is rotary.*no tests of one axis"):
         _compared(folder / "after.yaml", _ROTARY)
 
 
