@@ -27,7 +27,8 @@ def test_tests_are_overlaid_and_taken_away_and_everybody_can_use_them(address: s
     expect(tests.get_by_role("heading", name="Tests of this axis")).to_be_visible()
     above = page.locator(".plot").first
     expect(above.locator(".curve.test-1, .curve.test-2")).to_have_count(4)  # two tests, both directions
-    expect(tests.locator("tr", has_text="Bidirectional positioning error").first.locator(".trend")).to_be_visible()
+    accuracy = tests.locator("tr", has_text="Bidirectional positioning error").first
+    expect(accuracy.locator(".trend")).to_be_visible()
     expect(page.locator("body")).to_have_attribute("data-state", "missing")
     picture(page, "tests")
     found = Axe().run(page)

@@ -1,4 +1,4 @@
-"""Several tests of one axis beside each other: deviations, differences, parameters with U over date, models."""
+"""Several tests of one axis beside each other: deviations, differences, parameters with U, models."""
 
 from __future__ import annotations
 
@@ -117,9 +117,7 @@ class Comparison:
             yield _Test(_AS_FOUND.given(name=name), job.as_found, measurements, evaluated, None)
         yield _Test(name, job, loaded.measurements, bench.evaluated(loaded), bench.whole(loaded))
 
-    def _before(
-        self, bench: Bench, loaded: Loaded, job: Job
-    ) -> tuple[MeasurementSet, tuple[Evaluated, ...]]:
+    def _before(self, bench: Bench, loaded: Loaded, job: Job) -> tuple[MeasurementSet, tuple[Evaluated, ...]]:
         """Return the readings before an adjustment, and what the standards say of them."""
         known = self._as_found.get(loaded.basis)
         if known is None:

@@ -364,7 +364,7 @@ def workbench(command: str) -> CommandParser:
         "  zlmreport workbench x-axis.yaml --port 8420 --no-browser",
     )
     parser.add_argument(
-        "jobs", metavar="JOB.yaml", type=Path, nargs="+", help="job file, and those of other tests of the axis"
+        "jobs", metavar="JOB.yaml", type=Path, nargs="+", help="job file; then those of other tests of it"
     )
     parser.add_argument(
         "--port", metavar="N", type=port, default=0, help="a TCP port; without it any free one"
