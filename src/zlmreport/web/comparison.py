@@ -12,7 +12,7 @@ import numpy as np
 
 from zlmreport import pipeline
 from zlmreport.certificate.results import Evaluated
-from zlmreport.errors import InputError, Place, ZlmreportError
+from zlmreport.errors import InputError, Place, Problem, ZlmreportError
 from zlmreport.evaluation.evaluation import Parameter
 from zlmreport.evaluation.statistics import position_statistics
 from zlmreport.job.contradictions import last_day
@@ -71,7 +71,7 @@ class Comparison:
     @classmethod
     def of(cls, bench: Bench, others: Sequence[Bench]) -> Comparison:
         """Return the comparison; raise what is wrong with the other jobs, all at once."""
-        problems = []
+        problems: list[Problem] = []
         for each in others:
             try:
                 _demand_same_axis(bench.loaded().job, each.loaded().job)
