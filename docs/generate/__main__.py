@@ -39,6 +39,7 @@ PARTS: Mapping[str, Callable[[], str]] = {
     "least-numbers": least_numbers.text,
     "methods-drift": methods.drift_text,
     "methods-sight": methods.sight_text,
+    "notifier-keys": job_keys.notifiers_text,
     "probing-program-keys": job_keys.probing_programs_text,
     "program-keys": job_keys.programs_text,
     "source-keys": job_keys.sources_text,

@@ -19,6 +19,7 @@ from zlmreport.job.types import Options
 from zlmreport.language import Language
 from zlmreport.plugin.protocols import PartProgram
 from zlmreport.plugins import find_plugins
+from zlmreport_plugins.notifiers import zlmreport_notifiers
 from zlmreport_step_gauge.paths.path import ProbingPath
 
 Schema: TypeAlias = Mapping[str, Any]
@@ -39,6 +40,15 @@ def schema_text() -> str:
 def fleet_text() -> str:
     """Return every key of a fleet file."""
     return _table(FleetKeys)
+
+
+def notifiers_text() -> str:
+    """Return the keys of each built-in notifier."""
+    return "\n\n".join(
+        part
+        for notifier in zlmreport_notifiers()
+        for part in (f"### `plugin: {notifier.identifier}`", _table(notifier.options))
+    )
 
 
 def sources_text() -> str:

@@ -62,6 +62,12 @@ OFFERS: Mapping[str, Mapping[str, tuple[str, ...]]] = {
     "linuxcnc": {"part_program": ("linuxcnc",)},
     "nd28x": {"instrument": ("nd28x",)},
     "nmtba": {"standard": ("nmtba",)},
+    "notifiers": {
+        "notifier": (
+            "apprise",
+            "mail",
+        )
+    },
     "pdf": {"renderer": ("pdf",)},
     "pdf_typst": {"renderer": ("pdf-typst",)},
     "renishaw_rtl": {"source": ("renishaw-rtl",)},

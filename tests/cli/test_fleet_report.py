@@ -42,7 +42,7 @@ def test_the_ledger_is_only_read(fleet: Path) -> None:
 def test_the_files_that_were_written_are_told(fleet: Path, capsys: pytest.CaptureFixture[str]) -> None:
     main(["fleet", "report", str(fleet), "-o", str(fleet.parent / "overview")])
     told = [Path(line).name for line in capsys.readouterr().out.splitlines()]
-    assert told == ["hall.html", "hall.prom"]
+    assert told == ["hall.html", "hall.prom", "hall.ics"]
 
 
 def test_a_language_that_there_is_not_is_refused_with_its_place(

@@ -32,6 +32,8 @@ def test_plugins_are_listed_by_kind_with_title_and_distribution(shop: Shop) -> N
         "  none",
         "instruments",
         "  none",
+        "notifiers",
+        "  none",
     ]
 
 

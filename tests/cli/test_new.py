@@ -51,7 +51,7 @@ def test_skeleton_passes_its_kit(kind: str, begun: Any, tmp_path: Path) -> None:
     folder = begun(kind)
     _imported("my_plugin", folder)
     tests = _imported("test_my_plugin", folder)
-    takes_folder = kind == "source"
+    takes_folder = kind in {"source", "notifier"}
     tests.test_conforms(*([tmp_path] if takes_folder else []))
     if kind == "standard":
         tests.test_printed_example()

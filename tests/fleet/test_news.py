@@ -2,42 +2,65 @@
 
 from __future__ import annotations
 
+import datetime as dt
 import random
 import shutil
-import socket
 import threading
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
 import pytest
+from pydantic import Field
 
+from fleet.exposition import parse
 from fleet.fleets import FLEET, Fleet, Witness, without_processes
+from fleet.histories import entry, history, parameter
 from zlmreport.errors import InputError
-from zlmreport.fleet import issuing, night
+from zlmreport.fleet import issuing, night, telling
 from zlmreport.fleet.issuing import Happened, What
 from zlmreport.fleet.ledger import Ledger
+from zlmreport.fleet.news import digest, news_of
 from zlmreport.fleet.night import MissingError
-from zlmreport.fleet.records import About
-from zlmreport.fleet.telling import NotToldError, tell
-from zlmreport.job.fleet import load_fleet
-from zlmreport.job.notify import NotifyKeys
+from zlmreport.fleet.plan import Planned
+from zlmreport.fleet.records import About, Notice
+from zlmreport.fleet.state import Night, Rules, state_of
+from zlmreport.language import Language
+from zlmreport.plugin import AccessError, Message, Occasion, Options, Place, Words, hookimpl
+from zlmreport.plugins import Plugin, collect
 
-NOTIFY = "notify: [{plugin: mail, to: [a@example.com, b@example.com]}]\n"
+NOTIFY = "notify: [{plugin: post, to: Ada}]\n"
+
+
+class PostOptions(Options):
+    to: str = Field(description="Who gets the letter.")
 
 
 class Post:
     """Takes the news, or refuses it."""
 
+    identifier = "post"
+    title = Words(en="Letters", de="Briefe")
+    options: type[Options] = PostOptions
+
     def __init__(self) -> None:
-        self.letters: list[tuple[str, str]] = []
+        self.messages: list[Message] = []
         self.is_shut = False
 
-    def __call__(self, _keys: NotifyKeys, title: str, text: str) -> None:
+    def receiver(self, options: Any) -> str:
+        return str(options.to)
+
+    def tell(self, message: Message, _options: Any) -> None:
         if self.is_shut:
-            raise NotToldError("the server is shut")
-        self.letters.append((title, text))
+            raise AccessError.at(Place("post"), "the counter is shut")
+        self.messages.append(message)
+
+    @property
+    def letters(self) -> list[tuple[str, str]]:
+        return [(each.title, each.text) for each in self.messages]
 
     @property
     def lines(self) -> Counter[str]:
@@ -50,7 +73,15 @@ class Post:
 @pytest.fixture
 def post(monkeypatch: pytest.MonkeyPatch) -> Post:
     post = Post()
-    monkeypatch.setattr(night, "tell", post)
+
+    @hookimpl
+    def zlmreport_notifiers() -> Any:
+        return [post]
+
+    offered = [
+        (Plugin("post", "post", "post", "1.0"), SimpleNamespace(zlmreport_notifiers=zlmreport_notifiers))
+    ]
+    monkeypatch.setattr(telling, "find_plugins", lambda **_: collect(offered))
     return post
 
 
@@ -98,55 +129,90 @@ def test_a_folder_that_is_gone_is_told_though_nothing_is_done(fleet: Fleet, post
     assert [title for title, _ in post.letters] == ["Hall North: 1 the whole night"]
 
 
-def test_a_mail_without_a_receiver_and_a_password_in_the_open_are_refused(fleet: Fleet) -> None:
-    fleet.write(
-        "fleet.yaml", FLEET + "notify: [{plugin: mail}, {plugin: mail, to: a@example.com, user: me}]\n"
-    )
+def test_a_wrong_way_is_refused_before_the_night(fleet: Fleet) -> None:
+    fleet.write("fleet.yaml", FLEET + "notify:\n- {plugin: pots, to: x}\n- {plugin: post, too: x}\n")
     with pytest.raises(InputError) as raised:
-        load_fleet(fleet.folder / "fleet.yaml")
-    assert "a mail needs somebody who gets it" in str(raised.value)
-    assert "a password is not sent in the open" in str(raised.value)
+        fleet.spend()
+    assert [(each.place.line, each.message.partition(";")[0]) for each in raised.value.problems] == [
+        (7, "no plugin provides notifier 'pots'"),
+        (8, "notify.to is missing: who gets the letter"),
+        (8, "unknown key 'too' in notify"),
+    ]
+    assert not fleet.files()
 
 
-def test_a_mail_reaches_a_server() -> None:
-    taken: list[str] = []
-    with socket.create_server(("127.0.0.1", 0)) as server:
-        thread = threading.Thread(target=_serve, args=(server, taken), daemon=True)
-        thread.start()
-        keys = NotifyKeys(plugin="mail", to="a@example.com", server="127.0.0.1", port=server.getsockname()[1])
-        tell(keys, "Hall North: 1 failed", "- x: µm\n")
-        thread.join(timeout=10)
-    text = "\n".join(taken)
-    assert "RCPT TO:<a@example.com>" in text.replace("rcpt", "RCPT").replace("to:", "TO:", 1)
-    assert "Subject: Hall North: 1 failed" in text
+def test_a_certificate_and_a_failure_are_told_as_they_happen_and_a_failure_once(
+    fleet: Fleet, post: Post
+) -> None:
+    fleet.write("fleet.yaml", FLEET + NOTIFY.replace("Ada", "Ada, tells: [certificate, failure]"))
+    fleet.readings("x", "1 2")
+    for _ in range(2):
+        fleet.spend()
+    failed, issued = sorted(post.messages, key=lambda each: each.occasion)[::-1]
+    assert (failed.occasion, failed.title) == (Occasion.FAILURE, "Hall North: jobs/x.yaml failed")
+    assert "jobs/x.txt" in failed.text
+    assert (issued.occasion, issued.title) == (Occasion.CERTIFICATE, "Hall North: CAL-Y was issued")
+    assert issued.files == (fleet.certificate("y"),)
 
 
-def _serve(server: socket.socket, taken: list[str]) -> None:
-    """Speak as much SMTP as a mail needs (RFC 5321)."""
-    connection, _ = server.accept()
-    with connection, connection.makefile("rb") as lines:
-        connection.sendall(b"220 ready\r\n")
-        is_content = False
-        for line in lines:
-            taken.append(line.decode().rstrip())
-            if is_content and taken[-1] != ".":
-                continue
-            word = taken[-1][:4].upper()
-            is_content = word == "DATA"
-            answer = {"DATA": b"354 go on\r\n", "QUIT": b"221 bye\r\n"}.get(word, b"250 yes\r\n")
-            connection.sendall(answer)
-            if word == "QUIT":
-                return
+def test_a_way_that_is_shut_is_tried_once_a_night(fleet: Fleet, post: Post) -> None:
+    fleet.write("fleet.yaml", FLEET + NOTIFY.replace("Ada", "Ada, tells: [certificate, digest]"))
+    post.is_shut = True
+    assert [each.about for each in fleet.spend().notices] == [About.UNTOLD]
 
 
-def test_nobody_there_and_no_secret_are_named() -> None:
-    with socket.create_server(("127.0.0.1", 0)) as server:
-        port = server.getsockname()[1]
-    with pytest.raises(NotToldError, match="refused"):
-        tell(NotifyKeys(plugin="mail", to="a@example.com", server="127.0.0.1", port=port), "", "")
-    keys = NotifyKeys(plugin="mail", to="a", server="127.0.0.1", port=port, user="me", security="tls")
-    with pytest.raises(NotToldError):
-        tell(keys, "", "", {})
+def test_a_way_that_hangs_does_not_stop_the_night(
+    fleet: Fleet, post: Post, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    released = threading.Event()
+    monkeypatch.setattr(telling, "PATIENCE", 0.05)
+    monkeypatch.setattr(post, "tell", lambda *_: released.wait(10))
+    fleet.readings("x", "1 2")
+    (notice,) = fleet.spend().notices
+    released.set()
+    assert notice.text == "the news was not sent by post Ada: it was not taken within 0.05 s"
+
+
+def test_news_is_in_the_language_of_the_fleet() -> None:
+    values = [6.0, 6.2, 5.9, 6.1, 6.0, 6.1, 16.4]
+    entries = [*history(values), *history([5.0, 6.0, 7.1, 8.0, 9.1, 10.0, 11.1], axis="Y")]
+    entries.append(entry(dt.date(2026, 8, 1), parameter(21.53, conforms=False), axis="Z", job="z.yaml"))
+    clock = Notice(About.CLOCK, "the clock stands at …")
+    last = Night(dt.datetime(2027, 9, 1, tzinfo=dt.UTC), None, (clock,))
+    state = state_of("Halle Nord", entries, [], last, Rules(365))
+    keys = SimpleNamespace(name="Halle Nord", keys=SimpleNamespace(language="de"))
+    message = digest(keys, tuple(news_of(state, Language.GERMAN)))  # type: ignore[arg-type]
+    assert message.title == (
+        "Halle Nord: 1 zum ganzen Lauf, 1 Grenzwert nicht eingehalten, 1 verändert, 1 mit Drift, 3 überfällig"
+    )
+    machine = "Example Works MT 500, serial 1"
+    for line in (
+        "Zum ganzen Lauf\n- Uhr: the clock stands at …",
+        f"- {machine}, Z: A = 21,5 µm, Grenzwert 20 µm",
+        f"- {machine}, X: A + 10,4 µm seit 2026-07-15",
+        f"- {machine}, Y: A + 4,1 µm im Jahr, Grenzwert erreicht 2028-",
+        f"- {machine}, Z: gemessen am 2026-08-01, war bis 2027-08-01 erneut zu messen",
+    ):
+        assert line in message.text
+
+
+def test_a_night_gives_signs_of_life_in_a_file(fleet: Fleet) -> None:
+    seen: list[str] = []
+
+    class Curious(Witness):
+        def planned(self, jobs: Sequence[Planned]) -> None:
+            Witness.planned(self, jobs)
+            seen.append(fleet.file.heartbeat.read_text())
+
+    night.spend(fleet.file, night.Order(), Curious())
+    seen.append(fleet.file.heartbeat.read_text())
+    began = dt.datetime(2026, 12, 1, 2, tzinfo=dt.UTC).timestamp()
+    for text, is_at_work in zip(seen, (1.0, 0.0), strict=True):
+        samples = {name: sum(family.samples.values()) for name, family in parse(text).items()}
+        assert samples == {
+            "zlmreport_fleet_heartbeat_timestamp_seconds": began,
+            "zlmreport_fleet_at_work": is_at_work,
+        }
 
 
 AXES = 6

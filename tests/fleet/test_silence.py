@@ -188,3 +188,13 @@ def test_a_night_that_lives_is_left_alone(fleet: Fleet, monkeypatch: pytest.Monk
             second.night("2026-11-21T02:30:00+00:00", "fleet.yaml"),
         ):
             pass
+
+
+def test_an_overview_alone_in_the_folder_of_certificates_does_not_make_it_mounted(fleet: Fleet) -> None:
+    fleet.spend()
+    (fleet.folder / "certificates").rename(fleet.folder / "elsewhere")
+    (fleet.folder / "certificates").mkdir()
+    for name in fleet.file.reports:
+        fleet.write(f"certificates/{name}", "")
+    with pytest.raises(MissingError):
+        fleet.spend()

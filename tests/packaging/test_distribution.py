@@ -106,6 +106,7 @@ def test_every_built_in_plugin_is_declared_as_an_entry_point(metadata: dict[str,
     }
     present |= {f"zlmreport_step_gauge.{name}" for name in ("extension", "effects", "paths.programs")}
     present.add("zlmreport_plugins.effects")  # one plugin: its pages share phrases and are declared together
+    present.add("zlmreport_plugins.notifiers")
     declared = set(metadata["entry-points"]["zlmreport"].values())
     assert present == declared, (
         f"not declared in pyproject.toml: {sorted(present - declared)}; "

@@ -302,6 +302,14 @@ def opened(instrument: Guarded, answer: Any, _options: Any) -> Any:
     return instrument.connected(answer)
 
 
+def receiver(_notifier: Guarded, answer: Any, _options: Any) -> str:
+    """Refuse a receiver that could not be named in a line."""
+    text: str = _of(str, answer)
+    if len(text.splitlines()) != 1 or not text.strip():
+        raise Unacceptable("returns a receiver that is empty, or not of one line")
+    return text
+
+
 #: What is made of an answer, by kind and method.
 ACCEPTED: Mapping[tuple[str, str], Callable[..., Any]] = MappingProxyType(
     {
@@ -321,6 +329,7 @@ ACCEPTED: Mapping[tuple[str, str], Callable[..., Any]] = MappingProxyType(
         ("controller", "files"): tables,
         ("controller", "read"): table,
         ("instrument", "open"): opened,
+        ("notifier", "receiver"): receiver,
         ("extension", "contributions"): contributions,
         ("extension", "described"): described,
         ("extension", "contradictions"): contradictions,

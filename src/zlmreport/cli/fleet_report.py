@@ -1,4 +1,4 @@
-"""``zlmreport fleet report``: the overview of a fleet, for people and for Prometheus."""
+"""``zlmreport fleet report``: the overview of a fleet, for people, for Prometheus and for calendars."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from pathlib import Path
 
 from zlmreport.cli.terminal import shown_path
 from zlmreport.files import Document, write
+from zlmreport.fleet.appointments import calendar
 from zlmreport.fleet.basis import path_in
 from zlmreport.fleet.ledger import Ledger, PastNight
 from zlmreport.fleet.overview import overview
@@ -22,18 +23,20 @@ from zlmreport.plugins import find_plugins
 
 
 def run(options: Namespace) -> int:
-    """Write both files anew, each whole or not at all; the ledger is only read."""
+    """Write the files anew, each whole or not at all; the ledger is only read."""
     fleet = load_fleet(options.fleet, extensions=lambda: find_plugins(files=options.plugin).extensions)
     state = _state(fleet)
     folder: Path = options.output or fleet.output
     names = Names(find_plugins(files=options.plugin).standards)
     files = os.path.relpath(fleet.output, folder)
-    page = overview(state, Language(fleet.keys.language), names, files)
-    documents = (
-        Document(folder / f"{fleet.path.stem}.html", page.encode()),
-        Document(folder / f"{fleet.path.stem}.prom", metrics(state).encode()),
+    language = Language(fleet.keys.language)
+    contents = (
+        overview(state, language, names, files).encode(),
+        metrics(state).encode(),
+        calendar(state, language),
     )
-    for path in write(documents):
+    named = zip(fleet.reports, contents, strict=True)
+    for path in write(Document(folder / name, content) for name, content in named):
         print(shown_path(path))
     return 0
 

@@ -20,6 +20,7 @@ GUIDES = {
     "instrument": "write-an-instrument.md",
     "program": "write-a-part-program.md",
     "controller": "compensate-an-axis.md",
+    "notifier": "run-a-fleet.md",
 }
 _PLACE = Place("zlmreport new")
 _NAME = re.compile(r"[a-z][a-z0-9]*(-[a-z0-9]+)*")

@@ -7,79 +7,140 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from zlmreport.fleet.causes import cause_of
 from zlmreport.fleet.drifts import Trend
+from zlmreport.fleet.issuing import Happened, What
+from zlmreport.fleet.overview_words import ABOUTS
+from zlmreport.fleet.plan import Evening
 from zlmreport.fleet.records import Kind, News, Notice
 from zlmreport.fleet.state import FleetState
+from zlmreport.job.fleet import FleetFile
+from zlmreport.language import Language, Words
+from zlmreport.plugin.protocols import Message, Occasion
+from zlmreport.quantities.formatting import fixed_number, general_number
 from zlmreport.quantities.units import printed_symbol
 
+_KINDS = {
+    Kind.NIGHT: Words(en="the whole night", de="zum ganzen Lauf"),
+    Kind.FAILED: Words(en="failed", de="fehlgeschlagen"),
+    Kind.NOT_MET: Words(en="limit not met", de="Grenzwert nicht eingehalten"),
+    Kind.CHANGED: Words(en="changed", de="verändert"),
+    Kind.DRIFTING: Words(en="drifting", de="mit Drift"),
+    Kind.OVERDUE: Words(en="overdue", de="überfällig"),
+    Kind.DRAFT: Words(en="draft", de="als Entwurf"),
+}
+_NOT_MET = Words(en="{symbol} = {value}, limit {limit}", de="{symbol} = {value}, Grenzwert {limit}")
+_WILDER = Words(en="scatters more than before", de="streut stärker als zuvor")
+_SINCE = Words(en="{changes} since {since}", de="{changes} seit {since}")
+_INSTRUMENT = Words(
+    en="; measured with {after} in place of {before}", de="; gemessen mit {after} statt {before}"
+)
+_DRIFT = Words(en="{symbol} {change} a year", de="{symbol} {change} im Jahr")
+_REACHED = Words(en=", limit reached {month}", de=", Grenzwert erreicht {month}")
+_OVERDUE = Words(
+    en="measured on {measured}, and was to be measured again by {due}",
+    de="gemessen am {measured}, war bis {due} erneut zu messen",
+)
+_ISSUED = Words(en="{number} was issued", de="{number} wurde ausgestellt")
+_LIMIT = Words(en="; a limit is not met", de="; ein Grenzwert ist nicht eingehalten")
+_FAILED = Words(en="{job} failed", de="{job} ist fehlgeschlagen")
 
-def news_of_night(notices: Iterable[Notice]) -> Iterator[News]:
+
+def news_of_night(notices: Iterable[Notice], language: Language) -> Iterator[News]:
     """Yield what concerns the whole night."""
     for each in notices:
-        yield News(Kind.NIGHT, each.about.value, each.text)
+        about = ABOUTS[each.about].in_language(language)
+        yield News(Kind.NIGHT, each.about.value, f"{about}: {each.text}")
 
 
-def news_of(state: FleetState) -> Iterator[News]:
+def news_of(state: FleetState, language: Language) -> Iterator[News]:
     """Yield all that is so on a morning, whether or not it was told before."""
-    yield from news_of_night(state.notices)
+    yield from news_of_night(state.notices, language)
     for failure in state.failures:
         entry = failure.entry
         message = entry.message.partition("\n")[0]
         yield News(Kind.FAILED, f"{entry.job}|{message}", f"{entry.job}: {message}")
     for (machine, axis), trends in _by_axis(state.not_met):
-        stated = ", ".join(f"{each.series.symbol} = {_value(each)}, limit {_limit(each)}" for each in trends)
+        stated = ", ".join(_not_met(each, language) for each in trends)
         yield News(Kind.NOT_MET, f"{machine}|{axis}", f"{_named(machine, axis)}: {stated}")
     for (machine, axis), trends in _by_axis(state.changed):
-        yield _changed(machine, axis, trends, state)
+        yield _changed(machine, axis, trends, state, language)
     for (machine, axis), trends in _by_axis(state.drifting):
-        stated = "; ".join(map(_drift, trends))
+        stated = "; ".join(_drift(each, language) for each in trends)
         yield News(Kind.DRIFTING, f"{machine}|{axis}|{trends[0].since}", f"{_named(machine, axis)}: {stated}")
     for term in state.overdue:
         entry = term.entry
-        named = _named(entry.machine, entry.axis)
-        text = f"{named}: measured on {entry.measured}, and was to be measured again by {term.due}"
-        yield News(Kind.OVERDUE, f"{entry.machine}|{entry.axis}|{term.due}", text)
+        told = _OVERDUE.given(measured=entry.measured, due=str(term.due)).in_language(language)
+        subject = f"{entry.machine}|{entry.axis}|{term.due}"
+        yield News(Kind.OVERDUE, subject, f"{_named(entry.machine, entry.axis)}: {told}")
     for entry in state.drafts:
         yield News(Kind.DRAFT, f"{entry.job}|{entry.number}", f"{entry.number}: {entry.message}")
 
 
-def title(fleet: str, news: Sequence[News]) -> str:
-    """Return news in one line: ``Hall North: 2 changed, 1 failed``."""
+def digest(fleet: FleetFile, news: Sequence[News]) -> Message:
+    """Return news as a message, kind by kind: ``Hall North: 1 failed, 2 changed``."""
+    language = Language(fleet.keys.language)
     counted = Counter(each.kind for each in news)
-    return f"{fleet}: " + ", ".join(f"{counted[kind]} {kind.value}" for kind in Kind if counted[kind])
+    said = {kind: words.in_language(language) for kind, words in _KINDS.items() if counted[kind]}
+    title = f"{fleet.name}: " + ", ".join(f"{counted[kind]} {word}" for kind, word in said.items())
+    parts = [
+        "\n".join([word[0].upper() + word[1:], *(f"- {each.text}" for each in news if each.kind is kind)])
+        for kind, word in said.items()
+    ]
+    return Message(Occasion.DIGEST, title, "\n\n".join(parts) + "\n")
 
 
-def digest(news: Sequence[News]) -> str:
-    """Return news as text, kind by kind."""
-    parts = []
-    for kind in Kind:
-        lines = [f"- {each.text}" for each in news if each.kind is kind]
-        if lines:
-            parts.append("\n".join([kind.value.capitalize(), *lines]))
-    return "\n\n".join(parts) + "\n"
+def news_of_job(happened: Happened, known: Evening) -> Message | None:
+    """Return what people may be told as it happens; a job that failed before is no news."""
+    fleet, language = known.fleet, Language(known.fleet.keys.language)
+    if happened.what is What.ISSUED:
+        said = _ISSUED.given(number=happened.number).in_language(language)
+        said += _LIMIT.in_language(language) if happened.conforms is False else ""
+        files = tuple(fleet.output / file for file in happened.files)
+        text = "".join(f"{line}\n" for line in (happened.job, *files))
+        return Message(Occasion.CERTIFICATE, f"{fleet.name}: {said}", text, files)
+    standing = known.standings.get(happened.job)
+    if happened.what not in {What.FAILED, What.VANISHED} or (standing and standing.state.is_failure):
+        return None
+    said = _FAILED.given(job=happened.job).in_language(language)
+    text = "".join(f"{problem}\n" for problem in happened.problems)
+    return Message(Occasion.FAILURE, f"{fleet.name}: {said}", text)
 
 
-def _changed(machine: str, axis: str, trends: Sequence[Trend], state: FleetState) -> News:
+def _changed(machine: str, axis: str, trends: Sequence[Trend], state: FleetState, language: Language) -> News:
     """Return the change of an axis: one event, however many of its parameters show it."""
     stepped = [each for each in trends if each.step]
     told = _named(machine, axis)
     if not stepped:
-        first = trends[0].since
-        return News(Kind.CHANGED, f"{machine}|{axis}|scatter|{first}", f"{told}: scatters more than before")
+        subject = f"{machine}|{axis}|scatter|{trends[0].since}"
+        return News(Kind.CHANGED, subject, f"{told}: {_WILDER.in_language(language)}")
     cause = cause_of(stepped[0], state.effects)
     since = cause.since.isoformat() if cause else ""
-    parts = [f"{each.series.symbol} {_signed(each.step.change, each)}" for each in stepped if each.step]
-    text = f"{told}: {', '.join(parts)} since {since}"
+    changes = ", ".join(
+        f"{each.series.symbol} {_signed(each.step.change, each.series.unit, language)}"
+        for each in stepped
+        if each.step
+    )
+    text = f"{told}: {_SINCE.given(changes=changes, since=since).in_language(language)}"
     if cause and cause.effect:
-        text += f"; {cause.effect} {_number(cause.change)} {printed_symbol(cause.unit)}"
+        text += f"; {cause.effect} {_signed(cause.change, cause.unit, language)}"
     if cause and cause.after:
-        text += f"; measured with {cause.after} in place of {cause.before}"
+        text += _INSTRUMENT.given(after=cause.after, before=cause.before).in_language(language)
     return News(Kind.CHANGED, f"{machine}|{axis}|{since}", text)
 
 
-def _drift(trend: Trend) -> str:
-    slope = trend.line.slope if trend.line else 0.0
-    reached = f", limit reached {trend.forecast.expected:%Y-%m}" if trend.forecast else ""
-    return f"{trend.series.symbol} {_signed(slope, trend)} a year{reached}"
+def _not_met(trend: Trend, language: Language) -> str:
+    latest, sign = trend.series.latest, language.decimal_sign
+    unit = printed_symbol(trend.series.unit)
+    value = f"{fixed_number(latest.value, 1, sign)} {unit}"
+    limit = f"{general_number(latest.limit or 0.0, sign)} {unit}"
+    return _NOT_MET.given(symbol=trend.series.symbol, value=value, limit=limit).in_language(language)
+
+
+def _drift(trend: Trend, language: Language) -> str:
+    change = _signed(trend.line.slope if trend.line else 0.0, trend.series.unit, language)
+    told = _DRIFT.given(symbol=trend.series.symbol, change=change).in_language(language)
+    if trend.forecast:
+        told += _REACHED.given(month=f"{trend.forecast.expected:%Y-%m}").in_language(language)
+    return told
 
 
 def _by_axis(trends: Iterable[Trend]) -> Iterable[tuple[tuple[str, str], list[Trend]]]:
@@ -93,17 +154,6 @@ def _named(machine: str, axis: str) -> str:
     return ", ".join(part for part in (machine, axis) if part)
 
 
-def _value(trend: Trend) -> str:
-    return f"{trend.series.latest.value:.1f} {printed_symbol(trend.series.unit)}"
-
-
-def _limit(trend: Trend) -> str:
-    return f"{trend.series.latest.limit:g} {printed_symbol(trend.series.unit)}"
-
-
-def _signed(change: float, trend: Trend) -> str:
-    return f"{_number(change)} {printed_symbol(trend.series.unit)}"
-
-
-def _number(change: float) -> str:
-    return f"{'+' if change > 0 else '−'} {abs(change):.1f}"
+def _signed(change: float, unit: str, language: Language) -> str:
+    number = fixed_number(abs(change), 1, language.decimal_sign)
+    return f"{'+' if change > 0 else '−'} {number} {printed_symbol(unit)}"

@@ -13,19 +13,23 @@ from pathlib import Path
 from typing import Protocol
 
 from zlmreport.errors import AccessError, Place, ZlmreportError
+from zlmreport.files import Document, write
 from zlmreport.fleet.basis import Basis, Disk, KnownFile, changes, program_versions
 from zlmreport.fleet.cluster import Cluster
 from zlmreport.fleet.issuing import Desk, Happened, What, tidy
 from zlmreport.fleet.ledger import Ledger, Night, PastNight, Standing
 from zlmreport.fleet.making import Failed, Limits, Task, defaults_digest
-from zlmreport.fleet.news import digest, news_of, news_of_night, title
+from zlmreport.fleet.news import digest, news_of, news_of_job, news_of_night
 from zlmreport.fleet.plan import Due, Evening, Planned, plan, reasons
 from zlmreport.fleet.pool import Pool
+from zlmreport.fleet.prometheus import heartbeat
 from zlmreport.fleet.records import About, Notice, State, due_date
 from zlmreport.fleet.state import Night as PastRun
 from zlmreport.fleet.state import Rules, state_of
-from zlmreport.fleet.telling import NotToldError, tell
+from zlmreport.fleet.telling import Ways, ways_of
 from zlmreport.job.fleet import FleetFile, is_retired, job_files, number_of
+from zlmreport.language import Language
+from zlmreport.plugin.protocols import Occasion
 
 #: A job may take so many times as long as it ever took.
 _TIMES_LONGEST = 10
@@ -113,17 +117,17 @@ def spend(fleet: FleetFile, order: Order, watch: Watch) -> None:
         If the folder of certificates is gone, or most of the jobs.
     """
     plugins, ends = order.plugins, time.monotonic() + order.seconds
-    jobs = job_files(fleet)
+    jobs, ways, language = job_files(fleet), ways_of(fleet, plugins), Language(fleet.keys.language)
     with Ledger.open(fleet.ledger, fleet.name) as ledger:
         last = ledger.last_night()
         known = evening(fleet, jobs, ledger, plugins)
         gone = vanished(known)
         missing = _missing(known, gone)
-        with ledger.night(_now(), str(fleet.path)) as night:
+        with ledger.night(_now(), str(fleet.path)) as night, _alive(fleet):
             if missing:
                 night.notice([missing.notice])
-                night.report(tuple(news_of_night([missing.notice])), is_all=False)
-                _tell(fleet, night, watch)
+                night.report(tuple(news_of_night([missing.notice], language)), is_all=False)
+                _tell(fleet, night, ways, watch)
                 if not night.was_interrupted:  # else the next night still has to tidy up
                     night.end(_now())
                 raise MissingError.at(missing.place, missing.notice.text)
@@ -132,23 +136,43 @@ def spend(fleet: FleetFile, order: Order, watch: Watch) -> None:
             for notice in noticed:
                 watch.noticed(notice)
             before = last.began if last else ""
-            witness = _Witness(watch)
+            witness = _Witness(watch, known, ways)
             _spend(known, order, witness, _Work(night, gone, before, ends, ledger.longest()))
             if witness.saw_something or noticed or (last and (last.notices or not last.ended)):
                 began = dt.datetime.fromisoformat(night.began)
                 rules = Rules(fleet.keys.interval, lambda job: is_retired(job, fleet))
                 names = [known.job_of(path) for path in jobs]
                 now = PastRun(began, None, noticed)
-                night.report(tuple(news_of(state_of(fleet.name, ledger.entries(), names, now, rules))))
-            _tell(fleet, night, watch)
+                state = state_of(fleet.name, ledger.entries(), names, now, rules)
+                night.report(tuple(news_of(state, language)))
+            _tell(fleet, night, ways, watch)
             night.end(_now())
+
+
+@contextlib.contextmanager
+def _alive(fleet: FleetFile) -> Iterator[None]:
+    """Show that the night is at work, and then that it has ended."""
+    _beat(fleet, is_at_work=True)
+    try:
+        yield
+    finally:
+        _beat(fleet, is_at_work=False)
+
+
+def _beat(fleet: FleetFile, *, is_at_work: bool) -> None:
+    """Write the sign of life; where it cannot be written, its age tells."""
+    text = heartbeat(fleet.name, dt.datetime.fromisoformat(_now()), is_at_work=is_at_work)
+    with contextlib.suppress(AccessError):
+        write([Document(fleet.heartbeat, text.encode())])
 
 
 @dataclass(slots=True)
 class _Witness:
-    """Passes on what happens, and remembers whether anything did."""
+    """Passes on what happens, tells people of it, and remembers whether anything did."""
 
     watch: Watch
+    known: Evening
+    ways: Ways
     saw_something: bool = False
 
     def planned(self, jobs: Sequence[Planned]) -> None:
@@ -160,20 +184,18 @@ class _Witness:
     def happened(self, happened: Happened) -> None:
         self.saw_something |= happened.what is not What.UNCHANGED
         self.watch.happened(happened)
+        message = news_of_job(happened, self.known)
+        if message:
+            for way in self.ways.of(message.occasion):
+                self.ways.tell(way, message, self.watch.noticed)
 
 
-def _tell(fleet: FleetFile, night: Night, watch: Watch) -> None:
+def _tell(fleet: FleetFile, night: Night, ways: Ways, watch: Watch) -> None:
     """Tell people what is new, each way once; what could not be told is told by the next night."""
-    for keys in fleet.keys.notify:
-        news = night.untold(keys.way)
-        if not news:
-            continue
-        try:
-            tell(keys, title(fleet.name, news), digest(news))
-        except NotToldError as error:
-            watch.noticed(Notice(About.UNTOLD, f"the news was not sent by {keys.way}: {error}"))
-        else:
-            night.tell(keys.way)
+    for way in ways.of(Occasion.DIGEST):
+        news = night.untold(way.name)
+        if news and ways.tell(way, digest(fleet, news), watch.noticed):
+            night.tell(way.name)
 
 
 def _notices(known: Evening, night: Night, gone: Sequence[str], last: PastNight | None) -> Iterator[Notice]:
@@ -221,7 +243,7 @@ def _spend(known: Evening, order: Order, watch: Watch, work: _Work) -> None:
     why = reasons(known)
     with contextlib.ExitStack() as stack:
         due = sum(map(bool, why.values()))
-        executor = _executor(known.fleet, order, due, lambda: night.beat(_now())) if due else None
+        executor = _executor(known.fleet, order, due, lambda: _sign(known.fleet, night)) if due else None
         stack.enter_context(executor or contextlib.nullcontext())
         planned = plan(known, why)
         watch.planned(planned)
@@ -243,6 +265,12 @@ def _spend(known: Evening, order: Order, watch: Watch, work: _Work) -> None:
                 watch.happened(desk.kept(tasks[task.job.absolute()], result))
         for each, _ in reversed(left):
             watch.happened(Happened(What.LEFT, each.job, each.number, each.why))
+
+
+def _sign(fleet: FleetFile, night: Night) -> None:
+    """Give a sign of life, to the ledger and to whoever watches files."""
+    night.beat(_now())
+    _beat(fleet, is_at_work=True)
 
 
 def _not_made(planned: Planned, desk: Desk) -> Happened:
@@ -302,7 +330,7 @@ def _missing(known: Evening, gone: Sequence[str]) -> _Missing | None:
         )
         return _Missing(Place(str(fleet.path)), Notice(About.JOBS, message))
     own = [each for each in known.certificates.values() if each.fleet == fleet.name and each.files]
-    is_empty = not fleet.output.is_dir() or not any(fleet.output.iterdir())
+    is_empty = not fleet.output.is_dir() or not _other_than_reports(fleet)
     if own and is_empty:
         message = (
             f"the folder is empty, and {len(own)} certificates were issued into it; look whether it is "
@@ -321,6 +349,11 @@ def _missing(known: Evening, gone: Sequence[str]) -> _Missing | None:
         )
         return _Missing(Place(str(fleet.ledger)), Notice(About.LEDGER, message))
     return None
+
+
+def _other_than_reports(fleet: FleetFile) -> bool:
+    """Whether anything lies in the folder of certificates but overviews, which are written there, too."""
+    return any(path.name not in fleet.reports for path in fleet.output.iterdir())
 
 
 def _number(path: Path, fleet: FleetFile) -> str:

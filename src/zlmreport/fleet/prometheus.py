@@ -47,6 +47,16 @@ def metrics(state: FleetState) -> str:
     return "".join(f"{line}\n" for family in families for line in family.lines())
 
 
+def heartbeat(fleet: str, moment: datetime, *, is_at_work: bool) -> str:
+    """Return the file by which a night shows that it is alive."""
+    labels = {"fleet": fleet}
+    beat = _Family("zlmreport_fleet_heartbeat_timestamp_seconds", "When a run last gave a sign of life.")
+    work = _Family("zlmreport_fleet_at_work", "1 while a run is at work, and after one that was killed.")
+    beat.samples.append((labels, moment.timestamp()))
+    work.samples.append((labels, float(is_at_work)))
+    return "".join(f"{line}\n" for family in (beat, work) for line in family.lines())
+
+
 def _of_fleet(state: FleetState) -> Iterator[_Family]:
     fleet = {"fleet": state.name}
     began = _Family("zlmreport_fleet_last_run_timestamp_seconds", "When the last run of the fleet began.")

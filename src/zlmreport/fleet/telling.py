@@ -1,72 +1,131 @@
-"""Telling people: news by mail, or by whatever apprise reaches; secrets come from the environment."""
+"""The ways to tell people that a fleet file names: each a notifier of a plugin with its own keys."""
 
 from __future__ import annotations
 
-import os
-import smtplib
-from collections.abc import Mapping
-from email.message import EmailMessage
+import threading
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field, replace
+from pathlib import Path
 
-from zlmreport.job.notify import NotifyKeys
+from zlmreport.errors import InputError, Problem, ZlmreportError
+from zlmreport.fleet.records import About, Notice
+from zlmreport.job.fleet import FleetFile
+from zlmreport.job.tree import Keys, Scalar, found_at
+from zlmreport.job.types import Options
+from zlmreport.job.validate import validate
+from zlmreport.plugin.kinds import NOTIFIER
+from zlmreport.plugin.protocols import Message, Notifier, Occasion
+from zlmreport.plugins import Registry, find_plugins
 
-#: For which a server may be silent, s.
-_PATIENCE = 30
+#: For which the night waits until a message is taken, s: nothing that tells of a night may stop it.
+PATIENCE = 60.0
+#: Of the group of keys itself.
+_CORE = ("plugin", "tells")
 
 
 class NotToldError(Exception):
     """Nobody took the news; why, in words."""
 
 
-def tell(keys: NotifyKeys, title: str, text: str, environment: Mapping[str, str] = os.environ) -> None:
-    """Send news.
+@dataclass(frozen=True, slots=True)
+class Way:
+    """A way to tell people.
 
-    Parameters
+    Attributes
     ----------
-    keys
-        To whom, and how.
-    title, text
-        The news.
-    environment
-        With the secrets.
+    notifier
+        Of a plugin.
+    options
+        Its own keys.
+    tells
+        What it is used for.
+    """
+
+    notifier: Notifier
+    options: Options
+    tells: frozenset[Occasion]
+
+    @property
+    def name(self) -> str:
+        """What tells this way from others, here and in the ledger."""
+        return f"{self.notifier.identifier} {self.notifier.receiver(self.options)}"
+
+    def tell(self, message: Message) -> None:
+        """Tell people; raise `NotToldError` if nobody took it in time."""
+        raised: list[Exception] = []
+
+        def run() -> None:
+            try:
+                self.notifier.tell(message, self.options)
+            except (ZlmreportError, MemoryError) as error:
+                raised.append(error)
+
+        thread = threading.Thread(target=run, daemon=True)
+        thread.start()
+        thread.join(PATIENCE)
+        if thread.is_alive():
+            raise NotToldError(f"it was not taken within {PATIENCE:g} s")
+        if raised:
+            raise NotToldError(str(raised[0])) from raised[0]
+
+
+@dataclass(slots=True)
+class Ways:
+    """All ways of a fleet; one that failed is not tried again in the same night.
+
+    Attributes
+    ----------
+    all
+        In the order of the fleet file.
+    failed
+        Those that nobody was reached by tonight.
+    """
+
+    all: tuple[Way, ...] = ()
+    failed: set[str] = field(default_factory=set)
+
+    def of(self, occasion: Occasion) -> Iterator[Way]:
+        """Yield those that tell of an occasion, and may still work."""
+        return (way for way in self.all if occasion in way.tells and way.name not in self.failed)
+
+    def tell(self, way: Way, message: Message, watch: Callable[[Notice], None]) -> bool:
+        """Tell people by one of them, and return whether it was taken; if not, the watch takes note."""
+        try:
+            way.tell(message)
+        except NotToldError as error:
+            self.failed.add(way.name)
+            watch(Notice(About.UNTOLD, f"the news was not sent by {way.name}: {error}"))
+            return False
+        return True
+
+
+def ways_of(fleet: FleetFile, plugins: tuple[Path, ...]) -> Ways:
+    """Return the ways that a fleet file names, each with its own keys checked.
 
     Raises
     ------
-    NotToldError
-        If nobody took it, or a secret is missing.
+    InputError
+        With every mistake in these keys, in the order of their places.
     """
+    if not fleet.keys.notify:
+        return Ways()
+    registry, problems = find_plugins(files=plugins), list[Problem]()
+    found = [_way(fleet, index, registry, problems) for index in range(len(fleet.keys.notify))]
+    if problems:
+        raise InputError(sorted(set(problems)))
+    return Ways(tuple(way for way in found if way))
+
+
+def _way(fleet: FleetFile, index: int, registry: Registry, problems: list[Problem]) -> Way | None:
+    keys, core = found_at(fleet.tree, ("notify", index)), fleet.keys.notify[index]
+    named = found_at(fleet.tree, ("notify", index, "plugin"))
+    if not isinstance(keys, Keys) or not isinstance(named, Scalar):
+        return None
     try:
-        if keys.plugin == "mail":
-            _mail(keys, title, text, environment)
-        else:
-            _apprise(keys, title, text, environment)
-    except (OSError, smtplib.SMTPException, ImportError) as error:
-        raise NotToldError(str(error) or type(error).__name__) from error
-
-
-def _mail(keys: NotifyKeys, title: str, text: str, environment: Mapping[str, str]) -> None:
-    message = EmailMessage()
-    message["Subject"], message["From"], message["To"] = title, keys.sender, ", ".join(keys.receivers)
-    message.set_content(text)
-    opened = smtplib.SMTP_SSL if keys.security == "tls" else smtplib.SMTP
-    with opened(keys.server, keys.port, timeout=_PATIENCE) as server:
-        if keys.security == "starttls":
-            server.starttls()
-        if keys.user:
-            server.login(keys.user, _secret(keys, environment))
-        server.send_message(message)
-
-
-def _apprise(keys: NotifyKeys, title: str, text: str, environment: Mapping[str, str]) -> None:
-    from apprise import Apprise  # noqa: PLC0415 - an extra
-
-    teller = Apprise()
-    if not teller.add(_secret(keys, environment)):
-        raise NotToldError(f"the environment variable {keys.secret} holds no address that apprise knows")
-    if not teller.notify(body=text, title=title):
-        raise NotToldError(f"nobody took it at the address in {keys.secret}")
-
-
-def _secret(keys: NotifyKeys, environment: Mapping[str, str]) -> str:
-    if keys.secret not in environment:
-        raise NotToldError(f"the environment variable {keys.secret} is not set")
-    return environment[keys.secret]
+        notifier = registry.find(NOTIFIER, named.text, named.place)
+    except InputError as error:
+        problems.extend(error.problems)
+        return None
+    own = replace(keys.without(*_CORE), place=named.place)
+    options = validate(notifier.options, own, problems, within="notify", also_known=_CORE)
+    return Way(notifier, options, frozenset(map(Occasion, core.tells))) if options else None

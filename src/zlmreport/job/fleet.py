@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import AfterValidator, BeforeValidator, Field, model_validator
+from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, model_validator
 
 from zlmreport.errors import InputError, Place, Problem, did_you_mean, quoted
 from zlmreport.files import unreadable
@@ -18,7 +18,6 @@ from zlmreport.job.extends import FLEET, Defaults, compose, refuse_other_format
 from zlmreport.job.fields import keys_in
 from zlmreport.job.installed import InstalledExtension
 from zlmreport.job.keys import JobKeys
-from zlmreport.job.notify import NotifyKeys
 from zlmreport.job.parse import parse
 from zlmreport.job.references import LocatedText, path_named
 from zlmreport.job.tree import Items, Keys, Scalar, key_place, place_of, walk
@@ -125,6 +124,20 @@ class LogKeys(JobPart):
     format: Literal["text", "json"] = Field("text", description="Lines for people, or JSON lines.")
 
 
+class NotifyKeys(BaseModel):
+    """A way to tell people; the plugin's own keys follow."""
+
+    model_config = ConfigDict(extra="allow", frozen=True)
+
+    plugin: Text = Field(description="Identifier of an installed notifier.", examples=["mail"])
+    tells: list[Literal["digest", "certificate", "failure"]] = Field(
+        ["digest"],
+        min_length=1,
+        description="What it tells: the digest of a night, each certificate issued, each job that fails.",
+        examples=[["digest", "failure"]],
+    )
+
+
 class FleetKeys(JobPart):
     """A fleet file: the certificates of many axes."""
 
@@ -138,7 +151,8 @@ class FleetKeys(JobPart):
         examples=["Hall North"],
     )
     language: Literal["en", "de"] = Field(
-        "en", description="Language of the overview; the certificates have those of their jobs."
+        "en",
+        description="Language of the overview and of the news; the certificates have those of their jobs.",
     )
     jobs: list[Text] | Text = Field(
         description="Job files relative to this file: paths, or with the wildcards `*`, `?`, `[…]` and `**`.",
@@ -213,6 +227,18 @@ class FleetFile:
     def place_of(self, *steps: str | int) -> Place:
         """Return where a key stands; of one that is missing, its nearest parent's place."""
         return place_of(self.tree, steps)
+
+    @property
+    def reports(self) -> tuple[str, str, str]:
+        """The names of the overview, of the file for Prometheus, and of the calendar."""
+        stem = self.path.stem
+        return f"{stem}.html", f"{stem}.prom", f"{stem}.ics"
+
+    @property
+    def heartbeat(self) -> Path:
+        """The file by which a night shows that it is alive, beside the ledger or the fleet file."""
+        beside = self.path if _URL.match(self.ledger) else Path(self.ledger)
+        return beside.with_name(f"{self.path.stem}.heartbeat.prom")
 
     @property
     def formats(self) -> tuple[tuple[str, Place], ...]:

@@ -196,6 +196,9 @@ if TYPE_CHECKING:
         Controller,
         DataSource,
         Instrument,
+        Message,
+        Notifier,
+        Occasion,
         PartProgram,
         Renderer,
         SourceContext,
@@ -378,10 +381,13 @@ __all__ = [
     "LiveRun",
     "Mark",
     "MeasurementSet",
+    "Message",
     "Motion",
     "NoBudget",
     "NotNegative",
     "Notice",
+    "Notifier",
+    "Occasion",
     "Options",
     "PageWords",
     "Panel",
@@ -649,8 +655,8 @@ _ROOMS = {
     "zlmreport.model.report": "report_error report_model",
     "zlmreport.plugin.kinds": "hookimpl",
     "zlmreport.plugin.protocols": (
-        "Connection Controller DataSource Instrument PartProgram Renderer SourceContext SourceProposal "
-        "Standard"
+        "Connection Controller DataSource Instrument Message Notifier Occasion PartProgram Renderer "
+        "SourceContext SourceProposal Standard"
     ),
     "zlmreport.quantities.arrays": "BoolArray FloatArray read_only_floats",
     "zlmreport.quantities.formatting": "DecimalSign MINUS_SIGN=MINUS fixed_number general_number",

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
         Controller,
         DataSource,
         Instrument,
+        Notifier,
         PartProgram,
         Renderer,
         Standard,
@@ -171,6 +172,14 @@ INSTRUMENT: Kind[Instrument] = Kind(
     kit="check_instrument",
     reserved=frozenset({"plugin"}),
 )
+NOTIFIER: Kind[Notifier] = Kind(
+    name="notifier",
+    label="notifier",
+    offers="the ways in which this plugin tells people what a fleet came to",
+    interface="Notifier",
+    kit="check_notifier",
+    reserved=frozenset({"plugin", "tells"}),
+)
 
 #: In the order in which they are listed.
 KINDS: tuple[Kind[Any], ...] = (
@@ -182,6 +191,7 @@ KINDS: tuple[Kind[Any], ...] = (
     CONTROLLER,
     EXTENSION,
     INSTRUMENT,
+    NOTIFIER,
 )
 
 

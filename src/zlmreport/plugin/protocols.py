@@ -6,10 +6,12 @@ An `Effect` is declared in `zlmreport.model.effect`: it is all that the error mo
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from enum import StrEnum
 from typing import TYPE_CHECKING, Any, Protocol, Self, runtime_checkable
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
+    from pathlib import Path
     from types import TracebackType
 
     from zlmreport.certificate.attachments import Relationship
@@ -334,3 +336,62 @@ class Instrument(Protocol):
         its protocol has a way to show. ``zlmreport emulate`` puts it on a line; nobody should have to own an
         instrument to try its plugin.
         """
+
+
+class Occasion(StrEnum):
+    """What people are told of."""
+
+    #: What is new after a night, all of it together.
+    DIGEST = "digest"
+    #: A certificate was issued.
+    CERTIFICATE = "certificate"
+    #: A job failed, or is gone, that did not in the night before.
+    FAILURE = "failure"
+
+
+@dataclass(frozen=True, slots=True)
+class Message:
+    """What people are told of a fleet.
+
+    Attributes
+    ----------
+    occasion
+        What it is about.
+    title
+        In one line: ``Hall North: 1 failed, 2 changed``.
+    text
+        In lines, in the language of the fleet, without markup.
+    files
+        Of a certificate, as they were issued.
+    """
+
+    occasion: Occasion
+    title: str
+    text: str
+    files: tuple[Path, ...] = ()
+
+
+@runtime_checkable
+class Notifier(Protocol):
+    """A way to tell people what a fleet came to.
+
+    Attributes
+    ----------
+    identifier
+        As fleet files name it: ``mail``.
+    title
+        In words.
+    options
+        Its keys beside ``plugin`` and ``tells``. A password is none of them: a key names the environment
+        variable that holds it.
+    """
+
+    identifier: str
+    title: Words
+    options: type[Options]
+
+    def receiver(self, options: Any) -> str:
+        """Return who is told, in one line and without a secret; what was told to one is not told again."""
+
+    def tell(self, message: Message, options: Any) -> None:
+        """Tell it, once; raise `AccessError` if nobody took it. It has a minute for that."""

@@ -26,6 +26,7 @@ from zlmreport.testing.extensions import EXTENSION_CHECKS, check_extension
 from zlmreport.testing.instruments import INSTRUMENT_CHECKS, check_instrument
 from zlmreport.testing.measurements import bidirectional_test, simulated_test
 from zlmreport.testing.motions import sample_motion
+from zlmreport.testing.notifiers import NOTIFIER_CHECKS, NotifierTrial, check_notifier
 from zlmreport.testing.part_programs import PART_PROGRAM_CHECKS, check_part_program
 from zlmreport.testing.renderers import RENDERER_CHECKS, check_renderer
 from zlmreport.testing.sources import SOURCE_CHECKS, FileContents, check_source
@@ -36,16 +37,19 @@ __all__ = [
     "EFFECT_CHECKS",
     "EXTENSION_CHECKS",
     "INSTRUMENT_CHECKS",
+    "NOTIFIER_CHECKS",
     "PART_PROGRAM_CHECKS",
     "RENDERER_CHECKS",
     "SOURCE_CHECKS",
     "STANDARD_CHECKS",
     "FileContents",
+    "NotifierTrial",
     "bidirectional_test",
     "check_controller",
     "check_effect",
     "check_extension",
     "check_instrument",
+    "check_notifier",
     "check_part_program",
     "check_renderer",
     "check_source",

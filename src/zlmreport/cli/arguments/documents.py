@@ -297,7 +297,8 @@ def fleet_report(command: str) -> CommandParser:
     parser = CommandParser(
         f"zlmreport {command}",
         "Write the overview of a fleet from its ledger: the state of every axis, failures, limits that are\n"
-        "not met, who drifts, with small graphs; and the same numbers as a text file for Prometheus.",
+        "not met, who drifts, with small graphs; the same numbers as a text file for Prometheus; and a\n"
+        "calendar of the tests that are due.",
         "example:\n  zlmreport fleet report fleet.yaml --output overview",
     )
     _add_fleet(parser)

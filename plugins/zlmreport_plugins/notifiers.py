@@ -1,0 +1,121 @@
+"""Telling people by mail, with the standard library alone, or by whatever apprise reaches, which is an extra.
+
+A password, or an address that holds one, comes from the environment and is in no file and no message.
+"""
+
+from __future__ import annotations
+
+import os
+import smtplib
+from collections.abc import Iterable
+from email.message import EmailMessage
+from typing import Any, Literal
+
+from pydantic import Field, model_validator
+
+from zlmreport.plugin import AccessError, Message, Notifier, Options, Place, TextLine, Words, hookimpl
+
+#: For which a server may be silent, s.
+_PATIENCE = 30
+
+
+class MailOptions(Options):
+    """The keys of ``mail``."""
+
+    to: list[TextLine] | TextLine = Field(
+        description="Who gets the mail.", examples=["calibration@example.com"]
+    )
+    sender: TextLine = Field("zlmreport@localhost", description="Who the mail is from.")
+    server: TextLine = Field("localhost", description="The SMTP server.")
+    port: int = Field(25, ge=1, le=65535, description="Its port.")
+    security: Literal["none", "starttls", "tls"] = Field("none", description="How the line to it is secured.")
+    user: TextLine | None = Field(None, description="Name at the server, where it asks for one.")
+    secret: TextLine = Field(
+        "ZLMREPORT_NOTIFY",
+        description="The environment variable with the password.",
+        examples=["MAIL_PASSWORD"],
+    )
+
+    @model_validator(mode="after")
+    def _secured(self) -> MailOptions:
+        """Refuse a password in the open."""
+        if self.user and self.security == "none":
+            raise ValueError("a password is not sent in the open; write security: starttls, or tls")
+        return self
+
+
+class Mail:
+    """A mail by SMTP (RFC 5321)."""
+
+    identifier = "mail"
+    title = Words(en="Mail", de="E-Mail")
+    options: type[Options] = MailOptions
+
+    def receiver(self, options: MailOptions) -> str:
+        """Return the addresses."""
+        return options.to if isinstance(options.to, str) else ", ".join(options.to)
+
+    def tell(self, message: Message, options: MailOptions) -> None:
+        """Hand the mail to the server."""
+        mail = EmailMessage()
+        mail["Subject"], mail["From"], mail["To"] = message.title, options.sender, self.receiver(options)
+        mail.set_content(message.text)
+        opened = smtplib.SMTP_SSL if options.security == "tls" else smtplib.SMTP
+        try:
+            with opened(options.server, options.port, timeout=_PATIENCE) as server:
+                if options.security == "starttls":
+                    server.starttls()
+                if options.user:
+                    server.login(options.user, _secret(options.secret))
+                server.send_message(mail)
+        except (OSError, smtplib.SMTPException) as error:
+            where = Place(f"mail by {options.server}")
+            raise AccessError.at(where, str(error) or type(error).__name__) from error
+
+
+class AppriseOptions(Options):
+    """The keys of ``apprise``."""
+
+    secret: TextLine = Field(
+        "ZLMREPORT_NOTIFY",
+        description="The environment variable with the address, as apprise writes it.",
+        examples=["CHAT"],
+    )
+
+
+class Apprise:
+    """Any of the services that apprise knows, by the address that it has for each."""
+
+    identifier = "apprise"
+    title = Words(en="Any service that apprise knows", de="Jeder Dienst, den apprise kennt")
+    options: type[Options] = AppriseOptions
+
+    def receiver(self, options: AppriseOptions) -> str:
+        """Return the name of the variable: an address holds passwords."""
+        return options.secret
+
+    def tell(self, message: Message, options: AppriseOptions) -> None:
+        """Hand the message to apprise."""
+        where = Place("apprise")
+        try:
+            from apprise import Apprise as Sender  # noqa: PLC0415 - an extra
+        except ImportError as error:
+            raise AccessError.at(where, "is not installed: pip install 'zlmreport[notify]'") from error
+        sender = Sender()
+        if not sender.add(_secret(options.secret)):
+            raise AccessError.at(where, f"{options.secret} holds no address that it knows")
+        if not sender.notify(body=message.text, title=message.title):
+            raise AccessError.at(where, f"nobody took it at the address in {options.secret}")
+
+
+def _secret(variable: str) -> str:
+    if not os.environ.get(variable):
+        raise AccessError.at(Place("environment"), f"the variable {variable} is not set")
+    return os.environ[variable]
+
+
+@hookimpl
+def zlmreport_notifiers() -> Iterable[Notifier]:
+    """Return the notifiers of this plugin."""
+    found: list[Any] = [Mail(), Apprise()]
+    return found

@@ -1,0 +1,129 @@
+"""What every notifier must do."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from zlmreport.errors import AccessError
+from zlmreport.plugin.kinds import NOTIFIER
+from zlmreport.plugin.protocols import Message, Notifier, Occasion
+from zlmreport.testing.expectations import (
+    check,
+    expect,
+    expect_identifier,
+    expect_members,
+    expect_options,
+    expect_own_keys,
+    expect_words,
+    run_all,
+)
+
+#: With what is easily lost on the way: letters beyond ASCII, a dot alone on a line, what looks like markup.
+SAMPLE = Message(
+    Occasion.DIGEST,
+    "Hall Süd: 1 failed, 1 changed",
+    "Failed\n- jobs/x.yaml: <b> & 'Lagerweg' too short\n.\n\nChanged\n- MC 800, X: A + 4.2 µm, R − 0.3 µm\n",
+)
+
+
+@dataclass(frozen=True, slots=True)
+class NotifierTrial:
+    """Where the kit may send to.
+
+    Attributes
+    ----------
+    keys
+        By which a message arrives.
+    taken
+        Returns all that arrived there so far, as one text.
+    to_nobody
+        Keys by which nobody takes it: a closed port, an unknown address.
+    secrets
+        Passwords, and addresses that hold them, which no message may show.
+    """
+
+    keys: Mapping[str, Any]
+    taken: Callable[[], str]
+    to_nobody: Mapping[str, Any]
+    secrets: tuple[str, ...] = field(default=())
+
+
+def _options(notifier: Notifier, keys: Mapping[str, Any]) -> Any:
+    return notifier.options.model_validate(dict(keys))
+
+
+@check
+def is_named(notifier: Notifier, _trial: NotifierTrial) -> None:
+    """Check its identifier and its title."""
+    expect_members(notifier, Notifier)
+    expect_identifier(notifier.identifier, repr(notifier))
+    expect_words(notifier.title, f"{notifier.identifier}: title")
+
+
+@check
+def options_are_described(notifier: Notifier, _trial: NotifierTrial) -> None:
+    """Check that its keys are described, and none is a key of the core."""
+    expect_options(notifier.options, notifier.identifier)
+    expect_own_keys(notifier.options, NOTIFIER.reserved, notifier.identifier)
+
+
+@check
+def names_who_is_told(notifier: Notifier, trial: NotifierTrial) -> None:
+    """Check that the receiver is one line, always the same, and no secret."""
+    named = [notifier.receiver(_options(notifier, trial.keys)) for _ in range(2)]
+    expect(
+        isinstance(named[0], str) and named[0].strip() and len(named[0].splitlines()) == 1,
+        f"{notifier.identifier}: receiver must return a text of one line, not {named[0]!r}",
+    )
+    expect(named[0] == named[1], f"{notifier.identifier}: receiver gives another name each time: {named}")
+    _shows_no_secret(notifier, named[0], trial)
+
+
+@check
+def tells_all_of_it_once(notifier: Notifier, trial: NotifierTrial) -> None:
+    """Check that title and text arrive letter by letter, one time."""
+    before = trial.taken()
+    notifier.tell(SAMPLE, _options(notifier, trial.keys))
+    taken = trial.taken().removeprefix(before)
+    expect(taken, f"{notifier.identifier}: nothing arrived, and tell raised nothing")
+    for line in (SAMPLE.title, *SAMPLE.text.split("\n\n")[0].splitlines(), *SAMPLE.text.splitlines()[-2:]):
+        expect(line in taken, f"{notifier.identifier}: {line!r} did not arrive as it is, but {taken!r}")
+    marked = SAMPLE.text.splitlines()[-1]
+    expect(
+        taken.count(marked) == 1, f"{notifier.identifier}: the message arrived {taken.count(marked)} times"
+    )
+
+
+@check
+def says_when_nobody_takes_it(notifier: Notifier, trial: NotifierTrial) -> None:
+    """Check that what nobody took is an `AccessError` whose message shows no secret."""
+    try:
+        notifier.tell(SAMPLE, _options(notifier, trial.to_nobody))
+    except AccessError as error:
+        _shows_no_secret(notifier, str(error), trial)
+    else:
+        message = f"{notifier.identifier}: nobody took the message, and tell did not raise AccessError"
+        raise AssertionError(message)
+
+
+def _shows_no_secret(notifier: Notifier, text: str, trial: NotifierTrial) -> None:
+    shown = any(secret in text for secret in trial.secrets)
+    expect(not shown, f"{notifier.identifier}: what it says for others to read shows a secret")
+
+
+#: Every check of a notifier, each called with it and a trial.
+NOTIFIER_CHECKS = (
+    is_named,
+    options_are_described,
+    names_who_is_told,
+    tells_all_of_it_once,
+    says_when_nobody_takes_it,
+)
+
+
+def check_notifier(notifier: Notifier, trial: NotifierTrial) -> None:
+    """Run every check on a notifier; raise `AssertionError` with a line for every check that fails."""
+    expect_members(notifier, Notifier)
+    run_all(NOTIFIER_CHECKS, notifier, trial)

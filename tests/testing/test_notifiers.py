@@ -1,0 +1,158 @@
+"""Each check of a notifier passes the exemplary one, and finds the sin it is there for."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+from pydantic import Field
+
+from zlmreport.errors import AccessError, Place
+from zlmreport.job.types import Options
+from zlmreport.language import Words
+from zlmreport.plugin.protocols import Message
+from zlmreport.testing import NOTIFIER_CHECKS, NotifierTrial, check_notifier, notifiers
+
+COUNTER = itertools.count()
+SECRET = "swordfish"
+
+
+class BoardOptions(Options):
+    board: str = Field(description="Name of the board.")
+
+
+class ExemplaryNotifier:
+    """Pins each message to a board; there is only one, called north."""
+
+    identifier = "exemplary-board"
+    title: Any = Words(en="A board", de="Ein Brett")
+    options: Any = BoardOptions
+
+    def __init__(self) -> None:
+        self.pinned: list[str] = []
+
+    def receiver(self, options: Any) -> str:
+        return str(options.board)
+
+    def tell(self, message: Message, options: Any) -> None:
+        if options.board != "north":
+            raise AccessError.at(Place(options.board), "there is no such board")
+        self.pinned.append(f"{message.title}\n{message.text}")
+
+
+def trial(notifier: Any) -> NotifierTrial:
+    return NotifierTrial({"board": "north"}, lambda: "".join(notifier.pinned), {"board": "west"}, (SECRET,))
+
+
+def pinned(change: Callable[[Message], str]) -> dict[str, Any]:
+    """Return the sin of a notifier that tells something else."""
+
+    def tell(self: Any, message: Message, options: Any) -> None:
+        ExemplaryNotifier().tell(message, options)
+        self.pinned.append(change(message))
+
+    return {"tell": tell}
+
+
+def careless(self: Any, message: Message, _options: Any) -> None:
+    self.pinned.append(f"{message.title}\n{message.text}")
+
+
+def raw(self: Any, message: Message, options: Any) -> None:
+    if options.board != "north":
+        raise OSError("no route to host")
+    careless(self, message, options)
+
+
+def loose_tongued(self: Any, message: Message, options: Any) -> None:
+    if options.board != "north":
+        raise AccessError.at(Place("board"), f"{SECRET} was not accepted")
+    careless(self, message, options)
+
+
+def leaves(*_: Any) -> None:
+    raise SystemExit(0)
+
+
+class Undescribed(Options):
+    board: str = "north"
+
+
+class Greedy(BoardOptions):
+    tells: str = Field("", description="Taken.")
+
+
+SINS: list[tuple[Any, dict[str, Any], str]] = [
+    (notifiers.is_named, {"identifier": "A board"}, "must be lower-case ASCII"),
+    (notifiers.is_named, {"title": "A board"}, "title must be Words"),
+    (notifiers.options_are_described, {"options": Undescribed}, "'board' needs a description"),
+    (notifiers.options_are_described, {"options": Greedy}, "tells belong to the core"),
+    (notifiers.names_who_is_told, {"receiver": lambda *_: ""}, "a text of one line"),
+    (notifiers.names_who_is_told, {"receiver": lambda *_: None}, "a text of one line"),
+    (notifiers.names_who_is_told, {"receiver": lambda *_: "Ada\nBob"}, "a text of one line"),
+    (notifiers.names_who_is_told, {"receiver": lambda *_: f"{next(COUNTER)}"}, "another name each time"),
+    (notifiers.names_who_is_told, {"receiver": lambda *_: f"https://{SECRET}@chat"}, "shows a secret"),
+    (notifiers.tells_all_of_it_once, {"tell": lambda *_: None}, "nothing arrived, and tell raised nothing"),
+    (notifiers.tells_all_of_it_once, pinned(lambda one: one.title), "did not arrive as it is"),
+    (notifiers.tells_all_of_it_once, pinned(lambda one: one.text), "did not arrive as it is"),
+    (
+        notifiers.tells_all_of_it_once,
+        pinned(lambda one: f"{one.title}\n{one.text}".encode("ascii", "ignore").decode()),
+        "did not arrive as it is",
+    ),
+    (
+        notifiers.tells_all_of_it_once,
+        pinned(lambda one: f"{one.title}\n{one.text}".replace("<", "&lt;")),
+        "did not arrive as it is",
+    ),
+    (
+        notifiers.tells_all_of_it_once,
+        pinned(lambda one: f"{one.title}\n{one.text}"[:90]),
+        "did not arrive as it is",
+    ),
+    (
+        notifiers.tells_all_of_it_once,
+        pinned(lambda one: f"{one.title}\n{one.text}" * 2),
+        "the message arrived 2 times",
+    ),
+    (notifiers.tells_all_of_it_once, {"tell": leaves}, "raised SystemExit"),
+    (notifiers.says_when_nobody_takes_it, {"tell": careless}, "did not raise AccessError"),
+    (notifiers.says_when_nobody_takes_it, {"tell": raw}, "raised OSError: no route to host"),
+    (notifiers.says_when_nobody_takes_it, {"tell": loose_tongued}, "shows a secret"),
+]
+
+
+def sinner(sin: dict[str, Any]) -> Any:
+    return type("Sinner", (ExemplaryNotifier,), sin)()
+
+
+@pytest.mark.parametrize("check", NOTIFIER_CHECKS)
+def test_the_exemplary_notifier_passes(check: Callable[..., None]) -> None:
+    notifier = ExemplaryNotifier()
+    check(notifier, trial(notifier))
+
+
+@pytest.mark.parametrize(
+    ("check", "sin", "sentence"), SINS, ids=lambda value: getattr(value, "__name__", None)
+)
+def test_a_check_finds_its_sin(check: Callable[..., None], sin: dict[str, Any], sentence: str) -> None:
+    notifier = sinner(sin)
+    with pytest.raises(AssertionError) as failure:
+        check(notifier, trial(notifier))
+    assert sentence in str(failure.value)
+
+
+def test_every_check_has_a_sin() -> None:
+    assert {check for check, *_ in SINS} == set(NOTIFIER_CHECKS)
+
+
+def test_all_failures_are_reported_at_once() -> None:
+    notifier = sinner({"title": "", "receiver": lambda *_: ""})
+    with pytest.raises(AssertionError) as failure:
+        check_notifier(notifier, trial(notifier))
+    assert [line.split(":")[0] for line in str(failure.value).splitlines()] == [
+        "is_named",
+        "names_who_is_told",
+    ]
