@@ -9,7 +9,7 @@ from collections.abc import Mapping
 
 #: Entry point to kinds to identifiers.
 OFFERS: Mapping[str, Mapping[str, tuple[str, ...]]] = {
-    "dcc": {"renderer": ("dcc",)},
+    "dcc": {"renderer": ("dcc",), "source": ("dcc",)},
     "ecmc": {"source": ("ecmc",)},
     "effects": {
         "effect": (

@@ -1,4 +1,4 @@
-"""Every example job gives its documents, and together they show every standard."""
+"""Every example job gives its documents and a digital certificate, and together they show every standard."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from dcclib.validation.schematron import SchematronValidator
 
 from environments import ROOT
 from zlmreport import pipeline
@@ -56,10 +57,15 @@ def jobs(registry: Registry) -> list[Job]:
 def test_a_job_gives_each_of_its_formats_and_each_of_its_standards(
     path: Path, registry: Registry, tmp_path: Path
 ) -> None:
-    job = replace(load(path, registry), directory=tmp_path)
+    job = load(path, registry)
+    job = replace(job, directory=tmp_path, formats=(*job.formats, "dcc"))
     written = write(pipeline.run(job, registry).documents)
     stem = job.keys.certificate.number
-    assert {file.name for file in written} == {f"{stem}.{identifier}" for identifier in job.formats}
+    suffixes = {"dcc": "xml"}
+    expected = {f"{stem}.{suffixes.get(identifier, identifier)}" for identifier in job.formats}
+    assert {file.name for file in written} == expected
+    rules = SchematronValidator.for_dcc().validate_file(tmp_path / f"{stem}.xml")
+    assert rules.failed_assertions == []
     results = json.loads((tmp_path / f"{stem}.json").read_bytes())
     stated = [choice.identifier for choice in job.standards]
     assert [evaluation["standard"] for evaluation in results["evaluations"]] == stated

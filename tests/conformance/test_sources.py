@@ -75,6 +75,7 @@ SAMPLES: list[tuple[str, Mapping[str, Any], Axis | SourceContext, FileContents]]
             ((10.0, "+", 1, -20.52), (40.0, "+", 10, -3.6), (10.0, "-", 1, 111.6), (40.0, "-", 10, 115.92)),
         ),
     ),
+    ("dcc", {"file": DATA / "y-axis.xml"}, Axis("Y"), _Y_AXIS),
     ("renishaw-rtl", {"file": DATA / "bidirectional.rtl"}, Axis("Y"), _Y_AXIS),
     (
         "serial-interferometer",

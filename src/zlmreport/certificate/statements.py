@@ -16,11 +16,12 @@ if TYPE_CHECKING:
     from zlmreport.measurement.measurement_set import MeasurementSet
     from zlmreport.measurement.provenance import Exclusion
 
-ONLY_THIS_ITEM = Words(
+_ONLY_THIS_ITEM = Words(
     en="The results relate only to the item calibrated, in its condition at the time of the measurement.",
     de="Die Ergebnisse gelten nur für den kalibrierten Gegenstand in seinem Zustand zur Zeit der Messung.",
 )
-_TRACEABLE = Words(
+#: The statement of 7.8.4.1 c.
+TRACEABLE = Words(
     en="The results are metrologically traceable through the calibration of the measuring instrument "
     "(calibration certificate {certificate}).",
     de="Die Ergebnisse sind über die Kalibrierung des Messgeräts (Kalibrierschein {certificate}) "
@@ -142,8 +143,8 @@ def paragraphs(keys: JobKeys, writer: Writer) -> Iterator[Block]:
         reference = keys.agreement.reference
         yield Paragraph(writer.say(_SIMPLIFIED.given(reference=same(f" ({reference})") if reference else "")))
     if keys.instrument and keys.instrument.certificate:
-        yield Paragraph(writer.say(_TRACEABLE.given(certificate=keys.instrument.certificate)))
-    yield Paragraph(writer.say(ONLY_THIS_ITEM))
+        yield Paragraph(writer.say(TRACEABLE.given(certificate=keys.instrument.certificate)))
+    yield Paragraph(writer.say(_ONLY_THIS_ITEM))
     if keys.certificate.kind == "certificate":
         yield Paragraph(writer.say(_ONLY_IN_FULL))
 

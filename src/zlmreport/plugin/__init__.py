@@ -51,7 +51,7 @@ if TYPE_CHECKING:
         Verdict,
     )
     from zlmreport.certificate.information import Information
-    from zlmreport.certificate.statements import ONLY_THIS_ITEM
+    from zlmreport.certificate.statements import TRACEABLE
     from zlmreport.compensation.curve import CompensationTable
     from zlmreport.correction.refractive_index import (
         STANDARD_HUMIDITY,
@@ -275,7 +275,6 @@ __all__ = [
     "MINUS_SIGN",
     "NO_CONDITIONS",
     "NO_FAULT",
-    "ONLY_THIS_ITEM",
     "PERCENT",
     "POSITION_UNITS",
     "REFERENCE_TEMPERATURE",
@@ -286,6 +285,7 @@ __all__ = [
     "STATED_IN_THE_JOB",
     "STATE_OF_AIR",
     "TIME_UNITS",
+    "TRACEABLE",
     "USUAL_CONTRIBUTIONS",
     "AccessError",
     "Acts",
@@ -584,7 +584,7 @@ _ROOMS = {
     ),
     "zlmreport.certificate.cover": "address_lines=lines place_of_work",
     "zlmreport.certificate.information": "Information",
-    "zlmreport.certificate.statements": "ONLY_THIS_ITEM",
+    "zlmreport.certificate.statements": "TRACEABLE",
     "zlmreport.correction.refractive_index": (
         "STANDARD_HUMIDITY STANDARD_PRESSURE index_change refractive_index"
     ),

@@ -1,11 +1,12 @@
-"""PTB's Digital Calibration Certificate 3.3.0."""
+"""PTB's Digital Calibration Certificate 3.3.0: written, and its readings read again."""
 
 from __future__ import annotations
 
-from zlmreport.plugin import Certificate, InputError, Place, Relationship, Words, hookimpl
+from zlmreport.plugin import Certificate, DataSource, InputError, Place, Relationship, Words, hookimpl
 from zlmreport_plugins.renderers.dcc.administrative import administrative_data
 from zlmreport_plugins.renderers.dcc.elements import SCHEMA_LOCATION, dcc, written
 from zlmreport_plugins.renderers.dcc.results import measurement_results
+from zlmreport_plugins.renderers.dcc.source import DccSource
 
 _VERSION = "3.3.0"
 
@@ -47,3 +48,9 @@ class DccRenderer:
 def zlmreport_renderers() -> list[DccRenderer]:
     """Offer the renderer."""
     return [DccRenderer()]
+
+
+@hookimpl
+def zlmreport_sources() -> list[DataSource]:
+    """Offer the reader."""
+    return [DccSource()]

@@ -8,7 +8,6 @@ from xml.etree import ElementTree as ET
 
 from zlmreport.plugin import (
     CONDITION_NAMES,
-    ONLY_THIS_ITEM,
     Certificate,
     Customer,
     InputError,
@@ -30,6 +29,7 @@ from zlmreport_plugins.renderers.dcc.elements import (
     quantity,
     real,
 )
+from zlmreport_plugins.renderers.dcc.statements import statements
 
 #: The DCC's words for whose place it is.
 _PLACES = {
@@ -107,7 +107,7 @@ def administrative_data(certificate: Certificate, job: Job) -> ET.Element:
         dcc("calibrationLaboratory", _contact("contact", keys.laboratory, writer, keys.laboratory.country)),
         _persons(job, writer),
         _contact("customer", keys.customer, writer),
-        dcc("statements", dcc("statement", dcc("declaration", writer.content(ONLY_THIS_ITEM)))),
+        dcc("statements", *statements(certificate)),
     )
 
 
@@ -131,10 +131,9 @@ def _missing(job: Job) -> Iterator[Problem]:
 
 def _core_data(certificate: Certificate, job: Job) -> ET.Element:
     keys = job.keys
-    begin = keys.measurement.date
-    assert begin is not None  # noqa: S101 - what is missing was refused before
-    assert keys.laboratory is not None  # noqa: S101 - likewise
-    end = keys.measurement.end or begin
+    taken = (keys.measurement, *([keys.as_found.measurement] if keys.as_found else []))
+    days = [day for each in taken for day in (each.date, each.end) if day]
+    assert keys.laboratory is not None  # noqa: S101 - what is missing was refused before
     place = place_of_work(keys)
     received, issued = keys.dates.received, certificate.issued
     language = certificate.language.value
@@ -146,8 +145,8 @@ def _core_data(certificate: Certificate, job: Job) -> ET.Element:
         dcc("mandatoryLangCodeISO639_1", language),
         dcc("uniqueIdentifier", certificate.number),
         dcc("receiptDate", received.isoformat()) if received else None,
-        dcc("beginPerformanceDate", begin.isoformat()),
-        dcc("endPerformanceDate", end.isoformat()),
+        dcc("beginPerformanceDate", min(days).isoformat()),
+        dcc("endPerformanceDate", max(days).isoformat()),
         dcc("performanceLocation", _PLACES.get(place.kind, "other") if place else "other"),
         dcc("issueDate", issued.isoformat()) if issued else None,
         dcc(
@@ -218,8 +217,7 @@ _CONDITIONS = {
 _NAMES = {
     **CONDITION_NAMES,
     "expansion_coefficient": Words(
-        en="Expansion coefficient used for correction",
-        de="Zur Korrektur benutzter Ausdehnungskoeffizient",
+        en="Expansion coefficient of the machine", de="Koeffizient der Längenausdehnung der Maschine"
     ),
 }
 _STATE = Words(en="State of the axis", de="Zustand der Achse")
@@ -227,6 +225,8 @@ _STATES = {
     "before": Words(en="as found", de="wie vorgefunden"),
     "after": Words(en="as left", de="wie hinterlassen"),
 }
+_BY_CUSTOMER = Words(en="Provided by the customer", de="Angabe des Auftraggebers")
+_SENSORS = Words(en="Places of the sensors", de="Messstellen")
 _REMARKS = Words(en="Remarks on the environment", de="Bemerkungen zur Umgebung")
 _CALIBRATION = Words(en="Calibration certificate: {number}", de="Kalibrierschein: {number}")
 
@@ -276,8 +276,7 @@ def influences(job: Job, writer: Writer) -> Iterator[ET.Element]:
     if environment is None:
         return
     for key, (unit, kind) in _CONDITIONS.items():
-        name = _NAMES[key]
-        value = getattr(environment, key)
+        name, value = _NAMES[key], getattr(environment, key)
         if value is None:
             continue
         stated = (
@@ -285,11 +284,20 @@ def influences(job: Job, writer: Writer) -> Iterator[ET.Element]:
             if isinstance(value, str)
             else quantity(writer.named("name", name), real(value, unit))
         )
-        yield _condition(name, stated, writer, kind)
-    if environment.remarks:
-        yield _condition(_REMARKS, dcc("text", writer.content(environment.remarks)), writer)
+        whose = {"environment", f"environment.{key}"} & set(job.keys.provided_by_customer)
+        yield _condition(name, stated, writer, kind, _BY_CUSTOMER if whose else None)
+    for name, text in ((_SENSORS, environment.sensors), (_REMARKS, environment.remarks)):
+        if text:
+            yield _condition(name, dcc("text", writer.content(text)), writer)
 
 
-def _condition(name: Words, stated: ET.Element, writer: Writer, kind: str = "") -> ET.Element:
-    attributes = {"refType": kind} if kind else {}
-    return dcc("influenceCondition", writer.named("name", name), dcc("data", stated), **attributes)
+def _condition(
+    name: Words, stated: ET.Element, writer: Writer, kind: str = "", remark: Words | None = None
+) -> ET.Element:
+    return dcc(
+        "influenceCondition",
+        writer.named("name", name),
+        writer.named("description", remark) if remark else None,
+        dcc("data", stated),
+        **({"refType": kind} if kind else {}),
+    )

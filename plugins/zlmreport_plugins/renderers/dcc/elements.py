@@ -16,6 +16,11 @@ MICROMETRE_PER_METRE_KELVIN = r"\micro\metre\metre\tothe{-1}\kelvin\tothe{-1}"
 DEGREE_CELSIUS = r"\degreecelsius"
 HECTOPASCAL = r"\hecto\pascal"
 PERCENT = r"\percent"
+SECOND = r"\second"
+ONE = r"\one"
+
+#: Units of conditions as D-SI writes them, by their symbols.
+SCALES = {"°C": DEGREE_CELSIUS, "hPa": HECTOPASCAL, "%": PERCENT}
 
 #: Units of the axis as D-SI writes them, by what the results file calls them.
 _UNITS = {
@@ -23,6 +28,22 @@ _UNITS = {
     "um": r"\micro\metre",
     "deg": r"\degree",
     "arcsec": r"\arcsecond",
+}
+
+
+#: Kinds (refType) of the readings and their columns; behind CONDITION stands the name of a known one.
+READINGS = "zlmreport_readings"
+TARGET = "zlmreport_target"
+DIRECTION = "zlmreport_direction"
+RUN = "zlmreport_run"
+DEVIATION = "zlmreport_deviation"
+TIME = "zlmreport_time"
+CONDITION = "zlmreport_condition_"
+#: Kinds beside DEVIATION, and what each says of the measurement set.
+TRAITS = {
+    "zlmreport_indication": "is_indication",
+    "zlmreport_oneSidedTargets": "one_sided_targets",
+    "zlmreport_relativeReversal": "reversal_is_relative",
 }
 
 

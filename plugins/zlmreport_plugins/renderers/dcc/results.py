@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from xml.etree import ElementTree as ET
 
 import numpy as np
 
 from zlmreport.plugin import (
+    CONDITION_NAMES,
+    CONDITIONS,
     CONFORMITY_STATEMENTS,
     Approach,
+    Budget,
     Certificate,
     Conformity,
     Decision,
@@ -18,10 +21,30 @@ from zlmreport.plugin import (
     Evaluation,
     FloatArray,
     Job,
+    MeasurementSet,
+    Unit,
     Words,
 )
 from zlmreport_plugins.renderers.dcc.administrative import Writer, equipment, influences, software, state
-from zlmreport_plugins.renderers.dcc.elements import dcc, group, quantity, real, real_list, unit_of
+from zlmreport_plugins.renderers.dcc.elements import (
+    CONDITION,
+    DEVIATION,
+    DIRECTION,
+    ONE,
+    READINGS,
+    RUN,
+    SCALES,
+    SECOND,
+    TARGET,
+    TIME,
+    TRAITS,
+    dcc,
+    group,
+    quantity,
+    real,
+    real_list,
+    unit_of,
+)
 
 _RESULTS = Words(
     en="Positioning accuracy of axis {axis} by {designation}",
@@ -48,11 +71,36 @@ _COLUMNS = {
 }
 _LIMIT = Words(en="Limit", de="Grenzwert")
 _ACCEPTED = Words(en="Acceptance limit", de="Annahmegrenze")
-_SHORTFALL = Words(en="{requirement}: {found}", de="{requirement}: {found}")
-_SHORTFALLS = Words(
-    en="Requirement of {designation} that the test does not meet",
-    de="Anforderung von {designation}, die die Messung nicht erfüllt",
+_FOUND = Words(en="{requirement}: {found}", de="{requirement}: {found}")
+_FINDINGS = {
+    True: Words(
+        en="Requirement of {designation} that is met", de="Anforderung von {designation}, die erfüllt ist"
+    ),
+    False: Words(
+        en="Requirement of {designation} that the test does not meet",
+        de="Anforderung von {designation}, die die Messung nicht erfüllt",
+    ),
+    None: Words(
+        en="Requirement of {designation} that is open", de="Anforderung von {designation}, die offen ist"
+    ),
+}
+_RISK = Words(en="Risk that the statement is wrong", de="Risiko, dass die Aussage falsch ist")
+_INTERVAL = Words(
+    en="Interval that holds, with 95 %, what another test of this axis by the same plan would find",
+    de="Intervall, das mit 95 % enthält, was eine weitere Messung dieser Achse nach demselben Plan fände",
 )
+_LOWEST = Words(en="Lower end", de="Unteres Ende")
+_HIGHEST = Words(en="Upper end", de="Oberes Ende")
+_BUDGET = Words(
+    en="Uncertainty budget: standard uncertainties at the end of the measured length",
+    de="Messunsicherheitsbilanz: Standardunsicherheiten am Ende der Messlänge",
+)
+_COMBINED = Words(en="Combined standard uncertainty", de="Kombinierte Standardunsicherheit")
+_READINGS = Words(en="Readings, in the order in which they were taken", de="Messwerte, in der Reihenfolge")
+_DIRECTION = Words(en="Direction of approach", de="Anfahrrichtung")
+_RUN = Words(en="Number of the run", de="Nummer des Durchlaufs")
+_DEVIATION = Words(en="Deviation", de="Abweichung")
+_TIME = Words(en="Time from the first reading", de="Zeit seit dem ersten Messwert")
 
 _CONFORMITY = {
     Conformity.MET: "pass",
@@ -67,24 +115,35 @@ def measurement_results(certificate: Certificate, job: Job) -> ET.Element:
     writer = Writer(certificate.language)
     found = job.as_found
     work = job.keys.as_found.work if job.keys.as_found else None
-    before = (
-        [
-            _measurement_result(each, certificate, found, state("before", work, writer), writer)
-            for each in certificate.evaluations_as_found
-        ]
-        if found
-        else []
-    )
-    after = [
-        _measurement_result(each, certificate, job, state("after", work, writer), writer)
-        for each in certificate.evaluations
+    tests = [
+        *([("before", certificate.evaluations_as_found, found)] if found else []),
+        ("after", certificate.evaluations, job),
     ]
-    return dcc("measurementResults", *before, *after)
+    return dcc(
+        "measurementResults",
+        *(
+            _measurement_result(
+                each, certificate, test, state(when, work, writer), writer, with_readings=first
+            )
+            for when, evaluations, test in tests
+            for first, each in zip((True, *[False] * len(evaluations)), evaluations, strict=False)
+        ),
+    )
 
 
-def _measurement_result(
-    evaluation: Evaluation, certificate: Certificate, job: Job, condition: ET.Element | None, writer: Writer
+def _measurement_result(  # noqa: PLR0913 - what a result is of, and how it is written
+    evaluation: Evaluation,
+    certificate: Certificate,
+    job: Job,
+    condition: ET.Element | None,
+    writer: Writer,
+    *,
+    with_readings: bool,
 ) -> ET.Element:
+    """Return the results by one standard; the first of a test has its readings, too.
+
+    Readings stay out where the customer agreed to a document without them.
+    """
     name = _RESULTS.given(axis=job.axis.name, designation=evaluation.designation)
     return dcc(
         "measurementResult",
@@ -111,8 +170,20 @@ def _measurement_result(
                 writer.named("name", _POSITIONS),
                 dcc("data", dcc("list", *_positions(evaluation, writer))),
             ),
+            dcc(
+                "result",
+                writer.named("name", _READINGS),
+                dcc("data", dcc("list", *_readings(evaluation.measurements, writer))),
+                refType=READINGS,
+            )
+            if with_readings and not job.keys.agreement.simplified
+            else None,
         ),
-        group("measurementMetaData", *_shortfalls(evaluation, writer)),
+        group(
+            "measurementMetaData",
+            *_budget(evaluation, certificate, writer),
+            *_findings(evaluation, writer),
+        ),
     )
 
 
@@ -129,7 +200,28 @@ def _parameter(parameter: EvaluatedParameter, evaluation: Evaluation, writer: Wr
             expanded_uncertainty=None if uncertainty is None else axis_unit.from_si(uncertainty),
             coverage_factor=parameter.coverage_factor,
         ),
-        _conformity(parameter, evaluation, writer),
+        group(
+            "measurementMetaData",
+            _conformity(parameter, evaluation, writer),
+            _interval(parameter, axis_unit, writer),
+        ),
+    )
+
+
+def _interval(parameter: EvaluatedParameter, axis_unit: Unit, writer: Writer) -> ET.Element | None:
+    """Return where another test of the axis would find a parameter; None where that is not known."""
+    if parameter.axis_interval is None:
+        return None
+    return dcc(
+        "metaData",
+        dcc("declaration", writer.content(_INTERVAL)),
+        dcc(
+            "data",
+            *(
+                quantity(writer.named("name", name), real(axis_unit.from_si(end), unit_of(axis_unit)))
+                for name, end in zip((_LOWEST, _HIGHEST), parameter.axis_interval, strict=True)
+            ),
+        ),
     )
 
 
@@ -141,14 +233,11 @@ def _conformity(parameter: EvaluatedParameter, evaluation: Evaluation, writer: W
     _, statement = CONFORMITY_STATEMENTS[decision.conformity]
     stated = _CONFORMITY.get(decision.conformity)
     return dcc(
-        "measurementMetaData",
-        dcc(
-            "metaData",
-            dcc("declaration", writer.content(statement)),
-            dcc("conformity", stated) if stated else None,
-            dcc("data", *_limits(decision, limit, evaluation, writer)),
-            refType="basic_conformity",
-        ),
+        "metaData",
+        dcc("declaration", writer.content(statement)),
+        dcc("conformity", stated) if stated else None,
+        dcc("data", *_limits(decision, limit, evaluation, writer)),
+        refType="basic_conformity",
     )
 
 
@@ -159,6 +248,8 @@ def _limits(decision: Decision, limit: float, evaluation: Evaluation, writer: Wr
     accepted = decision.acceptance_limit
     if accepted is not None:
         yield quantity(writer.named("name", _ACCEPTED), real(axis_unit.from_si(accepted), unit))
+    if decision.risk is not None:
+        yield quantity(writer.named("name", _RISK), real(decision.risk, ONE))
 
 
 def _positions(evaluation: Evaluation, writer: Writer) -> Iterator[ET.Element]:
@@ -210,13 +301,65 @@ def _columns(evaluation: Evaluation) -> Iterator[_Column]:
         yield _Column(column.quantity.name, column.values)
 
 
-def _shortfalls(evaluation: Evaluation, writer: Writer) -> Iterator[ET.Element]:
-    """Yield the requirements of the standard that the test does not meet."""
+def _findings(evaluation: Evaluation, writer: Writer) -> Iterator[ET.Element]:
+    """Yield the requirements of the standard: met, not met, open."""
     for finding in evaluation.findings:
-        if finding.met is False:
-            found = _SHORTFALL.given(requirement=finding.requirement, found=finding.found)
-            yield dcc(
-                "metaData",
-                writer.named("name", _SHORTFALLS.given(designation=evaluation.designation)),
-                dcc("declaration", writer.content(found)),
-            )
+        found = _FOUND.given(requirement=finding.requirement, found=finding.found)
+        yield dcc(
+            "metaData",
+            writer.named("name", _FINDINGS[finding.met].given(designation=evaluation.designation)),
+            dcc("declaration", writer.content(found)),
+        )
+
+
+def _budget(evaluation: Evaluation, certificate: Certificate, writer: Writer) -> Iterator[ET.Element]:
+    """Yield the contributions to the uncertainty of what is certified: the axis as left.
+
+    What they leave out is among the statements.
+    """
+    budget = certificate.budget
+    is_certified = any(evaluation is each for each in certificate.evaluations)
+    if not is_certified or not isinstance(budget, Budget):
+        return
+    unit = certificate.measurements.axis.deviation_unit
+    contributions = (
+        quantity(
+            writer.named("name", each.name),
+            dcc("description", writer.content(each.stated), writer.content(each.source)),
+            real(unit.from_si(each.standard_uncertainty), unit_of(unit)),
+        )
+        for each in budget.contributions
+    )
+    combined = real(unit.from_si(budget.standard_uncertainty), unit_of(unit))
+    yield dcc(
+        "metaData",
+        writer.named("name", _BUDGET),
+        dcc("data", *contributions, quantity(writer.named("name", _COMBINED), combined)),
+    )
+
+
+def _readings(measurements: MeasurementSet, writer: Writer) -> Iterator[ET.Element]:
+    """Yield the readings as columns; direction is 1 and −1, and NaN stands for what is missing.
+
+    Of a test with an artefact, kinds beside that of the deviation say how it is to be understood.
+    """
+    axis = measurements.axis
+    targets = axis.position_unit.from_si(measurements.target_positions[measurements.target])
+
+    def column(name: Words | str, values: Iterable[float], unit: str, kind: str) -> ET.Element:
+        return quantity(writer.named("name", name), real_list(tuple(values), unit), kind=kind)
+
+    yield column(_TARGET, targets, unit_of(axis.position_unit), TARGET)
+    yield column(_DIRECTION, measurements.approach, ONE, DIRECTION)
+    yield column(_RUN, measurements.run, ONE, RUN)
+    deviation = axis.deviation_unit.from_si(measurements.deviation)
+    kinds = [DEVIATION, *(kind for kind, attribute in TRAITS.items() if getattr(measurements, attribute))]
+    yield column(_DEVIATION, deviation, unit_of(axis.deviation_unit), " ".join(kinds))
+    if measurements.time is not None:
+        yield column(_TIME, measurements.time, SECOND, TIME)
+    for key, values in measurements.conditions.items():
+        if key in CONDITIONS:
+            scale = CONDITIONS[key].unit
+            yield column(CONDITION_NAMES[key], scale.from_si(values), SCALES[scale.symbol], CONDITION + key)
+        else:
+            yield column(key, values, ONE, CONDITION)
