@@ -14,14 +14,11 @@ from zlmreport.files import Document, demand_free, rewrite, sync_folder, write
 
 #: Where a file is opened for writing beside `files.py`, and why it may be.
 EXCEPTIONS = {
-    "src/zlmreport/capture/journal.py": "a journal: each reading is added as it comes",
     "src/zlmreport/cli/__init__.py": "the null device, for an output that nobody reads any more",
     "src/zlmreport/cli/fleet.py": "a log, added to",
     "src/zlmreport/fleet/database.py": "a lock, which holds who has it",
-    "plugins/zlmreport_step_gauge/machines/journal.py": "a journal: each point is added as it comes",
     "src/zlmreport/testing/sources.py": "damaged copies in a temporary folder",
     "src/zlmreport/verification/unpacking.py": "a temporary folder",
-    "src/zlmreport/web/journal.py": "a journal: each change of a job is added",
 }
 
 

@@ -1,8 +1,10 @@
-"""Writing files whole or not at all: the one place where the program opens a file to write it.
+"""Files: read only if they are files, written whole or not at all; the one place that opens one to write it.
 
 A file is written under a hidden name in its own folder and pushed to the disk; then it takes the place of
 the one that is there, and the folder is pushed to the disk, so that a power cut leaves either the old file
-or the new one. Only journals, to which each reading is added as it comes, are written where they lie.
+or the new one. Only journals, to which each reading is added as it comes, are written where they lie: what
+was added is on the disk when the call returns. While the program is confined to a folder, it reads and writes
+nothing outside.
 """
 
 from __future__ import annotations
@@ -11,9 +13,11 @@ import contextlib
 import errno
 import os
 import shutil
+import stat
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Self
 
 from zlmreport.errors import AccessError, InputError, Place, Problem
 
@@ -21,6 +25,77 @@ from zlmreport.errors import AccessError, InputError, Place, Problem
 _REPEATED = 40
 #: What a file system answers that knows no pushing of folders.
 _NO_FOLDERS = {errno.EINVAL, errno.ENOTSUP}
+
+
+#: A pipe is opened without waiting for whoever writes into it, a terminal without becoming this program's.
+_WITHOUT_WAITING = getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_NOCTTY", 0) | getattr(os, "O_BINARY", 0)
+
+#: The folder outside of which nothing is read or written; of the process: threads have no part in contexts.
+_confinement: Path | None = None
+
+
+@contextlib.contextmanager
+def confined(folder: Path | None) -> Iterator[None]:
+    """Read and write only in a folder, instead of in the one until now; as until now for None.
+
+    What a link leads to counts, and not where the link lies. Plug-ins that open files by themselves are
+    bound only in the paths that they get from a job.
+    """
+    global _confinement  # noqa: PLW0603 - nobody else sets it
+    before = _confinement
+    _confinement = before if folder is None else Path(os.path.realpath(folder))
+    try:
+        yield
+    finally:
+        _confinement = before
+
+
+def confinement() -> Path | None:
+    """Return the folder to which the program is confined."""
+    return _confinement
+
+
+def outside(path: Path) -> str:
+    """Return why a path must not be touched while the program is confined; empty if it may be."""
+    if _confinement is None or Path(os.path.realpath(path)).is_relative_to(_confinement):
+        return ""
+    return f"it lies outside of {_confinement}, to which this run is confined"
+
+
+def read(path: Path, most: int) -> bytes:
+    """Return what a file holds; of one that is longer than `most` bytes, the beginning, and one byte more.
+
+    Raises
+    ------
+    OSError
+        If it cannot be read, is no file but a folder, a device or a pipe, or lies outside of the folder to
+        which the program is confined.
+    """
+    with _naming(path):
+        _demand_inside(path)
+        try:
+            handle = os.open(path, os.O_RDONLY | _WITHOUT_WAITING)
+        except ValueError as error:  # a name that no file system takes
+            raise OSError(errno.EINVAL, str(error)) from error
+        try:
+            _demand_a_file(os.fstat(handle).st_mode)
+            with os.fdopen(handle, "rb", closefd=False) as file:
+                return file.read(most + 1)
+        finally:
+            os.close(handle)
+
+
+def _demand_a_file(mode: int) -> None:
+    if stat.S_ISDIR(mode):
+        raise OSError(errno.EISDIR, "it is a folder; name the file in it")
+    if not stat.S_ISREG(mode):
+        raise OSError(errno.EINVAL, "it is no file but a device or a pipe")
+
+
+def _demand_inside(path: Path) -> None:
+    reason = outside(path)
+    if reason:
+        raise OSError(errno.EACCES, reason)
 
 
 @dataclass(frozen=True, slots=True)
@@ -114,6 +189,7 @@ def beside(contents: Mapping[Path, bytes], hidden: Callable[[Path], Path]) -> It
     try:
         for path, content in contents.items():
             with _naming(path):
+                _demand_inside(path.parent)
                 touched |= _made(path.parent)
                 names[path] = hidden(path)
                 with names[path].open("wb") as file:
@@ -161,6 +237,79 @@ def _take_places(names: Mapping[Path, Path]) -> None:
         raise
     finally:
         _remove(kept.values())
+
+
+class Appended:
+    """A file to which records are added where it lies; leave it as a context manager.
+
+    Parameters
+    ----------
+    path
+        The file; it and its folder are made if they are not there.
+
+    Raises
+    ------
+    OSError
+        If it cannot be written.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self._path = path
+        with _naming(path):
+            _demand_inside(path)
+            folders = _made(path.parent)
+            self._handle = os.open(path, os.O_RDWR | os.O_CREAT | os.O_APPEND | _WITHOUT_WAITING, 0o666)
+        try:
+            for folder in folders:
+                sync_folder(folder)
+        except OSError:
+            self.close()
+            raise
+
+    def __enter__(self) -> Self:
+        """Return the file."""
+        return self
+
+    def __exit__(self, *_raised: object) -> None:
+        """Close it."""
+        self.close()
+
+    def close(self) -> None:
+        """Close it, and let others have it; nothing happens the second time."""
+        if self._handle >= 0:
+            handle, self._handle = self._handle, -1
+            os.close(handle)
+
+    def lock(self) -> None:
+        """Keep others from having it as well; raise `OSError` if another has it."""
+        import fcntl  # noqa: PLC0415 - not on every system
+
+        fcntl.flock(self._handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+
+    def append(self, record: bytes) -> None:
+        """Add a record; when this returns, a power cut cannot take it away.
+
+        Raises
+        ------
+        OSError
+            If the disk does not take it; then nothing of it is there.
+        """
+        with _naming(self._path):
+            before = os.fstat(self._handle).st_size
+            try:
+                while record:
+                    record = record[os.write(self._handle, record) :]
+                os.fsync(self._handle)
+            except OSError:
+                with contextlib.suppress(OSError):
+                    os.ftruncate(self._handle, before)
+                raise
+
+    def cut(self, length: int) -> None:
+        """Cut away what stands behind so many bytes."""
+        with _naming(self._path):
+            os.ftruncate(self._handle, length)
+            os.fsync(self._handle)
 
 
 def demand_free(paths: Iterable[Path]) -> None:

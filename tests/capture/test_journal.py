@@ -192,7 +192,7 @@ def test_a_journal_that_is_not_there_says_how_to_begin(tmp_path: Path) -> None:
 
 
 def test_a_folder_is_no_journal(tmp_path: Path) -> None:
-    with pytest.raises(AccessError, match="is no file"):
+    with pytest.raises(AccessError, match="it is a folder"):
         read_history(tmp_path)
 
 

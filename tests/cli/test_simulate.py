@@ -96,3 +96,29 @@ def test_a_description_that_is_not_there_cannot_be_read(capsys: pytest.CaptureFi
 def test_without_a_description_the_command_line_is_wrong(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["simulate"]) == 2
     assert "SPEC.yaml" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("value", "message"),
+    [
+        ("-1e308", "conditions.axis_temperature.start: '-1e308' is not a number of at least -1e+09"),
+        ("-300", "conditions.axis_temperature: lies from -50 to 150 °C"),
+    ],
+)
+def test_a_condition_that_no_room_has_is_refused(
+    value: str, message: str, folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text = SOUND.replace(
+        "{axis_temperature: {start: 20.5, end: 22,", f"{{axis_temperature: {{start: {value},"
+    )
+    (folder / "spec.yaml").write_text(text, encoding="utf-8")
+    assert main(["simulate", "spec.yaml"]) == 2
+    assert message in capsys.readouterr().err
+    assert [path.name for path in folder.iterdir()] == ["spec.yaml"]
+
+
+def test_an_effect_beyond_all_bounds_is_refused(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    text = SOUND.partition("effects:")[0] + "effects: [{backlash: {lost_motion: 1e308}}]\n"
+    (folder / "spec.yaml").write_text(text, encoding="utf-8")
+    assert main(["simulate", "spec.yaml"]) == 2
+    assert "backlash: with these values it deviates beyond all bounds" in capsys.readouterr().err

@@ -130,7 +130,7 @@ def test_job_that_is_not_there_cannot_be_read(tmp_path: Path) -> None:
 
 
 def test_folder_in_place_of_a_job_cannot_be_read(tmp_path: Path) -> None:
-    with pytest.raises(AccessError, match="cannot be read: is a directory"):
+    with pytest.raises(AccessError, match="cannot be read: it is a folder"):
         load(tmp_path, REGISTRY)
 
 

@@ -110,7 +110,7 @@ def test_a_file_that_is_not_there_cannot_be_read(tmp_path: Path) -> None:
 
 
 def test_a_folder_cannot_be_read(tmp_path: Path) -> None:
-    with pytest.raises(AccessError, match="cannot be read: is a directory"):
+    with pytest.raises(AccessError, match="cannot be read: it is a folder"):
         verify(tmp_path, registry())
 
 

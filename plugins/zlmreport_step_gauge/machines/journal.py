@@ -8,7 +8,6 @@ result. Its head holds a fingerprint of the path, so that no run goes on with an
 from __future__ import annotations
 
 import hashlib
-import os
 from collections.abc import Mapping
 from pathlib import Path
 from types import TracebackType
@@ -17,9 +16,9 @@ from typing import Self
 from zlmreport.plugin import (
     MILLIMETRE,
     AccessError,
+    Appended,
     InputError,
     Place,
-    sync_folder,
     take_names,
     unwritable,
 )
@@ -64,12 +63,14 @@ class Journal:
                 Place(str(result)), "is there already; the gauge has been probed. Remove it to probe it again"
             )
         try:
-            result.parent.mkdir(parents=True, exist_ok=True)
-            self.done = self._sound()
-            self._handle = self._part.open("ab")
-            sync_folder(self._part.parent)
+            self._file = Appended(self._part)
         except OSError as error:
             raise unwritable(self._part, error) from error
+        try:
+            self.done = self._sound()
+        except BaseException:
+            self._file.close()
+            raise
         if not self._part.stat().st_size:
             self._append(*self._head())
 
@@ -81,7 +82,7 @@ class Journal:
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         """Close the file."""
-        self._handle.close()
+        self._file.close()
 
     @property
     def part(self) -> Path:
@@ -98,7 +99,7 @@ class Journal:
 
     def finish(self) -> Path:
         """Give the table the name of the result."""
-        self._handle.close()
+        self._file.close()
         try:
             take_names({self._result: self._part})
         except OSError as error:
@@ -107,9 +108,7 @@ class Journal:
 
     def _append(self, *lines: str) -> None:
         try:
-            self._handle.write("".join(f"{line}\n" for line in lines).encode("ascii"))
-            self._handle.flush()
-            os.fsync(self._handle.fileno())
+            self._file.append("".join(f"{line}\n" for line in lines).encode("ascii"))
         except OSError as error:
             raise unwritable(self._part, error) from error
 
@@ -124,16 +123,14 @@ class Journal:
 
     def _sound(self) -> set[Key]:
         """Return the faces and cycles that are there; a last line that was torn off is cut away."""
-        if not self._part.exists():
-            return set()
         whole, end, _ = self._part.read_bytes().rpartition(b"\n")
         lines = whole.decode("ascii", errors="replace").splitlines()
         head = list(self._head())
         if lines[1:3] == head[1:]:
-            os.truncate(self._part, len(whole) + len(end))
+            self._file.cut(len(whole) + len(end))
             return {_key(line) for line in lines[3:] if not line.startswith("#")}
         if lines == head[: len(lines)]:  # nothing but a part of the head
-            os.truncate(self._part, 0)
+            self._file.cut(0)
             return set()
         raise InputError.at(
             Place(str(self._part)),

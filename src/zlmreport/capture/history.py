@@ -14,6 +14,7 @@ from zlmreport.capture.events import Event, Recorded
 from zlmreport.capture.progress import Progress
 from zlmreport.capture.records import SCHEMA, Header, Record, finite, from_record
 from zlmreport.errors import AccessError, Place
+from zlmreport.files import read, unreadable
 from zlmreport.measurement.provenance import SourceFile
 from zlmreport.measurement.text_file import LARGEST
 
@@ -141,12 +142,9 @@ def _content(path: Path) -> bytes:
                 place,
                 "there is no such journal: nothing was captured yet; 'zlmreport capture JOB.yaml' does it",
             )
-        if not path.is_file():
-            raise AccessError.at(place, "is no file; a journal is one, such as x-axis.journal")
-        with path.open("rb") as stream:
-            content = stream.read(LARGEST + 1)
+        content = read(path, LARGEST)
     except OSError as error:
-        raise AccessError.at(place, f"cannot be read: {error.strerror or error}") from error
+        raise unreadable(path, error) from error
     if len(content) > LARGEST:
         raise AccessError.at(place, f"is larger than {LARGEST} bytes; it is no journal of a test")
     return content

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import os
 from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 from types import TracebackType
@@ -15,7 +14,7 @@ from zlmreport.capture.history import History, read_history, sealed
 from zlmreport.capture.progress import Progress
 from zlmreport.capture.records import MOMENTARY, Header, Record, to_record
 from zlmreport.errors import AccessError, Place
-from zlmreport.files import sync_folder, unwritable
+from zlmreport.files import Appended, unwritable
 from zlmreport.live.reading import LiveReading
 
 
@@ -38,13 +37,13 @@ class Journal:
         When the question that is open was asked, s from the start of the capture.
     """
 
-    def __init__(self, path: Path, handle: int, header: Header, last_sum: str) -> None:
+    def __init__(self, path: Path, file: Appended, header: Header, last_sum: str) -> None:
         self.header = header
         self.progress = Progress.begin(header.visits, header.datum)
         self.elapsed = self.asked = 0.0
         self.visited: float | None = None
         self._path = path
-        self._handle = handle
+        self._file = file
         self._sum = last_sum
 
     @classmethod
@@ -56,15 +55,11 @@ class Journal:
         AccessError
             If there is one of this name that holds a capture, or it cannot be written.
         """
-        with _closed_on_error(_opened(path)) as handle:
+        with _closed_on_error(_opened(path)) as file:
             demand_nothing_captured(path)
-            os.ftruncate(handle, 0)
-            journal = cls(path, handle, header, "")
+            file.cut(0)
+            journal = cls(path, file, header, "")
             journal._write(header.to_record())
-            try:
-                sync_folder(path.parent)
-            except OSError as error:
-                raise unwritable(path, error) from error
             return journal
 
     @classmethod
@@ -77,16 +72,15 @@ class Journal:
             If there is none, it is damaged or being written, or it cannot be written.
         """
         read_history(path)  # before it is opened, which would make one
-        with _closed_on_error(_opened(path)) as handle:
+        with _closed_on_error(_opened(path)) as file:
             history = read_history(path)
             if history is None:
                 raise AccessError.at(
                     Place(str(path)),
                     "holds nothing yet: not even its first line is whole; leave --resume out",
                 )
-            os.ftruncate(handle, history.sound)
-            os.fsync(handle)
-            journal = cls(path, handle, history.header, history.last_sum)
+            file.cut(history.sound)
+            journal = cls(path, file, history.header, history.last_sum)
             journal.progress = history.progress
             for entry in history.entries:
                 journal._remember(entry.event, entry.elapsed)
@@ -100,7 +94,7 @@ class Journal:
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         """Close it, and let others have it."""
-        os.close(self._handle)
+        self._file.close()
 
     def append(self, event: Event, elapsed: float) -> None:
         """Write an event; when this returns, a power cut cannot take it away.
@@ -132,9 +126,7 @@ class Journal:
     def _write(self, record: Record) -> None:
         line, self._sum = sealed(record, self._sum)
         try:
-            while line:
-                line = line[os.write(self._handle, line) :]
-            os.fsync(self._handle)
+            self._file.append(line)
         except OSError as error:
             raise unwritable(
                 self._path,
@@ -159,31 +151,28 @@ def demand_nothing_captured(path: Path) -> None:
 
 
 @contextlib.contextmanager
-def _closed_on_error(handle: int) -> Iterator[int]:
+def _closed_on_error(file: Appended) -> Iterator[Appended]:
     try:
-        yield handle
+        yield file
     except BaseException:
-        os.close(handle)
+        file.close()
         raise
 
 
-def _opened(path: Path) -> int:
+def _opened(path: Path) -> Appended:
     """Open a journal, make it if there is none, and keep others from writing it."""
-    import fcntl  # noqa: PLC0415 - not on every system, and not for reading
-
-    place = Place(str(path))
     try:
-        handle = os.open(path, os.O_RDWR | os.O_CREAT | os.O_APPEND, 0o666)
+        file = Appended(path)
     except OSError as error:
         raise unwritable(path, error) from error
     try:
-        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        file.lock()
     except OSError as error:
-        os.close(handle)
+        file.close()
         raise AccessError.at(
-            place, "is being written by another capture; end that first, or name another journal"
+            Place(str(path)), "is being written by another capture; end that first, or name another journal"
         ) from error
-    return handle
+    return file
 
 
 def _is_there(history: History) -> str:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from zlmreport.errors import AccessError, InputError, Place
+from zlmreport.files import read, reason
 from zlmreport.measurement.provenance import SourceFile
 
 _LARGEST = 2 * 1024 * 1024
@@ -40,10 +41,9 @@ def read_logo(path: Path, place: Place) -> Logo:
         colours are those of a printing press, for which an archived document has no meaning.
     """
     try:
-        with path.open("rb") as file:
-            content = file.read(_LARGEST + 1)
+        content = read(path, _LARGEST)
     except OSError as error:
-        raise AccessError.at(place, f"the logo {path} cannot be read: {error.strerror or error}") from error
+        raise AccessError.at(place, f"the logo {path} cannot be read: {reason(error)}") from error
     if len(content) > _LARGEST:
         raise InputError.at(
             place, f"the logo {path.name} is larger than 2 MiB; a logo of some 100 kB prints as well"

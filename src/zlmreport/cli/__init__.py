@@ -14,7 +14,8 @@ from typing import TextIO
 
 from zlmreport.cli.arguments import parse
 from zlmreport.cli.terminal import print_problems
-from zlmreport.errors import AccessError, Place, ZlmreportError
+from zlmreport.errors import AccessError, ZlmreportError
+from zlmreport.files import confined, reason
 
 #: What a shell sees of a program that these signals ended.
 _INTERRUPTED = 128 + 2
@@ -34,7 +35,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         command, options = parse(sys.argv[1:] if arguments is None else arguments)
         module = importlib.import_module(f"zlmreport.cli.{command.replace(' ', '_')}")
-        code: int = module.run(options)
+        with confined(options.confine):
+            code: int = module.run(options)
         sys.stdout.flush()
     except SystemExit:  # by argparse, after --help and --version
         return 0 if options is None else ZlmreportError.exit_code
@@ -49,7 +51,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return _INTERRUPTED
     except OSError as error:
         _forget_standard_output()
-        print(Place("zlmreport"), error, sep=": ", file=sys.stderr)
+        where = error.filename or "the standard output"
+        print(f"{where}: cannot be read or written: {reason(error)}", file=sys.stderr)
         return AccessError.exit_code
     return code
 

@@ -17,6 +17,7 @@ from typing import Any, Self
 from zlmreport.cli.fleet_log import JsonLog, Progress, TextLog, by_word, of_job
 from zlmreport.cli.terminal import print_json, visible
 from zlmreport.errors import AccessError, InputError, Place
+from zlmreport.files import confined
 from zlmreport.fleet.issuing import Happened, What
 from zlmreport.fleet.night import Order, foretell, spend
 from zlmreport.fleet.plan import Due, Planned
@@ -41,6 +42,11 @@ def run(options: Namespace) -> int:
     fleet = load_fleet(options.fleet, extensions=lambda: find_plugins(files=options.plugin).extensions)
     if options.workers and fleet.keys.executor.kind == "dask":
         raise InputError.at(Place("zlmreport fleet --workers"), "a scheduler has the workers that it has")
+    with confined(fleet.keys.confine):
+        return _run(fleet, options)
+
+
+def _run(fleet: FleetFile, options: Namespace) -> int:
     plugins = tuple(options.plugin)
     if options.dry_run:
         return _foretell(fleet, plugins, options)

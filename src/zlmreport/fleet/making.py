@@ -16,6 +16,7 @@ from pathlib import Path, PurePosixPath
 from zlmreport import pipeline
 from zlmreport.certificate.document import Certificate
 from zlmreport.errors import InputError, Place, Problem, as_problems
+from zlmreport.files import confined
 from zlmreport.fleet.basis import Basis, files_behind, program_versions, programs_of, release
 from zlmreport.fleet.records import RecordedParameter, Subject, folder_of, parameters_of
 from zlmreport.job.fleet import FleetFile, load_fleet
@@ -77,6 +78,8 @@ class Task:
         What it may take.
     stated
         What the certificate states that has this number, where nothing but programs changed since; else None.
+    confine
+        The folder outside of which nothing is read or written; None without one.
     """
 
     fleet: Path
@@ -88,6 +91,7 @@ class Task:
     programs: Mapping[str, str]
     limits: Limits = Limits()
     stated: tuple[RecordedParameter, ...] | None = None
+    confine: Path | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -163,7 +167,7 @@ _ONE_AT_A_TIME = threading.Lock()
 
 def work(task: Task) -> Made | Failed:
     """Make a certificate; whatever goes wrong is the answer and no exception."""
-    with _ONE_AT_A_TIME:
+    with _ONE_AT_A_TIME, confined(task.confine):
         subject = Subject()
         try:
             begun, start = time.time(), time.monotonic()

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Protocol
 
 from zlmreport.errors import AccessError, Place, ZlmreportError
-from zlmreport.files import Document, write
+from zlmreport.files import Document, confinement, write
 from zlmreport.fleet.basis import Basis, Disk, KnownFile, changes, program_versions
 from zlmreport.fleet.cluster import Cluster
 from zlmreport.fleet.issuing import Desk, Happened, What, tidy
@@ -377,6 +377,7 @@ def _task(planned: Planned, known: Evening, plugins: tuple[Path, ...], work: _Wo
         programs=known.now.programs,
         limits=Limits(limits.seconds or patience, limits.megabytes),
         stated=work.night.stated(planned.job) if _is_upgrade(planned, known) else None,
+        confine=confinement(),
     )
 
 

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from zlmreport.errors import InputError, Place, Problem
-from zlmreport.files import rewrite, unreadable
+from zlmreport.files import read, rewrite, unreadable
 from zlmreport.job.choices import EffectChoice, effect_choices
 from zlmreport.job.extents import Written
 from zlmreport.job.installed import Installed
@@ -32,7 +32,7 @@ from zlmreport.job.list_edits import (
 )
 from zlmreport.job.loading import load
 from zlmreport.job.parse import parse
-from zlmreport.job.text import decoded
+from zlmreport.job.text import LARGEST, decoded
 from zlmreport.job.tree import Items, Node, Scalar, walk
 
 #: The list of a model.
@@ -250,7 +250,7 @@ def _edited(text: str, change: ListChange) -> str:
 def content_of(path: Path, job: Job) -> bytes:
     """Return what a job file holds; refuse one that is no longer what was loaded."""
     try:
-        content = path.read_bytes()
+        content = read(path, LARGEST)
     except OSError as error:
         raise unreadable(path, error) from error
     _refuse_changed(content, job.files[0].sha256, Place(str(path)))

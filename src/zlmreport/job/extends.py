@@ -9,7 +9,8 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from zlmreport.errors import AccessError, InputError, Place, Problem
+from zlmreport.errors import AccessError, InputError, Place, Problem, quoted
+from zlmreport.files import read, reason, unreadable
 from zlmreport.job.parse import parse
 from zlmreport.job.references import path_named
 from zlmreport.job.text import LARGEST
@@ -125,6 +126,8 @@ def _scalar(value: Scalar) -> str:
     return value.text if is_plain else json.dumps(value.text, ensure_ascii=False)
 
 
+#: How the name of a file ends that holds shared keys.
+_ENDINGS = (".yaml", ".yml", ".json")
 #: Files that extend one another in a row.
 LONGEST_CHAIN = 16
 
@@ -200,7 +203,7 @@ class _Reader:
     def _with_bases(self, own: Keys, chain: tuple[Path, ...]) -> Keys:
         bases = keys_of(own.place)
         for name in _extended(own):
-            base = self.keys(path_named(name.text, chain[-1]), chain, name.place)
+            base = self.keys(_base(name, chain[-1]), chain, name.place)
             bases = merged(bases, base.without("extends"))
         return merged(bases, own)
 
@@ -221,13 +224,24 @@ def _extended(keys: Keys) -> tuple[Scalar, ...]:
     return found
 
 
+def _base(name: Scalar, naming_file: Path) -> Path:
+    """Return the path of a file that another extends: no other than YAML is read, and shown in messages."""
+    if not name.text.lower().endswith(_ENDINGS):
+        raise InputError.at(
+            name.place,
+            f"extends: {quoted(name.text)} is no YAML file; its name ends in {', '.join(_ENDINGS)}",
+        )
+    try:
+        return path_named(name.text, naming_file)
+    except ValueError as error:
+        raise InputError.at(name.place, f"extends: {error}") from error
+
+
 def _content(path: Path, named_at: Place | None) -> bytes:
     """Return a file's bytes, one more than is allowed at most."""
     try:
-        with path.open("rb") as file:
-            return file.read(LARGEST + 1)
+        return read(path, LARGEST)
     except OSError as error:
-        reason = (error.strerror or str(error)).lower()
         if named_at:
-            raise AccessError.at(named_at, f"{str(path)!r} cannot be read: {reason}") from error
-        raise AccessError.at(Place(str(path)), f"cannot be read: {reason}") from error
+            raise AccessError.at(named_at, f"{str(path)!r} cannot be read: {reason(error)}") from error
+        raise unreadable(path, error) from error

@@ -13,13 +13,14 @@ from typing import Annotated, Any, Literal
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, model_validator
 
 from zlmreport.errors import InputError, Place, Problem, did_you_mean, quoted
-from zlmreport.files import unreadable
+from zlmreport.files import confined, outside, read, unreadable
 from zlmreport.job.extends import FLEET, Defaults, compose, refuse_other_format
 from zlmreport.job.fields import keys_in
 from zlmreport.job.installed import InstalledExtension
 from zlmreport.job.keys import JobKeys
 from zlmreport.job.parse import parse
 from zlmreport.job.references import LocatedText, path_named
+from zlmreport.job.text import LARGEST
 from zlmreport.job.tree import Items, Keys, Scalar, key_place, place_of, walk
 from zlmreport.job.types import JobPart, JobPath, Text
 from zlmreport.job.validate import problems_in_part, validate
@@ -189,6 +190,11 @@ class FleetKeys(JobPart):
         default_factory=list, description="Who is told what is new after a night, and how."
     )
     log: LogKeys | None = Field(None, description="What is kept of each night for people.")
+    confine: JobPath | None = Field(
+        None,
+        description="Folder outside of which no job of the fleet reads or writes; that of this file is `.`.",
+        examples=["."],
+    )
 
 
 @dataclass(frozen=True, slots=True)
@@ -271,7 +277,10 @@ def load_fleet(
         If it cannot be read.
     """
     if content is None:
-        content = _content(path)
+        try:
+            content = read(path, LARGEST)
+        except OSError as error:
+            raise unreadable(path, error) from error
     tree = parse(content, str(path))
     refuse_other_format(tree, FLEET, lambda: [each for offered in extensions() for each in offered.formats])
     problems: list[Problem] = []
@@ -282,7 +291,7 @@ def load_fleet(
         problems.extend(_wrong_defaults(shared, extensions))
     if problems or keys is None:
         raise InputError(sorted(set(problems)))
-    return FleetFile(
+    fleet = FleetFile(
         path=path,
         content=content,
         keys=keys,
@@ -292,6 +301,21 @@ def load_fleet(
         defaults=Defaults(shared, path) if shared and shared.entries else None,
         tree=tree,
     )
+    with confined(keys.confine):
+        problems = list(_escaping(fleet))
+    if problems:
+        raise InputError(problems)
+    return fleet
+
+
+def _escaping(fleet: FleetFile) -> Iterator[Problem]:
+    """Yield what of the fleet itself lies outside of the folder to which its jobs are confined."""
+    paths = [("output", fleet.output)]
+    paths += [] if _URL.match(fleet.ledger) else [("ledger", Path(fleet.ledger))]
+    paths += [("log", fleet.keys.log.file)] if fleet.keys.log else []
+    for key, path in paths:
+        if outside(path):
+            yield Problem(fleet.place_of(key), f"{key}: {path}: {outside(path)}")
 
 
 def job_files(fleet: FleetFile) -> tuple[Path, ...]:
@@ -308,6 +332,7 @@ def job_files(fleet: FleetFile) -> tuple[Path, ...]:
         matches = glob.glob(pattern, root_dir=fleet.path.parent, recursive=True)  # noqa: PTH207 - of a root
         files = {fleet.path.parent / match for match in matches}
         files = {file for file in files if file.is_file() and not _is(file, fleet.path)}
+        problems += [Problem(place, f"jobs: {file}: {outside(file)}") for file in files if outside(file)]
         if not files:
             message = f"jobs: no file is called {quoted(pattern)}; {_nearest(pattern, fleet)}"
             problems.append(Problem(place, message))
@@ -371,10 +396,3 @@ def _nearest(pattern: str, fleet: FleetFile) -> str:
 
 def _is(file: Path, other: Path) -> bool:
     return file.name == other.name and file.samefile(other)
-
-
-def _content(path: Path) -> bytes:
-    try:
-        return path.read_bytes()
-    except OSError as error:
-        raise unreadable(path, error) from error

@@ -10,7 +10,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Self
 
-from zlmreport.errors import Place
+from zlmreport.errors import Place, quoted
+from zlmreport.files import outside
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,9 +52,19 @@ _ENCLOSURE: ContextVar[Enclosure | None] = ContextVar("enclosure", default=None)
 
 
 def path_named(reference: str, naming_file: Path) -> Path:
-    """Return the path that a file names: relative to its own folder, or from the root."""
+    """Return the path that a file names: relative to its own folder, or from the root.
+
+    Raises
+    ------
+    ValueError
+        If it lies outside of the folder to which the program is confined.
+    """
     enclosure = _ENCLOSURE.get()
-    return enclosure.path_named(reference, naming_file) if enclosure else naming_file.parent / reference
+    path = enclosure.path_named(reference, naming_file) if enclosure else naming_file.parent / reference
+    reason = "\0" not in reference and outside(path)
+    if reason:
+        raise ValueError(f"{quoted(reference)} must not be used: {reason}")
+    return path
 
 
 def path_from_job(file: Path, job: Path, from_root: str | None = None) -> str | None:

@@ -21,6 +21,8 @@ _LONGEST_TEXT = 5000
 _EARLIEST_YEAR = 1900
 
 _FILE_STEM = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,99}")
+#: Devices, whatever follows behind a point.
+_OF_WINDOWS = re.compile(r"con|prn|aux|nul|(com|lpt)[0-9]", re.IGNORECASE)
 _ISO_DATE = re.compile(r"\d{4}-\d{2}-\d{2}", re.ASCII)
 _GERMAN_DATE = re.compile(r"(\d{1,2})\.(\d{1,2})\.(\d{4})", re.ASCII)
 _NUMBER = re.compile(r"[-+]?(\d+([.,]\d*)?|[.,]\d+)([eE][-+]?\d+)?", re.ASCII)
@@ -91,6 +93,9 @@ def file_stem(text: str) -> str:
             f"{quoted(text)} cannot name files: a number has letters A to Z, digits, '.', '_' and '-', and "
             "begins with a letter or digit, such as CAL-2026-0117"
         )
+    if _OF_WINDOWS.fullmatch(text.partition(".")[0]) or text.endswith("."):
+        better = f"CAL-{text.rstrip('.')}"
+        raise ValueError(f"{quoted(text)} cannot name files on Windows; write more before it: {better}")
     return text
 
 

@@ -6,12 +6,12 @@ import codecs
 import difflib
 import math
 import re
-import stat
 import unicodedata
 from dataclasses import dataclass
 from pathlib import Path
 
 from zlmreport.errors import AccessError, InputError, Place, quoted
+from zlmreport.files import read, unreadable
 from zlmreport.measurement.provenance import SourceFile
 from zlmreport.quantities.formatting import MINUS, DecimalSign
 
@@ -116,26 +116,16 @@ def known_encoding(name: str) -> str:
 
 def _content(path: Path, file: Place) -> bytes:
     try:
-        status = path.stat()
-        if stat.S_ISDIR(status.st_mode):
-            raise AccessError.at(file, "cannot be read: it is a folder; name the file in it")
-        if not stat.S_ISREG(status.st_mode):
-            raise AccessError.at(file, "cannot be read: it is no file but a device or a pipe")
-        if status.st_size <= LARGEST:
-            with path.open("rb") as stream:
-                content = stream.read(LARGEST + 1)
-            if len(content) <= LARGEST:
-                return content
+        content = read(path, LARGEST)
     except FileNotFoundError as error:
         raise AccessError.at(file, f"cannot be read: there is no such file{_nearest(path)}") from error
-    except (OSError, ValueError) as error:  # ValueError: a name that no file system takes
-        reason = getattr(error, "strerror", None) or error
-        raise AccessError.at(file, f"cannot be read: {reason}") from error
-    raise InputError.at(
-        file,
-        f"is {status.st_size} bytes long; measurement files are read up to {LARGEST} bytes (64 MiB): "
-        "name a file that holds the readings of one test only",
-    )
+    except OSError as error:
+        raise unreadable(path, error) from error
+    if len(content) > LARGEST:
+        raise InputError.at(
+            file, "is longer than 64 MiB: name a file that holds the readings of one test only"
+        )
+    return content
 
 
 def _nearest(path: Path) -> str:

@@ -124,7 +124,7 @@ if TYPE_CHECKING:
     from zlmreport.figures.style import TEXT_SIZE as GRAPH_TEXT_SIZE
     from zlmreport.figures.svg import SvgCanvas
     from zlmreport.figures.svg import hexadecimal as hexadecimal_colour
-    from zlmreport.files import sync_folder, take_names, unwritable
+    from zlmreport.files import Appended, take_names, unwritable
     from zlmreport.job.document_keys import Customer, Laboratory
     from zlmreport.job.extends import FileFormat
     from zlmreport.job.job import Job
@@ -290,6 +290,7 @@ __all__ = [
     "AccessError",
     "Acts",
     "Align",
+    "Appended",
     "Approach",
     "Arithmetic",
     "Arrow",
@@ -534,7 +535,6 @@ __all__ = [
     "span_over_positions",
     "streamed_readings",
     "style_sheet",
-    "sync_folder",
     "table_layout",
     "take_names",
     "text_advance",
@@ -559,7 +559,7 @@ _ROOMS = {
     "zlmreport.job.measurement_keys": "JobInstrument=Instrument",
     "zlmreport.job.keys_file": "KeysFile read_keys_file",
     "zlmreport.job.extends": "FileFormat",
-    "zlmreport.files": "sync_folder take_names unwritable",
+    "zlmreport.files": "Appended take_names unwritable",
     "zlmreport.figures.style": "INK_COLOUR=INK GRAPH_TEXT_SIZE=TEXT_SIZE ROLE_STYLES=ROLES",
     "zlmreport.figures.scale": "round_ticks",
     "zlmreport.presenting.writer": "Writer",

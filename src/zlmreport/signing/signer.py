@@ -11,7 +11,10 @@ from typing import Any, TypeAlias
 from urllib.parse import unquote
 
 from zlmreport.errors import AccessError, InputError, Place, did_you_mean
+from zlmreport.files import read, reason
 
+#: Of a key with its certificates, bytes.
+_LARGEST = 1024 * 1024
 #: Takes the bytes of a PDF, and what the signature is called in it for those who hear it read; returns the
 #: signed PDF.
 Signer: TypeAlias = Callable[[bytes, str], bytes]
@@ -68,9 +71,9 @@ def _in_file(path: Path, ask_password: Callable[[str], str], place: Place) -> An
     from pyhanko.sign.signers import SimpleSigner  # noqa: PLC0415 (an optional extra)
 
     try:
-        content = path.read_bytes()
+        content = read(path, _LARGEST)
     except OSError as error:
-        raise AccessError.at(place, f"{path} cannot be read: {error.strerror or error}") from error
+        raise AccessError.at(place, f"{path} cannot be read: {reason(error)}") from error
     password = ask_password(str(path)).encode() or None
     try:
         key, certificate, _ = pkcs12.load_key_and_certificates(content, password)

@@ -12,7 +12,10 @@ from typing import Any
 import yaml
 
 from zlmreport.errors import AccessError, InputError, Place, did_you_mean
+from zlmreport.files import read, reason
 
+#: Of a file of certificates, bytes: the authorities of all the world take less.
+_LARGEST = 16 * 1024 * 1024
 _ENDINGS = frozenset({".cer", ".crt", ".der", ".pem"})
 _CONFIGURATION = Path("zlmreport", "config.yaml")
 _KEY = "trusted"
@@ -40,9 +43,9 @@ def trusted_certificates(path: Path, place: Place) -> tuple[Any, ...]:
         files = (
             sorted(each for each in path.iterdir() if each.suffix in _ENDINGS) if path.is_dir() else [path]
         )
-        contents = [(each, each.read_bytes()) for each in files]
+        contents = [(each, read(each, _LARGEST)) for each in files]
     except OSError as error:
-        raise AccessError.at(place, f"{path} cannot be read: {error.strerror or error}") from error
+        raise AccessError.at(place, f"{path} cannot be read: {reason(error)}") from error
     if not contents:
         endings = ", ".join(sorted(_ENDINGS))
         raise InputError.at(

@@ -166,7 +166,11 @@ def is_missing(noise: Noise, readings: int, seed: int) -> BoolArray:
 
 def rounded(values: FloatArray, resolution: float) -> FloatArray:
     """Return values as an instrument of some resolution shows them; as they are for 0."""
-    return np.asarray(np.round(values / resolution) * resolution) if resolution else values
+    if not resolution:
+        return values
+    with np.errstate(over="ignore"):  # of steps that are finer than a double
+        steps = np.round(values / resolution)
+    return np.where(np.isfinite(steps), steps * resolution, values)
 
 
 def _readings(noise: Noise, design: Design, targets: int, seed: int) -> FloatArray:

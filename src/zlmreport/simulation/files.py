@@ -25,9 +25,11 @@ from zlmreport.planning.targets import target_generator, target_positions
 from zlmreport.quantities.arrays import FloatArray, read_only_floats
 from zlmreport.quantities.units import Scale, Unit
 from zlmreport.simulation.description import Course, Description, Noise
-from zlmreport.simulation.simulate import design_of
+from zlmreport.simulation.simulate import design_of, deviation_by
 
 _SECONDS_PER_MINUTE = 60
+#: Of a deviation, m or rad: no axis is so far off.
+_LARGEST = 1e3
 _AS_FOUND = Scale("")
 #: Digits after the decimal point: of positions in mm or °, of deviations in µm or ″, of times in s.
 POSITION_DIGITS, _DEVIATION_DIGITS, _TIME_DIGITS = 4, 3, 1
@@ -71,7 +73,7 @@ def description_of(file: SimulationFile, find: Callable[[str], Effect]) -> Descr
         noise=_noise(keys.noise, axis.deviation_unit),
         time_is_logged=keys.time_logged,
     )
-    problems = list(_impossible(file, description))
+    problems = list(_impossible(file, description)) or list(_boundless(file, description))
     if problems:
         raise InputError(problems)
     return description
@@ -150,6 +152,25 @@ def _impossible(file: SimulationFile, description: Description) -> Iterator[Prob
                 choice.place,
                 f"{effect.identifier} has no size; give {' or '.join(each.name for each in effect.linear)}, "
                 f"as in {{{effect.identifier}: {{{example.name}: 1}}}} ({unit})",
+            )
+
+
+def _boundless(file: SimulationFile, description: Description) -> Iterator[Problem]:
+    """Yield effects whose deviation is no number, and conditions that no reader takes."""
+    design = design_of(description)
+    for choice, term in zip(file.effects, description.effects, strict=True):
+        with np.errstate(all="ignore"):
+            deviation = deviation_by(term.effect, design, term.fixed)
+        if not np.all(np.abs(deviation) < _LARGEST):
+            message = f"{term.effect.identifier}: with these values it deviates beyond all bounds"
+            yield Problem(choice.place, message)
+    for name, keys in file.keys.conditions.items():
+        kind = CONDITIONS.get(name)
+        ends = [keys.start, keys.start if keys.end is None else keys.end]
+        if kind and not kind.lowest <= min(ends) <= max(ends) <= kind.highest:
+            yield Problem(
+                file.place_of("conditions", name),
+                f"conditions.{name}: lies from {kind.lowest:g} to {kind.highest:g} {kind.unit.symbol}",
             )
 
 

@@ -12,7 +12,8 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from zlmreport.certificate.attachments import LARGEST_TOTAL, MOST_ATTACHMENTS
-from zlmreport.errors import AccessError, InputError, Place
+from zlmreport.errors import InputError, Place
+from zlmreport.files import read, unreadable
 from zlmreport.verification.streams import TooLargeError, unpacked
 
 #: Of a PDF, in bytes; a certificate has some hundred thousand, and its attachments.
@@ -84,11 +85,9 @@ def read_file(path: Path) -> bytes:
     """
     place = Place(str(path))
     try:
-        with path.open("rb") as file:
-            content = file.read(LARGEST + 1)
-    except (OSError, ValueError) as error:  # ValueError: a name that no file system takes
-        reason = getattr(error, "strerror", None) or error
-        raise AccessError.at(place, f"cannot be read: {str(reason).lower()}") from error
+        content = read(path, LARGEST)
+    except OSError as error:
+        raise unreadable(path, error) from error
     if len(content) > LARGEST:
         raise InputError.at(place, f"is larger than {LARGEST >> 20} MiB; no certificate is")
     if b"%PDF-" not in content[:1024]:

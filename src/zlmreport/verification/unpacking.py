@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from zlmreport.errors import Place, Problem, ZlmreportError
+from zlmreport.files import confined
 from zlmreport.job.references import Enclosure, enclosed
 from zlmreport.verification.carrier import Carried
 from zlmreport.verification.stated import StatedSource
@@ -73,7 +74,7 @@ def laid_out(sources: Sequence[StatedSource], carried: Mapping[str, Carried]) ->
                 path.write_bytes(carried[source.name].content)
         nowhere = Path(folder, "not attached")
         names[f"{nowhere}/"] = ""
-        with enclosed(Enclosure(files, nowhere)):
+        with confined(Path(folder)), enclosed(Enclosure(files, nowhere)):
             yield Layout(next(iter(files.values())), names)
 
 

@@ -15,7 +15,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 
 from zlmreport.errors import AccessError, Place
-from zlmreport.files import unreadable, unwritable
+from zlmreport.files import Appended, unreadable, unwritable
 
 SUFFIX = ".history.jsonl"
 SCHEMA = "zlmreport/workbench-history/1"
@@ -93,8 +93,8 @@ class Journal:
         """Write a change behind the others."""
         line = json.dumps({"schema": SCHEMA, **asdict(entry)}, ensure_ascii=False)
         try:
-            with self.path.open("a", encoding="utf-8") as file:
-                file.write(f"{line}\n")
+            with Appended(self.path) as file:
+                file.append(f"{line}\n".encode())
         except OSError as error:
             raise unwritable(self.path, error) from error
 

@@ -35,6 +35,12 @@ class CommandParser(argparse.ArgumentParser):
             default=[],
             help="a plugin in a file of its own, beside the installed ones; may be given several times",
         )
+        self.add_argument(
+            "--confine",
+            metavar="DIR",
+            type=_folder,
+            help="read and write nothing outside of this folder, whatever jobs and links in it name",
+        )
 
     def add_argument(self, *names: Any, **settings: Any) -> argparse.Action:
         """Add an argument, and remember its long names."""
@@ -64,6 +70,14 @@ class CommandParser(argparse.ArgumentParser):
 def add_jobs(parser: CommandParser) -> None:
     """Let a command take one job file or several."""
     parser.add_argument("jobs", metavar="JOB.yaml", nargs="+", type=Path, help="job files")
+
+
+def _folder(text: str) -> Path:
+    """Take a folder that is there."""
+    path = Path(text)
+    if not path.is_dir():
+        raise argparse.ArgumentTypeError(f"{text!r} is no folder")
+    return path
 
 
 def fault(text: str) -> tuple[str, float]:
