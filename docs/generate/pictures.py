@@ -91,7 +91,7 @@ def main() -> None:
         job.write_text(text.replace("language: en ", "language: de "), encoding="utf-8")
         german = certificate(job, first / "de")
         make("tutorial-german", german, page_with(german, "Ergebnisse nach ISO 230-2:2014", after=1))
-        make_of_screen("fleet-overview", overview(Path(folder, "fleet")), 1180, 1180)
+        make_of_screen("fleet-overview", overview(Path(folder, "fleet")), 1180, 1380)
 
 
 if __name__ == "__main__":

@@ -45,7 +45,7 @@ def test_nobody_is_left_out(window: Callable[..., Page], page_file: Path, scheme
     assert found.violations_count == 0, found.generate_report()
 
 
-@pytest.mark.parametrize("width", [1280, 820, 420])
+@pytest.mark.parametrize("width", [1280, 820, 390])
 def test_the_page_and_its_tables_fit_into_the_window(
     window: Callable[..., Page], page_file: Path, width: int
 ) -> None:

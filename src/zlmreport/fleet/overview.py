@@ -5,8 +5,8 @@ What needs somebody, worst first; every machine with its axes and their latest v
 
 from __future__ import annotations
 
-from collections import defaultdict
-from collections.abc import Iterator, Sequence
+from collections import Counter, defaultdict
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from datetime import date, timedelta
 from itertools import groupby
@@ -16,10 +16,11 @@ from zlmreport.fleet.causes import cause_of
 from zlmreport.fleet.drifts import FALSE_SHARE, LEAST_DATES, Trend
 from zlmreport.fleet.overview_cells import Cells, Names, Period, small_graph
 from zlmreport.fleet.records import Entry, Notice, RecordedParameter, State
-from zlmreport.fleet.state import Failure, FleetState, Night, Term
+from zlmreport.fleet.state import SOON, Failure, FleetState, Night, Term
 from zlmreport.fleet.steps import LEAST_BEFORE, SEEN, SMALL
 from zlmreport.fleet.trend import Calibration, Series, line_through
 from zlmreport.language import Language, Words
+from zlmreport.typesetting.linked import fingerprint
 from zlmreport.typesetting.overview import (
     OverviewCellContext,
     OverviewContext,
@@ -27,8 +28,10 @@ from zlmreport.typesetting.overview import (
     OverviewLegendContext,
     OverviewSectionContext,
     OverviewTableContext,
+    OverviewToolsContext,
     TileContext,
     drawing,
+    overview_script,
     overview_style,
 )
 from zlmreport.typesetting.templates import render
@@ -52,6 +55,7 @@ def overview(state: FleetState, language: Language, names: Names, files: str) ->
         Folder of the certificates, relative to that of the page.
     """
     cells = Cells(language, names, _period(state), files)
+    script = overview_script()
     printed = replace(state, trends=tuple(map(names.as_printed, state.trends)))
     return render(
         OverviewContext(
@@ -60,6 +64,8 @@ def overview(state: FleetState, language: Language, names: Names, files: str) ->
             subtitle=state.name,
             generator=f"zlmreport {__version__}",
             style=overview_style(),
+            script=script,
+            policy=fingerprint(script),
             facts=tuple(_facts(printed, cells)),
             tiles=tuple(_tiles(printed, cells)),
             tiles_title=cells.say(words.HEADLINE),
@@ -101,10 +107,11 @@ def _tiles(state: FleetState, cells: Cells) -> Iterator[TileContext]:
         (len(changed), words.CHANGED, "changed"),
         (len(drifting), words.DRIFTING, "drifting"),
         (len(state.overdue), words.OVERDUE, "overdue"),
+        (len(state.soon), words.DUE_SOON, "due"),
         (len(state.drafts), words.DRAFTS, "drafts"),
     )
     for number, label, key in counted:
-        style = f"raised {key}" if number else "calm"
+        style = f"raised {key}" if number and key != "due" else "calm"
         yield TileContext(str(number), cells.say(label), style, key if number else "")
     yield TileContext(str(len(state.axes)), cells.say(words.AXES), "calm", "machines")
 
@@ -113,7 +120,12 @@ def _sections(state: FleetState, cells: Cells) -> Iterator[OverviewSectionContex
     needed = tuple(map(render, needs(state, cells)))
     nothing = "" if needed else cells.say(words.NOTHING if state.jobs else words.NO_NIGHT)
     yield OverviewSectionContext("needs", cells.say(words.NEEDS), nothing, "calm", needed)
-    shown = tuple(map(render, machines(state, cells)))
+    if state.terms:
+        soon = _terms(_DUE, state.soon, cells)
+        nothing = "" if state.soon else cells.say(words.NOTHING_DUE.given(days=SOON.days))
+        tables = (render(soon),) if state.soon else ()
+        yield OverviewSectionContext("due", cells.say(words.DUE_SOON), nothing, "calm", tables)
+    shown = (render(tools(state, cells)), render(machines(state, cells))) if state.trends else ()
     yield OverviewSectionContext("machines", cells.say(words.MACHINES), "", "", shown)
     reading = (render(legend(cells)),)
     yield OverviewSectionContext("reading", cells.say(words.READING), "", "", reading)
@@ -158,6 +170,7 @@ _DRIFTING = _Kind(
 _OVERDUE = _Kind(
     "overdue", words.OVERDUE, words.OVERDUE_CAPTION, (words.CERTIFICATE, words.MEASURED_ON, words.DUE)
 )
+_DUE = _Kind("due-soon", words.DUE_SOON, words.DUE_CAPTION.given(days=SOON.days), _OVERDUE.columns)
 _DRAFTS = _Kind(
     "drafts",
     words.DRAFTS,
@@ -181,7 +194,7 @@ def needs(state: FleetState, cells: Cells) -> Iterator[OverviewTableContext]:
     if state.drifting:
         yield _drifts(state.drifting, cells)
     if state.overdue:
-        yield _overdue(state.overdue, cells)
+        yield _terms(_OVERDUE, state.overdue, cells)
     if state.drafts:
         yield _drafts(state.drafts, cells)
 
@@ -281,7 +294,7 @@ def _drifts(trends: Sequence[Trend], cells: Cells) -> OverviewTableContext:
     return _table(_DRIFTING, groups, cells)
 
 
-def _overdue(terms: Sequence[Term], cells: Cells) -> OverviewTableContext:
+def _terms(kind: _Kind, terms: Sequence[Term], cells: Cells) -> OverviewTableContext:
     groups = [
         OverviewGroupContext(
             OverviewCellContext(term.entry.number, note=_subject(term.entry), links=cells.links(term.entry)),
@@ -294,7 +307,7 @@ def _overdue(terms: Sequence[Term], cells: Cells) -> OverviewTableContext:
         )
         for term in terms
     ]
-    return _table(_OVERDUE, groups, cells)
+    return _table(kind, groups, cells)
 
 
 def _drafts(drafts: Sequence[Entry], cells: Cells) -> OverviewTableContext:
@@ -318,7 +331,7 @@ def _by_axis(trends: Sequence[Trend]) -> list[list[Trend]]:
     """Return trends by their axes, in the order in which the axes come first."""
     found: defaultdict[tuple[str, str], list[Trend]] = defaultdict(list)
     for each in trends:
-        found[each.series.machine, each.series.axis].append(each)
+        found[_key(each)].append(each)
     return list(found.values())
 
 
@@ -340,43 +353,118 @@ def _table(kind: _Kind, groups: Sequence[OverviewGroupContext], cells: Cells) ->
 
 _COLUMNS = (
     *(words.AXIS, words.PARAMETER, words.VALUE, words.LIMIT),
-    *(words.STATE, words.COURSE, words.DRIFT),
+    *(words.STATE, words.COURSE, words.CHANGE_OR_DRIFT),
 )
 
 
-def machines(state: FleetState, cells: Cells) -> Iterator[OverviewTableContext]:
-    """Yield a table of each machine."""
-    by_machine = groupby(state.trends, key=lambda trend: trend.series.machine)
-    for number, (machine, of_machine) in enumerate(by_machine, start=1):
-        by_axis = groupby(of_machine, key=lambda trend: trend.series.axis)
-        yield OverviewTableContext(
-            key=f"machine-{number}",
-            style="machine",
-            title=machine or cells.say(words.NO_MACHINE),
-            count="",
-            caption=cells.say(words.MACHINE_CAPTION.given(first=cells.period.first.isoformat())),
-            headings=tuple(OverviewCellContext(cells.say(column)) for column in _COLUMNS),
-            groups=tuple(_axis(list(of_axis), cells) for _, of_axis in by_axis),
-        )
-
-
-def _axis(trends: Sequence[Trend], cells: Cells) -> OverviewGroupContext:
-    latest = max((trend.series.calibrations[-1] for trend in trends), key=lambda each: each.measured)
-    measured = words.MEASURED.given(date=latest.measured.isoformat())
-    return OverviewGroupContext(
-        OverviewCellContext(trends[0].series.axis, note=cells.say(measured), links=cells.links(latest.entry)),
-        tuple(
-            (
-                cells.parameter(trend),
-                cells.value(trend),
-                cells.limit(trend),
-                cells.state(trend),
-                cells.course(trend),
-                cells.drift(trend),
-            )
-            for trend in _shown(trends)
-        ),
+def machines(state: FleetState, cells: Cells) -> OverviewTableContext:
+    """Return the table of all axes, machine by machine."""
+    marks, due = _marks(state), {_axis_of(term.entry): term.due for term in state.terms}
+    groups = [
+        _axis(of_axis, cells, marks[_key(of_axis[0])], due.get(_key(of_axis[0])))
+        for of_axis in _by_axis(state.trends)
+    ]
+    return OverviewTableContext(
+        key="axes",
+        style="machine",
+        title=cells.say(words.AXES),
+        count=str(len(groups)),
+        caption=cells.say(words.MACHINE_CAPTION.given(first=cells.period.first.isoformat())),
+        headings=tuple(OverviewCellContext(cells.say(column)) for column in _COLUMNS),
+        groups=tuple(groups),
     )
+
+
+def tools(state: FleetState, cells: Cells) -> OverviewToolsContext:
+    """Return what a reader searches, chooses and orders the axes by: only what there is can be chosen."""
+    counted = Counter(mark for marks in _marks(state).values() for mark in marks)
+    choices = [(key, f"{cells.say(label)} ({counted[key]})") for key, label in _MARKS.items() if counted[key]]
+    orders = (
+        *(("machine", words.BY_MACHINE), ("used", words.BY_USE)),
+        *((("due", words.BY_DUE),) if state.terms else ()),
+        ("measured", words.BY_MEASURED),
+    )
+    return OverviewToolsContext(
+        search=cells.say(words.SEARCH),
+        example=state.trends[0].series.machine,
+        choices=(
+            ("choice", cells.say(words.CHOICE), (("", cells.say(words.ALL_AXES)), *choices)),
+            ("order", cells.say(words.ORDER), tuple((key, cells.say(label)) for key, label in orders)),
+        ),
+        found=cells.say(words.FOUND),
+    )
+
+
+#: What an axis may be chosen by, as the tables of what needs somebody are named.
+_MARKS = {
+    "not-met": words.NOT_MET,
+    "undecided": words.UNDECIDED,
+    "changed": words.CHANGED,
+    "drifting": words.DRIFTING,
+    "overdue": words.OVERDUE,
+    "due": words.DUE_SOON,
+}
+
+
+def _marks(state: FleetState) -> Mapping[tuple[str, str], list[str]]:
+    found: defaultdict[tuple[str, str], list[str]] = defaultdict(list)
+    by_mark = {
+        "not-met": map(_key, state.not_met),
+        "undecided": map(_key, state.undecided),
+        "changed": map(_key, state.changed),
+        "drifting": map(_key, state.drifting),
+        "overdue": (_axis_of(term.entry) for term in state.overdue),
+        "due": (_axis_of(term.entry) for term in state.soon),
+    }
+    for mark, axes in by_mark.items():
+        for axis in dict.fromkeys(axes):
+            found[axis].append(mark)
+    return found
+
+
+def _key(trend: Trend) -> tuple[str, str]:
+    return trend.series.machine, trend.series.axis
+
+
+def _axis_of(entry: Entry) -> tuple[str, str]:
+    return entry.machine, entry.axis
+
+
+def _axis(
+    trends: Sequence[Trend], cells: Cells, marks: Sequence[str], due: date | None
+) -> OverviewGroupContext:
+    latest = max((trend.series.calibrations[-1] for trend in trends), key=lambda each: each.measured)
+    measured = latest.measured.isoformat()
+    said = (
+        words.MEASURED_DUE.given(date=measured, due=str(due)) if due else words.MEASURED.given(date=measured)
+    )
+    named = trends[0].series.machine or cells.say(words.NO_MACHINE)
+    used = [
+        abs(trend.series.latest.value) / trend.series.latest.limit
+        for trend in trends
+        if trend.series.latest.limit
+    ]
+    head = OverviewCellContext(
+        trends[0].series.axis, note=f"{named}\n{cells.say(said)}", links=cells.links(latest.entry)
+    )
+    rows = tuple(
+        (
+            cells.parameter(trend),
+            cells.value(trend),
+            cells.limit(trend),
+            cells.state(trend),
+            cells.course(trend),
+            cells.change(trend) if trend.step or trend.is_wilder else cells.drift(trend),
+        )
+        for trend in _shown(trends)
+    )
+    facts = (
+        ("marks", " ".join(marks)),
+        ("used", f"{max(used):.3f}" if used else ""),
+        ("measured", measured),
+        ("due", due.isoformat() if due else ""),
+    )
+    return OverviewGroupContext(head, rows, facts)
 
 
 def _shown(trends: Sequence[Trend]) -> tuple[Trend, ...]:

@@ -62,6 +62,15 @@ OVERDUE_CAPTION = Words(
     en="Axes that should have been measured again by now",
     de="Achsen, die inzwischen erneut gemessen sein sollten",
 )
+DUE_SOON = Words(en="Due soon", de="Bald fällig")
+DUE_CAPTION = Words(
+    en="Axes that are to be measured within {days} days of the last run",
+    de="Achsen, die innerhalb von {days} Tagen nach dem letzten Lauf zu messen sind",
+)
+NOTHING_DUE = Words(
+    en="Nothing is due within {days} days of the last run.",
+    de="Innerhalb von {days} Tagen nach dem letzten Lauf wird nichts fällig.",
+)
 MEASURED_ON = Words(en="Measured", de="Gemessen")
 DUE = Words(en="Due", de="Fällig")
 NOT_MET = Words(en="Limit not met", de="Grenzwert nicht eingehalten")
@@ -101,6 +110,17 @@ MACHINE_CAPTION = Words(
 NO_MACHINE = Words(en="Machine not named", de="Maschine nicht benannt")
 MEASURED = Words(en="measured {date}", de="gemessen {date}")
 
+MEASURED_DUE = Words(en="measured {date}\ndue {due}", de="gemessen {date}\nfällig {due}")
+SEARCH = Words(en="Search machine, axis or certificate", de="Maschine, Achse oder Kalibrierschein suchen")
+CHOICE = Words(en="Show", de="Anzeigen")
+ALL_AXES = Words(en="All axes", de="Alle Achsen")
+ORDER = Words(en="In the order of", de="Geordnet nach")
+BY_MACHINE = Words(en="machine and axis", de="Maschine und Achse")
+BY_USE = Words(en="share of the limit, largest first", de="Anteil am Grenzwert, größter zuerst")
+BY_DUE = Words(en="date by which it is due", de="Fälligkeit")
+BY_MEASURED = Words(en="last measurement, oldest first", de="letzter Messung, älteste zuerst")
+FOUND = Words(en="{shown} of {all} axes", de="{shown} von {all} Achsen")
+
 # Columns
 
 JOB = Words(en="Job", de="Auftrag")
@@ -114,6 +134,7 @@ STATE = Words(en="State", de="Aussage")
 COURSE = Words(en="Course", de="Verlauf")
 DRIFT = Words(en="Drift ± U", de="Drift ± U")
 CHANGE = Words(en="Change", de="Änderung")
+CHANGE_OR_DRIFT = Words(en="Change, drift", de="Änderung, Drift")
 CAME_WITH = Words(en="What changed with it", de="Was sich mit ihr änderte")
 REACHED = Words(en="Limit reached", de="Grenzwert erreicht")
 CERTIFICATE = Words(en="Certificate", de="Kalibrierschein")

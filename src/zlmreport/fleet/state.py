@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from datetime import date, datetime
+from datetime import date, datetime, timedelta
 
 from zlmreport.fleet.drifts import Trend, trends
 from zlmreport.fleet.records import MODEL, Entry, Notice, State, due_date
 from zlmreport.fleet.trend import Series, series_of, standing
+
+#: What is due within this time may be planned now.
+SOON = timedelta(days=90)
 
 
 @dataclass(frozen=True, slots=True)
@@ -108,6 +111,12 @@ class FleetState:
     def overdue(self) -> tuple[Term, ...]:
         """Those that are over."""
         return tuple(term for term in self.terms if term.is_over)
+
+    @property
+    def soon(self) -> tuple[Term, ...]:
+        """Those that end within `SOON` after the last run."""
+        last = self.night.began.date() + SOON if self.night else date.min
+        return tuple(term for term in self.terms if not term.is_over and term.due <= last)
 
     @property
     def counts(self) -> Mapping[str, int]:

@@ -14,6 +14,7 @@ from zlmreport.typesetting.overview import (
     OverviewLegendContext,
     OverviewSectionContext,
     OverviewTableContext,
+    OverviewToolsContext,
 )
 
 
@@ -260,6 +261,7 @@ Context: TypeAlias = (
     | OverviewContext
     | OverviewSectionContext
     | OverviewTableContext
+    | OverviewToolsContext
     | OverviewLegendContext
     | WorkbenchContext
 )

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from base64 import b64encode
 from dataclasses import dataclass
+from importlib.resources import files
 from typing import ClassVar
 
 from markupsafe import Markup
 
-from zlmreport.typesetting.resources import Face, font, font_faces, style_sheet
+from zlmreport.typesetting.resources import PACKAGE, Face, font, font_faces, style_sheet
 
 
 def drawing(image: str) -> Markup:
@@ -25,6 +26,12 @@ def drawing(image: str) -> Markup:
 def overview_style() -> Markup:
     """Return the style sheet of an overview, the typeface in it."""
     return Markup(f"{font_faces(_embedded)}\n{style_sheet('overview')}")  # noqa: S704 (our own style sheets)
+
+
+def overview_script() -> Markup:
+    """Return the script by which a reader searches an overview; it is well-formed in XML, too."""
+    text = (files(PACKAGE) / "scripts" / "overview.js").read_text("utf-8")
+    return Markup(f"//<![CDATA[\n{text}//]]>\n")  # noqa: S704 (our own script)
 
 
 def _embedded(face: Face) -> str:
@@ -70,10 +77,11 @@ class OverviewCellContext:
 
 @dataclass(frozen=True, slots=True)
 class OverviewGroupContext:
-    """Rows that share their first cell."""
+    """Rows that share their first cell, and facts by which a reader chooses and orders them."""
 
     head: OverviewCellContext
     rows: tuple[tuple[OverviewCellContext, ...], ...]
+    facts: tuple[tuple[str, str], ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,6 +139,27 @@ class OverviewSectionContext:
 
 
 @dataclass(frozen=True, slots=True)
+class OverviewToolsContext:
+    """What a reader searches, chooses and orders axes by.
+
+    Attributes
+    ----------
+    search, example
+        Label of the field, and what may stand in it.
+    choices
+        Name, label, and the options of each list: what an option stands for, and its text.
+    found
+        How many axes are shown: ``{shown}`` of ``{all}``.
+    """
+
+    template: ClassVar[str] = "overview_tools.html"
+    search: str
+    example: str
+    choices: tuple[tuple[str, str, tuple[tuple[str, str], ...]], ...]
+    found: str
+
+
+@dataclass(frozen=True, slots=True)
 class OverviewLegendContext:
     """How to read a small graph: the graph, what each line of it is, and what the tests mean."""
 
@@ -152,8 +181,8 @@ class OverviewContext:
         At the head.
     generator
         The program with its version.
-    style
-        Style sheets.
+    style, script, policy
+        Style sheets, the script, and the fingerprint by which the page allows it and no other.
     facts
         Name and value of what is said of the last night.
     tiles
@@ -170,6 +199,8 @@ class OverviewContext:
     subtitle: str
     generator: str
     style: Markup
+    script: Markup
+    policy: str
     facts: tuple[tuple[str, str], ...]
     tiles: tuple[TileContext, ...]
     tiles_title: str
