@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import os
+import select
+import sys
 import time
 from collections.abc import Iterable, Iterator
 from typing import Self
@@ -9,6 +12,7 @@ from typing import Self
 from pydantic import Field
 
 from capture.moves import Axis
+from processes import PATIENCE
 from zlmreport.emulation.emulator import Emulator, Scene
 from zlmreport.errors import AccessError, Place
 from zlmreport.job.types import Options
@@ -24,7 +28,9 @@ class ScriptOptions(Options):
     """What the axis does."""
 
     port: str = Field("none", description="Of no matter.")
-    moves: str = Field(description="Positions, mm; 't25' turns round there, and words are troubles.")
+    moves: str = Field(
+        description="Positions, mm; 't25' turns round there, 'press:r_2' types, and words are troubles."
+    )
 
 
 class Story:
@@ -59,6 +65,10 @@ class Story:
             elif move == "silent":
                 self._axis.unseen(100.0)
                 yield from self._axis.stand(0.1)
+            elif move.startswith("press:"):
+                os.write(int(os.environ["KEYBOARD"]), f"{move[6:].replace('_', ' ')}\n".encode())
+                select.select([sys.stdin], [], [], PATIENCE)
+                yield from self._axis.stand(0.3)
             elif move.startswith("t"):
                 yield from self._axis.turn(float(move[1:]))
             else:

@@ -9,6 +9,7 @@ import pty
 import select
 import struct
 import termios
+from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
 
@@ -58,6 +59,11 @@ class Bench:
         self._capture.readouterr()
         code = main([*arguments, "--plugin", str(PLUGIN)])
         return Run(code, *self._capture.readouterr())
+
+    def visits(self) -> list[int]:
+        history = read_history(self.journal)
+        assert history is not None
+        return [entry.event.visit.number for entry in history.entries if isinstance(entry.event, Recorded)]
 
     def taken(self) -> int:
         history = read_history(self.journal)
@@ -318,8 +324,8 @@ def test_going_on_and_closing_exclude_each_other(bench: Bench) -> None:
     assert (done.code, "take one of them" in done.messages) == (2, True)
 
 
-def _in_a_terminal(*arguments: str, answers: bytes = b"") -> str:
-    """Run a command in a terminal of 80 columns; return all that it wrote there."""
+def _in_a_terminal(*arguments: str) -> str:
+    """Run a command in a terminal of 80 columns, press Enter when asked; return all that it wrote there."""
     ours, theirs = pty.openpty()
     fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", 24, 80, 0, 0))
     with group(
@@ -330,18 +336,20 @@ def _in_a_terminal(*arguments: str, answers: bytes = b"") -> str:
         stderr=theirs,
     ):
         os.close(theirs)
-        os.write(ours, answers)
-        written = b""
+        written, prompts = b"", 0
         with suppress(OSError):  # the other end is closed
             while select.select([ours], [], [], PATIENCE)[0]:
                 written += os.read(ours, 65536)
+                if written.count(b"to stop: ") > prompts:
+                    prompts += 1
+                    os.write(ours, b"\n")
     os.close(ours)
     return written.decode()
 
 
 def test_at_a_terminal_the_main_job_captures_first_and_the_operator_sees_to_troubles(bench: Bench) -> None:
     bench.job(f"0 lost wait {WHOLE}")
-    screen = _in_a_terminal("job.yaml", answers=b"\n")
+    screen = _in_a_terminal("job.yaml")
     assert "Press Enter when that is done" in screen
     assert screen.count("\a") == 5
     assert "CAP-1.json" in screen
@@ -350,3 +358,112 @@ def test_at_a_terminal_the_main_job_captures_first_and_the_operator_sees_to_trou
     ]
     assert shown
     assert max(map(len, shown)) <= 80
+
+
+@pytest.fixture
+def keyboard(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    """A terminal at which the story of the instrument presses keys; its time is that of the story."""
+    ours, theirs = pty.openpty()
+    monkeypatch.setenv("KEYBOARD", str(ours))
+    with os.fdopen(theirs) as stdin:
+        monkeypatch.setattr("sys.stdin", stdin)
+        for module in ("capture", "capture_display"):
+            monkeypatch.setattr(f"zlmreport.cli.{module}.is_watched", lambda: True)
+        before = termios.tcgetattr(stdin)
+        yield
+        assert termios.tcgetattr(stdin) == before
+    os.close(ours)
+
+
+@pytest.mark.usefixtures("keyboard")
+@pytest.mark.parametrize(
+    ("moves", "lines", "taken"),
+    [
+        ("0 20 press:r_1 t-5 0 press:r_run_1 t-5 " + WHOLE, ["RETAKE   visit 1:"], [1, 2, 1, 1, 2, 3, 4]),
+        ("0 20 press:b t15 20 t25 20 0 -5", ["RETAKE   visit 2:"], [1, 2, 2, 3, 4]),
+        ("0 press:s 20 t25 20 0 -5", ["skipped  run 1 ↑    20.000 mm", "passed   run 1 ↑"], [1, 3, 4]),
+        ("0 20 press:c_coolant_on t25 20 0 -5", ["comment  coolant on"], [1, 2, 3, 4]),
+        (
+            "0 press:b_2 press:r_9 press:r_2 20 t25 20 0 -5",
+            ["'b 2' is no order", "'9' is nothing"],
+            [1, 2, 3, 4],
+        ),
+    ],
+    ids=["retake", "back", "skip", "comment", "not understood"],
+)
+def test_the_operator_orders_from_the_keyboard(
+    moves: str, lines: list[str], taken: list, bench: Bench
+) -> None:
+    bench.job(moves)
+    done = bench.run("capture", "job.yaml")
+    assert (done.code, done.messages) == (0, "")
+    for line in lines:
+        assert line in done.output
+    assert bench.visits() == taken
+
+
+@pytest.mark.usefixtures("keyboard")
+def test_what_was_ordered_stands_with_the_results(bench: Bench) -> None:
+    bench.job("0 press:s t25 20 press:c_coolant_on press:r_3 t25 20 0 -5")
+    assert bench.run("capture", "job.yaml").code == 0
+    bench.job(WHOLE, ("formats: [json]", "formats: [html]"))
+    assert bench.run("job.yaml").code == 0
+    page = Path("CAP-1.html").read_text(encoding="utf-8")
+    for sentence in (
+        "The operator left out visit 2.",
+        "The operator after visit 3: coolant on",
+        "Taken again as the operator ordered: visits 3; of each the last reading counts",
+        "1 of 4 visits of the plan have no reading",
+    ):
+        assert sentence in page
+
+
+def test_a_beam_that_is_lost_after_the_last_visit_voids_nothing(bench: Bench) -> None:
+    bench.job("0 20 t25 20 0 lost")
+    done = bench.run("capture", "job.yaml")
+    assert (done.code, bench.visits()) == (0, [1, 2, 3, 4])
+    assert "the datum is gone; all visits were taken before, and their readings stay" in done.output
+    assert bench.run("job.yaml").code == 0
+
+
+def test_a_visit_is_taken_again_after_the_end(bench: Bench) -> None:
+    bench.job(WHOLE)
+    bench.run("capture", "job.yaml")
+    bench.job("t5 0 t-5 20")
+    done = bench.run("capture", "job.yaml", "--retake", "2")
+    assert (done.code, done.messages) == (0, "")
+    assert bench.visits() == [1, 2, 3, 4, 2]
+    assert bench.taken() == 4
+    assert bench.run("job.yaml").code == 0
+
+
+@pytest.mark.parametrize(
+    ("retake", "message"),
+    [
+        ("4", "--retake: 4: the capture has not come so far; next is visit 3"),
+        ("9", "--retake: '9' is nothing to take again: state a visit, 1 to 4, or a run, 'run 1' to 'run 1'"),
+        ("walk 1", "--retake: 'walk 1' is nothing to take again"),
+    ],
+)
+def test_what_cannot_be_taken_again_is_refused(retake: str, message: str, bench: Bench) -> None:
+    bench.job("0 20")
+    bench.run("capture", "job.yaml")
+    before = bench.journal.read_bytes()
+    done = bench.run("capture", "job.yaml", "--retake", retake)
+    assert (done.code, done.messages.startswith(message)) == (2, True)
+    assert bench.journal.read_bytes() == before
+
+
+def test_a_run_under_another_datum_is_taken_again_as_a_whole_only(bench: Bench) -> None:
+    two = ("runs: 1", "runs: 2")
+    bench.job(f"{WHOLE} lost", two)
+    bench.run("capture", "job.yaml")
+    bench.job(WHOLE, two)
+    done = bench.run("capture", "job.yaml", "--retake", "2")
+    assert (done.code, "the datum is gone under which it was read" in done.messages) == (2, True)
+    assert bench.run("capture", "job.yaml", "--retake", "run 1").code == 3  # then the story is over
+    assert bench.visits() == [1, 2, 3, 4, 1, 2, 3, 4]
+    history = read_history(bench.journal)
+    assert history is not None
+    assert history.progress.attempts[1] == 2
+    assert history.progress.next.number == 5

@@ -22,6 +22,9 @@ from zlmreport.plugin import (
     JournalHeader,
     JournalHistory,
     MeasurementSet,
+    OperatorCommented,
+    OperatorRetake,
+    OperatorSkipped,
     Options,
     Place,
     Provenance,
@@ -126,13 +129,14 @@ def remarks(
     yield from _interruptions(history, axis)
     yield from _closure(history, axis)
     yield from _repetitions(parts)
+    yield from _orders(history)
     missing = len(header.visits) - len(taken)
     if missing:
         yield Words(
             en="{missing} of {all} visits of the plan have no reading.",
             de="{missing} von {all} geplanten Messpunkten haben keinen Messwert.",
         ).given(missing=missing, all=len(header.visits))
-    if any(isinstance(entry.event, CaptureEnded) for entry in history.entries):
+    if missing and any(isinstance(entry.event, CaptureEnded) for entry in history.entries):
         yield Words(
             en="The operator closed the test before the plan was done.",
             de="Die Messung wurde beendet, bevor der Plan abgearbeitet war.",
@@ -209,6 +213,32 @@ def _repetitions(parts: Sequence[Part]) -> Iterator[Words]:
             ).given(part=part.number, attempts=part.attempts, attempt=part.attempt, left_out=part.left_out)
 
 
+def _orders(history: JournalHistory) -> Iterator[Words]:
+    """Yield what the operator ordered and said, for a choice among readings is nobody's secret."""
+    visit = 0
+    for entry in history.entries:
+        match entry.event:
+            case ReadingRecorded() as event:
+                visit = event.visit.number
+            case OperatorRetake(first=first, last=last):
+                yield Words(
+                    en="Taken again as the operator ordered: visits {visits}; of each the last reading "
+                    "counts, and the earlier ones stay in the journal.",
+                    de="Auf Anweisung noch einmal aufgenommen: Messpunkte {visits}; von jedem zählt der "
+                    "letzte Messwert, die früheren bleiben im Protokoll.",
+                ).given(visits=f"{first.number}–{last.number}" if last != first else first.number)
+            case OperatorSkipped(visit=skipped):
+                yield Words(
+                    en="The operator left out visit {visit}.",
+                    de="Messpunkt {visit} wurde auf Anweisung ausgelassen.",
+                ).given(visit=skipped.number)
+            case OperatorCommented(text=text):
+                yield Words(
+                    en="The operator after visit {visit}: {text}",
+                    de="Anmerkung bei der Aufnahme, nach Messpunkt {visit}: {text}",
+                ).given(visit=visit, text=text)
+
+
 _COMMAND = "zlmreport capture JOB.yaml"
 
 
@@ -259,8 +289,13 @@ def _demand_axis(header: JournalHeader, axis: Axis, place: Place) -> None:
 
 
 def _readings(history: JournalHistory, taken: Mapping[int, Taken], place: Place) -> Iterator[Reading]:
-    """Yield the visits of the test in their order; those that were not taken have no deviation."""
-    for visit in history.header.visits:
+    """Yield the visits in the order in which they were taken; those that were not have no deviation."""
+    listed, moments, moment = history.header.visits, {}, 0.0
+    for visit in listed:
+        if visit.number in taken:
+            moment = _moment(taken[visit.number])
+        moments[visit.number] = moment
+    for visit in sorted(listed, key=lambda visit: moments[visit.number]):
         found = taken.get(visit.number)
         if found is None:
             yield Reading(place, visit.position, visit.approach, visit.run, float("nan"))
@@ -271,9 +306,14 @@ def _readings(history: JournalHistory, taken: Mapping[int, Taken], place: Place)
                 visit.approach,
                 visit.run,
                 found.event.deviation,
-                found.entry.elapsed - found.event.late,
+                moments[visit.number],
                 found.event.mean.conditions,
             )
+
+
+def _moment(taken: Taken) -> float:
+    """Return when a reading was taken, s from the start of the capture."""
+    return taken.entry.elapsed - taken.event.late
 
 
 @hookimpl

@@ -367,6 +367,28 @@ class Ended:
     """The user closed the test: what was not taken is missing."""
 
 
+@dataclass(frozen=True, slots=True)
+class Retake:
+    """The operator takes visits again, the first to the last; until then their earlier readings stay."""
+
+    first: ListedVisit
+    last: ListedVisit
+
+
+@dataclass(frozen=True, slots=True)
+class Skipped:
+    """The operator leaves out the visit that is next."""
+
+    visit: ListedVisit
+
+
+@dataclass(frozen=True, slots=True)
+class Commented:
+    """The operator has something to say, after the visit that was taken last."""
+
+    text: str
+
+
 Event: TypeAlias = (
     DatumTaken
     | MovedBeforeDatum
@@ -393,7 +415,13 @@ Event: TypeAlias = (
     | Interrupted
     | Resumed
     | Ended
+    | Retake
+    | Skipped
+    | Commented
 )
+
+#: What an operator orders while a capture goes on.
+Order: TypeAlias = Retake | Skipped | Commented
 
 #: After these nothing is taken any more until an operator has seen to it.
 HALTING = (MovedBeforeDatum, DatumMoved, ZeroLost, TooSlow, Finished)

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from zlmreport.capture.events import (
     HALTING,
     Closed,
+    Commented,
     DatumHolds,
     DatumMoved,
     DatumTaken,
@@ -22,10 +23,12 @@ from zlmreport.capture.events import (
     Moving,
     NotChecked,
     NotNext,
+    Order,
     Passed,
     Placed,
     Recorded,
     Repeated,
+    Retake,
     Settling,
     TooSlow,
     TrackLost,
@@ -105,8 +108,7 @@ class Follower:
     ) -> None:
         self.progress = progress
         self._is_watched = is_watched
-        self._route = Route(settings.tolerance)
-        self._place = Place(Programme(progress.visits, settings), settings, progress.taken, last)
+        self._programme = Programme(progress.visits, settings)
         self.is_halted = progress.is_over
         self._settings = settings
         self._window = Window(settings.stability, settings.dwell)
@@ -123,9 +125,8 @@ class Follower:
         self._crept_last = (0.0, 0.0)
         self._pace = Pace()
         self._stood_at: float | None = None
-        self._passed = 0
-        self._comes_from_its_side = False
         self._inside_since: float | None = None
+        self._begin_here(last)
         if progress.question is not None:
             asked = progress.question
             stop = Stop(asked.target, asked.approach, asked.approach, asked.position, asked.mean)
@@ -157,6 +158,26 @@ class Follower:
             How long ago the stop was, s; without it, it was seen by this follower.
         """
         return self._lived_through(self._answered(visit, late))
+
+    def ordered(self, order: Order) -> list[Event]:
+        """Return what happens when the operator orders something while the axis is followed."""
+        return self._lived_through(() if self.is_halted else self._obeyed(order))
+
+    def _obeyed(self, order: Order) -> Iterator[Event]:
+        if not isinstance(order, Commented):
+            yield from self._not_taken()
+        yield order
+        if isinstance(order, Retake):
+            self._begin_here()
+        self._place.left_out = self.progress.skipped
+
+    def _begin_here(self, last: float | None = None) -> None:
+        """Begin with the visit that is next, from wherever the axis is: the program starts there."""
+        self._route = Route(self._settings.tolerance)
+        self._place = Place(self._programme, self._settings, self.progress.taken, last)
+        self._place.left_out = self.progress.skipped
+        self._passed = 0
+        self._look_ahead()
 
     def _lived_through(self, happening: Iterable[Event]) -> list[Event]:
         events: list[Event] = []
@@ -390,6 +411,8 @@ class Follower:
     def _filed(self, stop: Stop, index: int | None, late: float | None = None) -> Iterator[Event]:
         if index is None:
             yield self._out_of_turn(stop)
+        elif self.progress.visits[index].number in self.progress.skipped:
+            yield Passed(self.progress.visits[index], stop.mean.duration)
         elif stop.approach is not self.progress.visits[index].approach:
             yield WrongDirection(self.progress.visits[index], stop.approach)
         elif late is None and not self._is_worse(index, stop) and not self._is_plausible(index, stop):
@@ -479,11 +502,13 @@ class Follower:
             yield Repeated(visit, stop.position, stop.mean)
             return
         for missed in progress.visits[progress.taken : index]:
-            if missed.number not in progress.filed:
+            if missed.number not in progress.filed | progress.skipped:
                 yield Missed(missed, progress.attempts.get(missed.part, 1))
         if late is None:
             late = self._latest.time - stop.mean.time if self._latest else 0.0
         yield Recorded(visit, progress.attempts.get(visit.part, 1), stop.position, stop.mean, late)
+        if progress.again is not None and self.progress.again is None:
+            self._begin_here()
 
     def _at_the_end(self, reading: LiveReading, zero: float) -> Iterator[Event]:
         """Finish when the axis has left the last visit, and has come back to the datum if it goes there.
@@ -512,7 +537,8 @@ class Follower:
         """Tell whether a visit has a reading that is clearly nearer to its target than a later one."""
         visit = self.progress.visits[index]
         earlier = self.progress.read.get((visit.target, visit.approach))
-        if earlier is None or visit.number not in self.progress.filed:
+        is_ordered = self.progress.again is not None and index >= self.progress.taken
+        if earlier is None or visit.number not in self.progress.filed or is_ordered:
             return False
         return abs(stop.position - visit.position) - abs(earlier.deviation) > self._settings.motion
 

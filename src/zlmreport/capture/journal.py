@@ -8,7 +8,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import Self
 
-from zlmreport.capture.events import Event, Recorded, Unclear
+from zlmreport.capture.events import Event, Order, Recorded, Unclear
 from zlmreport.capture.follower import Follower
 from zlmreport.capture.history import History, read_history, sealed
 from zlmreport.capture.progress import Progress
@@ -192,7 +192,7 @@ def captured(
     journal: Journal,
     elapsed: Callable[[float], float],
     *,
-    show: Callable[[LiveReading], None] = lambda _reading: None,
+    show: Callable[[LiveReading], Iterable[Order]] = lambda _reading: (),
 ) -> Iterator[Event]:
     """Follow readings, write down what happens, and yield it; end when nothing more is taken.
 
@@ -207,13 +207,19 @@ def captured(
     elapsed
         From the time of a reading to s from the start of the capture.
     show
-        Is called with each reading, when all that happened with it is on the disk.
+        Is called with each reading, when all that happened with it is on the disk; returns what the operator
+        orders then.
     """
-    for reading in readings:
-        for event in follower.feed(reading):
+
+    def kept(events: Iterable[Event], time: float) -> Iterator[Event]:
+        for event in events:
             if not isinstance(event, MOMENTARY):
-                journal.append(event, elapsed(reading.time))
+                journal.append(event, elapsed(time))
             yield event
-        show(reading)
+
+    for reading in readings:
+        yield from kept(follower.feed(reading), reading.time)
+        for order in show(reading):
+            yield from kept(follower.ordered(order), reading.time)
         if follower.is_halted:
             return

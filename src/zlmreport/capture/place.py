@@ -120,6 +120,8 @@ class Place:
     ----------
     undecided
         The stops of which it is not clear which visit they are, first come first.
+    left_out
+        Numbers of the visits that the operator leaves out: that they go unseen is no wonder.
 
     Parameters
     ----------
@@ -138,6 +140,7 @@ class Place:
         self, programme: Programme, settings: Settings, taken: int, last: float | None = None
     ) -> None:
         self.undecided: list[Stop] = []
+        self.left_out: frozenset[int] = frozenset()
         self._programme = programme
         self._settings = settings
         self._close = 2 * settings.tolerance
@@ -267,13 +270,18 @@ class Place:
             return max(jump, _REPEATED + (0.0 if is_seen else _ANY_TIME))
         if index < here:
             return jump
-        unseen = index - here - 1
+        unseen = self._unseen(here, index)
         if not is_seen:
             skipped = _UNSEEN + _EACH_UNSEEN * unseen if unseen else 0.0
             return max(jump, skipped + self._in_time(guess, index, stop))
         went_back = unseen < _NEAR and len(turns) > len(programme.turns(here, index))
         detour = _DETOUR + _EACH_SKIPPED * unseen if went_back else -inf
         return max(jump, detour, self._by_route(guess, index, turns))
+
+    def _unseen(self, here: int, index: int) -> int:
+        """Return how many visits lie between two; −1 for one that comes not later."""
+        between = range(here + 2, index + 1)  # by their numbers
+        return len(between) - len(self.left_out.intersection(between)) if index > here else -1
 
     def _begun_anew(self, index: int, turns: Sequence[float]) -> float:
         """Return how probable it is that a part began anew, by its own way; its first rests may be unseen."""
@@ -286,7 +294,7 @@ class Place:
 
     def _from_rest(self, here: int, index: int, turns: Sequence[float], route: Route) -> float:
         """Return how probable a first visit is, after which the operator was told to begin."""
-        visits, unseen = self._programme.visits, index - here - 1
+        visits, unseen = self._programme.visits, self._unseen(here, index)
         if unseen < 0:
             return -inf
         skipped = _SKIPPED + _EACH_SKIPPED * unseen if unseen else 0.0
@@ -321,7 +329,7 @@ class Place:
     def _by_route(self, guess: _Guess, index: int, turns: Sequence[float]) -> float:
         """Return how probable it is that the program went on to a visit, by where the axis turned round."""
         here = guess.place
-        unseen = index - here - 1
+        unseen = self._unseen(here, index)
         skipped = _SKIPPED + _EACH_SKIPPED * unseen if unseen else 0.0
         expected = self._programme.turns(here, index)
         if not guess.is_heading_known and expected[:1] == [Turn(self._programme.visits[here].position, None)]:

@@ -18,10 +18,13 @@ from zlmreport.capture.events import (
     Placed,
     Recorded,
     Resumed,
+    Retake,
+    Skipped,
     Unclear,
     ZeroLost,
 )
 from zlmreport.capture.visits import ListedVisit
+from zlmreport.errors import InputError, Place
 from zlmreport.measurement.approach import Approach
 
 
@@ -51,6 +54,12 @@ class Progress:
         A stop of which the operator is to say which visit it is; None for none.
     is_over
         Whether the test is over.
+    again
+        Where visits are taken again: the index after the last of them, and what is `taken` after that.
+    skipped
+        The numbers of the visits that the operator leaves out.
+    before_datum
+        The numbers of the visits that were read under an earlier datum.
     """
 
     visits: tuple[ListedVisit, ...]
@@ -63,6 +72,9 @@ class Progress:
     filed: frozenset[int] = frozenset()
     question: Unclear | None = None
     is_over: bool = False
+    again: tuple[int, int] | None = None
+    skipped: frozenset[int] = frozenset()
+    before_datum: frozenset[int] = frozenset()
 
     @classmethod
     def begin(cls, visits: Sequence[ListedVisit], datum: float | None) -> Progress:
@@ -81,8 +93,9 @@ class Progress:
 
     @property
     def rest_of_part(self) -> tuple[ListedVisit, ...]:
-        """What is still to be taken of the part of the test that is next."""
-        return tuple(visit for visit in self.visits[self.taken :] if visit.part == self.next.part)
+        """What is still to be taken of the part of the test that is next; of what is taken again, nothing."""
+        rest = self.visits[self._reached :]
+        return tuple(visit for visit in rest if visit.part == rest[0].part)
 
     def after(self, event: Event) -> Progress:
         """Return the progress after something has happened."""
@@ -95,20 +108,32 @@ class Progress:
             case Recorded(visit=visit):
                 read = {**self.read, (visit.target, visit.approach): event}
                 filed = self.filed | {visit.number}
-                changes = {"taken": visit.number, "read": MappingProxyType(read), "filed": filed}
+                changes = {**self._beyond(visit), "read": MappingProxyType(read), "filed": filed}
             case Missed(visit=visit):
-                changes = {"taken": visit.number}
-            case Unclear():
-                changes = {"question": event}
-            case Placed():
-                changes = {"question": None}
+                changes = self._beyond(visit)
             case ZeroLost() | DatumMoved():
                 changes = self._begun_again()
             case Resumed():
                 changes = self._unwatched()
             case Finished() | Ended():
                 changes = {"is_over": True}
+            case _:
+                changes = self._told(event)
         return replace(self, **changes)
+
+    def _told(self, event: Event) -> dict[str, Any]:
+        """Return what changes by what the operator is asked, answers and orders."""
+        match event:
+            case Unclear():
+                return {"question": event}
+            case Placed():
+                return {"question": None}
+            case Skipped(visit=visit):
+                return {**self._beyond(visit), "skipped": self.skipped | {visit.number}}
+            case Retake(first=first, last=last):
+                return self._taken_again(first, last)
+            case _:
+                return {}
 
     def _unwatched(self) -> dict[str, Any]:
         """Return what changes by a time in which nobody watched the instrument.
@@ -118,22 +143,106 @@ class Progress:
         """
         if self.read:
             return {"must_check": True, "question": None}
-        return {"zero": self._zero_before_datum, "question": None}
+        return {"zero": self._zero_before_datum, "question": None, "before_datum": self.filed}
 
     def _begun_again(self) -> dict[str, Any]:
-        """Return what changes when the datum is gone: its part of the test begins anew, if it had begun."""
-        part = self.next.part
-        first = next(index for index, visit in enumerate(self.visits) if visit.part == part)
-        again = self.attempt + 1 if self.taken > first else self.attempt
+        """Return what changes when the datum is gone: its part of the test begins anew, if it had begun.
+
+        What was to be taken again is given up: under another datum it would not compare with the rest of its
+        part. Of a test that has all its visits nothing begins anew.
+        """
+        taken, part = self._reached, 0
+        if taken < len(self.visits):
+            part = self.visits[taken].part
+            taken = next(index for index, visit in enumerate(self.visits) if visit.part == part)
+        filed = frozenset(number for number in self.filed if self.visits[number - 1].part != part)
         return {
-            "taken": first,
-            "attempts": MappingProxyType({**self.attempts, part: again}),
+            "taken": taken,
+            "again": None,
+            "attempts": self._attempts_after(part) if taken < self._reached else self.attempts,
             "zero": self._zero_before_datum,
             "read": MappingProxyType({}),
             "must_check": False,
-            "filed": frozenset(number for number in self.filed if self.visits[number - 1].part != part),
+            "filed": filed,
+            "before_datum": filed,
             "question": None,
+            "is_over": not part,
         }
+
+    def _taken_again(self, first: ListedVisit, last: ListedVisit) -> dict[str, Any]:
+        """Return what changes when visits are taken again; under another datum it is another attempt."""
+        ordered, reached = frozenset(range(first.number, last.number + 1)), self._reached
+        changes: dict[str, Any] = {
+            "taken": first.number - 1,
+            "again": (last.number, reached) if last.number < reached else None,
+            "skipped": self.skipped - ordered,
+            "is_over": False,
+        }
+        if ordered & self.before_datum:
+            changes |= {
+                "attempts": self._attempts_after(first.part),
+                "filed": self.filed - ordered,
+                "before_datum": self.before_datum - ordered,
+            }
+        return changes
+
+    def _attempts_after(self, part: int) -> Mapping[int, int]:
+        return MappingProxyType({**self.attempts, part: self.attempts.get(part, 1) + 1})
+
+    def _beyond(self, visit: ListedVisit) -> dict[str, Any]:
+        """Return what changes when a visit is taken, or will not be."""
+        if self.again is None or visit.number < self.again[0]:
+            return {"taken": visit.number}
+        return {"taken": max(visit.number, self._reached), "again": None}
+
+    @property
+    def _reached(self) -> int:
+        """What was taken before visits were taken again."""
+        return self.taken if self.again is None else self.again[1]
+
+    def retake(self, text: str, place: Place) -> Retake:
+        """Return what takes visits again.
+
+        Parameters
+        ----------
+        text
+            The number of a visit, or ``run`` and that of a run.
+        place
+            Where it stands, for messages.
+
+        Raises
+        ------
+        InputError
+            If there is no such visit or run, the capture has not come so far, or a datum is gone without
+            which a part of the test would be read under two.
+        """
+        word, _, number = text.strip().rpartition("run")
+        is_run = "run" in text
+        numbers = [
+            visit.number
+            for visit in self.visits
+            if number.strip().isdecimal() and int(number) == (visit.run if is_run else visit.number)
+        ]
+        if word.strip() or not numbers:
+            raise InputError.at(
+                place,
+                f"{text!r} is nothing to take again: state a visit, 1 to {len(self.visits)}, or a run, "
+                f"'run 1' to 'run {max(visit.run for visit in self.visits)}'",
+            )
+        if numbers[-1] - numbers[0] != len(numbers) - 1:
+            raise InputError.at(place, f"{text}: this method mixes the runs; state single visits")
+        if numbers[0] > self._reached:
+            message = f"{text}: the capture has not come so far; next is visit {self._reached + 1}"
+            raise InputError.at(place, message)
+        parts = {self.visits[each - 1].part for each in numbers}
+        others = {visit.number for visit in self.visits if visit.part in parts}.difference(numbers)
+        if others & self.before_datum:
+            raise InputError.at(
+                place,
+                f"{text}: the datum is gone under which it was read, and another one would not compare; take "
+                "all again that shares its datum: its run, or the test, in another journal",
+            )
+        return Retake(self.visits[numbers[0] - 1], self.visits[min(numbers[-1], self._reached) - 1])
 
     @property
     def _zero_before_datum(self) -> float | None:

@@ -12,6 +12,7 @@ from typing import Any, TypeAlias
 
 from zlmreport.capture.events import (
     Closed,
+    Commented,
     DatumHolds,
     DatumMoved,
     DatumTaken,
@@ -32,7 +33,9 @@ from zlmreport.capture.events import (
     Recorded,
     Repeated,
     Resumed,
+    Retake,
     Settling,
+    Skipped,
     TooSlow,
     TrackLost,
     Unclear,
@@ -73,6 +76,9 @@ _KINDS: Mapping[str, type] = MappingProxyType(
         "interrupted": Interrupted,
         "resumed": Resumed,
         "ended": Ended,
+        "retake": Retake,
+        "skipped": Skipped,
+        "comment": Commented,
     }
 )
 _NAMES = {kind: name for name, kind in _KINDS.items()}
@@ -159,9 +165,13 @@ def _number(name: str) -> _Reader:
     return lambda record, _visits: finite(record[name])
 
 
+def _listed(name: str) -> _Reader:
+    return lambda record, visits: _visit(record[name], visits)
+
+
 _READERS: Mapping[str, _Reader] = MappingProxyType(
     {
-        "visit": lambda record, visits: _visit(record["visit"], visits),
+        **{name: _listed(name) for name in ("visit", "first", "last")},
         "candidates": lambda record, visits: tuple(
             (_visit(number, visits), finite(odds)) for number, odds in record["candidates"]
         ),
@@ -175,6 +185,7 @@ _READERS: Mapping[str, _Reader] = MappingProxyType(
         "attempt": lambda record, _visits: int(record["attempt"]),
         "message": lambda record, _visits: str(record["message"]),
         "reason": lambda record, _visits: str(record["reason"]),
+        "text": lambda record, _visits: str(record["text"]),
         **{
             name: _number(name)
             for name in (

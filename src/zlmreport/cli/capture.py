@@ -7,13 +7,13 @@ import json
 import time
 from argparse import Namespace
 from collections.abc import Callable, Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import partial
 from itertools import chain
 from pathlib import Path
 
 from zlmreport import pipeline
-from zlmreport.capture.events import Ended, Event, Interrupted, Resumed, Unclear
+from zlmreport.capture.events import DatumMoved, Ended, Event, Interrupted, Resumed, Unclear, ZeroLost
 from zlmreport.capture.follower import Follower
 from zlmreport.capture.history import History, read_history
 from zlmreport.capture.journal import Journal, captured, demand_nothing_captured
@@ -40,12 +40,34 @@ from zlmreport.plugin.protocols import Connection
 from zlmreport.plugins import Registry, find_plugins
 from zlmreport.presenting.writer import Writer
 
+_RETAKE = Place("--retake")
+
+
+@dataclass(frozen=True, slots=True)
+class Answers:
+    """What the operator says beforehand, empty for nothing.
+
+    Attributes
+    ----------
+    answer
+        To the question that the last sitting ended with: the number of a visit, or ``none``.
+    retake
+        What is taken again: the number of a visit, or ``run`` and that of a run.
+    """
+
+    answer: str = ""
+    retake: str = ""
+
 
 def run(options: Namespace) -> int:
     """Capture the test of a job, go on with it, or close it."""
     if options.end and options.resume:
         raise InputError.at(
             Place("zlmreport capture"), "--resume goes on and --end closes the capture: take one of them"
+        )
+    if options.end and options.retake:
+        raise InputError.at(
+            Place("zlmreport capture"), "--retake goes on and --end closes the capture: take one of them"
         )
     if options.answer and not options.resume:
         raise InputError.at(Place("zlmreport capture"), "--answer belongs to --resume: state both")
@@ -63,7 +85,9 @@ def run(options: Namespace) -> int:
         return 0
     shown = JsonLines if options.json else LiveDisplay if is_watched() else PlainLines
     display = shown(job, asked)
-    capture(job, asked, registry, display, options.job, resume=options.resume, answer=options.answer)
+    resume = options.resume or bool(options.retake)
+    words = Answers(options.answer, options.retake)
+    capture(job, asked, registry, display, options.job, resume=resume, words=words)
     if not options.json:
         print(f"next: zlmreport {shown_path(options.job)}")
     return 0
@@ -71,7 +95,7 @@ def run(options: Namespace) -> int:
 
 def _run_live(live: LiveRun, options: Namespace) -> int:
     """Let an extension take what is missing; the same command goes on where it ended."""
-    wrong = next((name for name in ("end", "journal") if getattr(options, name)), None)
+    wrong = next((name for name in ("end", "journal", "retake") if getattr(options, name)), None)
     if wrong:
         raise InputError.at(
             Place("zlmreport capture"), f"--{wrong} is of no use {live.without_journal}; leave it out"
@@ -170,7 +194,7 @@ def capture(  # noqa: PLR0913 - whom, what, with what, shown where, and how to g
     path: Path,
     *,
     resume: bool,
-    answer: str = "",
+    words: Answers = Answers(),
 ) -> None:
     """Capture the test of a job to its end.
 
@@ -188,9 +212,8 @@ def capture(  # noqa: PLR0913 - whom, what, with what, shown where, and how to g
         The job file, for the command that goes on.
     resume
         Whether to go on with a journal.
-    answer
-        What the question was answered with that its last sitting ended with: the number of a visit, or
-        ``none``; empty for no answer.
+    words
+        What the operator says beforehand.
 
     Raises
     ------
@@ -199,8 +222,8 @@ def capture(  # noqa: PLR0913 - whom, what, with what, shown where, and how to g
         on.
     """
     if resume:
-        demand_own_journal(job, assignment)
-        demand_answer(assignment, answer)
+        demand_own_journal(job, assignment, words)
+        demand_answer(assignment, words.answer)
     else:
         demand_nothing_captured(assignment.options.journal)
     choice = instrument_of(job)
@@ -209,7 +232,7 @@ def capture(  # noqa: PLR0913 - whom, what, with what, shown where, and how to g
         readings = connection.readings()
         readings = chain([next(readings)], readings)  # an instrument that is not there leaves no journal
         go_on = f"zlmreport capture {shown_path(path)} --resume"
-        with _journal(job, assignment, resume=resume, answer=answer) as journal:
+        with _journal(job, assignment, resume=resume, words=words) as journal:
             try:
                 _sittings(readings, connection, assignment, journal, display)
             except KeyboardInterrupt:
@@ -222,15 +245,20 @@ def capture(  # noqa: PLR0913 - whom, what, with what, shown where, and how to g
                 raise AccessError.at(problem.place, f"{problem.message}; go on with: {go_on}") from error
 
 
-def demand_own_journal(job: Job, assignment: Assignment) -> None:
-    """Refuse to go on with a journal of another job, or with a capture that is over."""
+def demand_own_journal(job: Job, assignment: Assignment, words: Answers = Answers()) -> None:
+    """Refuse to go on with a journal of another job, or with a capture that is over and stays so."""
     path = assignment.options.journal
     history = read_history(path)
     if history is None:
         return
     demand_same_test(history, job, assignment, Place(str(path)))
-    if history.progress.is_over:
-        raise AccessError.at(Place(str(path)), "the capture is finished: there is nothing to go on with")
+    if words.retake:
+        history.progress.retake(words.retake, _RETAKE)
+    elif history.progress.is_over:
+        raise AccessError.at(
+            Place(str(path)),
+            "the capture is finished: there is nothing to go on with; --retake takes a visit or a run again",
+        )
 
 
 def demand_answer(assignment: Assignment, answer: str) -> None:
@@ -243,17 +271,19 @@ def demand_answer(assignment: Assignment, answer: str) -> None:
     visit_named(answer, history.progress, Place("--answer"))
 
 
-def _journal(job: Job, assignment: Assignment, *, resume: bool, answer: str) -> Journal:
+def _journal(job: Job, assignment: Assignment, *, resume: bool, words: Answers) -> Journal:
     path = assignment.options.journal
     if not resume:
         return Journal.begun(path, header_of(job, assignment, dt.datetime.now(dt.UTC)))
     journal = Journal.continued(path)
-    if answer:
-        visit = visit_named(answer, journal.progress, Place("--answer"))
+    if words.answer:
+        visit = visit_named(words.answer, journal.progress, Place("--answer"))
         now = _elapsed_now(journal)
         for event in Follower(journal.progress, assignment.settings).told(visit, now - journal.asked):
             journal.append(event, now)
     journal.append(Resumed(), _elapsed_now(journal))
+    if words.retake:
+        journal.append(journal.progress.retake(words.retake, _RETAKE), _elapsed_now(journal))
     return journal
 
 
@@ -271,9 +301,12 @@ def _sittings(
         display.begin(follower)
         show = partial(display.show, follower)
         event: Event | None = None
-        for event in captured(readings, follower, journal, clock, show=show):
-            display.tell(event)
+        with display.keys():
+            for event in captured(readings, follower, journal, clock, show=show):
+                display.tell(event)
         if journal.progress.is_over:
+            if isinstance(event, ZeroLost | DatumMoved):
+                display.leave("the datum is gone; all visits were taken before, and their readings stay")
             return
         if isinstance(event, Unclear):
             for each in follower.told(display.ask(event, journal.progress)):

@@ -4,19 +4,24 @@ from __future__ import annotations
 
 import json
 import os
+import select
 import shutil
 import sys
 import textwrap
-from collections.abc import Iterator
-from typing import Protocol
+from collections.abc import Iterable, Iterator
+from contextlib import AbstractContextManager, contextmanager, nullcontext
+from typing import Any, Protocol
 
 from zlmreport.capture.events import (
+    Commented,
     Elsewhere,
     Event,
     Frozen,
     Missed,
     NotNext,
+    Order,
     Recorded,
+    Skipped,
     TooSlow,
     TrackLost,
     Unclear,
@@ -40,6 +45,9 @@ _BELL = "\a"
 _WRONG = (Missed, WrongDirection, NotNext, TrackLost, Frozen, Unclear)
 #: An answer: the stop is no visit.
 _NO_VISIT = "none"
+#: What the keys do, each with Enter.
+_KEYS = "r 17, r run 2 take again, b back by one, s skip, c TEXT comment"
+_BACKSPACE, _ESCAPE = "\x7f\b", "\x1b"
 _CLEAR_BELOW, _UP = "\x1b[J", "\x1b[{}A"
 _BAR = 24
 
@@ -56,8 +64,11 @@ class Display(Protocol):
     def tell(self, event: Event) -> None:
         """Say what has happened."""
 
-    def show(self, follower: Follower, reading: LiveReading) -> None:
-        """Show the present moment."""
+    def keys(self) -> AbstractContextManager[None]:
+        """Take orders from a keyboard, if there is one."""
+
+    def show(self, follower: Follower, reading: LiveReading) -> Iterable[Order]:
+        """Show the present moment, and return what the operator orders then; mostly nothing."""
 
     def see_to(self, event: Event | None, progress: Progress) -> None:
         """Let the operator see to what has happened; raise `AccessError` if there is none."""
@@ -81,6 +92,70 @@ def visit_named(text: str, progress: Progress, place: Place) -> ListedVisit | No
     raise InputError.at(
         place, f"{text!r} is no visit: state a number from 1 to {len(progress.visits)}, or none"
     )
+
+
+def order_of(line: str, progress: Progress) -> Order:
+    """Return what a line of the keyboard orders; raise `InputError` for nothing that can be done."""
+    place = Place("keyboard")
+    match line.strip().partition(" "):
+        case ("r", _, rest) if rest:
+            return progress.retake(rest, place)
+        case ("b", _, "") if progress.taken:
+            return progress.retake(str(progress.taken), place)
+        case ("b", _, ""):
+            raise InputError.at(place, "nothing was taken yet")
+        case ("s", _, "") if progress.taken < len(progress.visits):
+            return Skipped(progress.next)
+        case ("c", _, rest) if rest:
+            return Commented(rest.strip())
+    raise InputError.at(place, f"{line!r} is no order: {_KEYS}")
+
+
+class Keyboard:
+    """Lines that are typed at a terminal, read without waiting for them; it shows them nowhere itself.
+
+    Attributes
+    ----------
+    typed
+        What was typed of a line that is not finished.
+    """
+
+    def __init__(self) -> None:
+        self.typed = ""
+        self._file = sys.stdin.fileno()
+
+    @property
+    def line(self) -> str:
+        """What is shown of it: what is being typed, or what can be."""
+        return f"> {self.typed}" if self.typed else f"keys   {_KEYS}"
+
+    @contextmanager
+    def taken(self) -> Iterator[None]:
+        """Take the keys one by one, and give the terminal back as it was."""
+        import termios  # noqa: PLC0415 - not on every system
+        import tty  # noqa: PLC0415
+
+        before: list[Any] = termios.tcgetattr(self._file)
+        tty.setcbreak(self._file, termios.TCSADRAIN)
+        try:
+            yield
+        finally:
+            termios.tcsetattr(self._file, termios.TCSADRAIN, before)
+
+    def lines(self) -> Iterator[str]:
+        """Yield the lines that were finished since it was asked last."""
+        while select.select([self._file], [], [], 0)[0]:
+            keys = os.read(self._file, 1024).decode(errors="replace")
+            if not keys:
+                return
+            for key in keys:
+                if key in "\r\n":
+                    line, self.typed = self.typed, ""
+                    yield line
+                elif key in _BACKSPACE:
+                    self.typed = self.typed[:-1]
+                else:
+                    self.typed = "" if key == _ESCAPE else self.typed + key
 
 
 def is_watched() -> bool:
@@ -114,8 +189,13 @@ class PlainLines:
         if line:
             self._line(visible(line))
 
-    def show(self, follower: Follower, reading: LiveReading) -> None:
-        """Show nothing: a file has no present moment."""
+    def keys(self) -> AbstractContextManager[None]:
+        """Take no orders."""
+        return nullcontext()
+
+    def show(self, follower: Follower, reading: LiveReading) -> Iterable[Order]:  # noqa: ARG002
+        """Show nothing: a file has no present moment, and nobody is there to order."""
+        return ()
 
     def see_to(self, event: Event | None, progress: Progress) -> None:
         """Raise `AccessError` with what is to be seen to."""
@@ -163,6 +243,11 @@ class LiveDisplay(PlainLines):
         super().__init__(job, assignment)
         self._shown = 0
         self._due = 0.0
+        self._keyboard = Keyboard()
+
+    def keys(self) -> AbstractContextManager[None]:
+        """Take orders from the keyboard."""
+        return self._keyboard.taken()
 
     def tell(self, event: Event) -> None:
         """Print a line on an event, and ring: once for a reading, twice and in colour for what is wrong."""
@@ -173,13 +258,19 @@ class LiveDisplay(PlainLines):
         if is_wrong or isinstance(event, Recorded):
             print(_BELL * (2 if is_wrong else 1), end="", flush=True)
 
-    def show(self, follower: Follower, reading: LiveReading) -> None:
-        """Show the present moment, ten times a second at most."""
+    def show(self, follower: Follower, reading: LiveReading) -> Iterator[Order]:
+        """Show the present moment, ten times a second at most; yield what was typed and can be done."""
         if reading.time < self._due:
             return
+        for line in filter(str.strip, self._keyboard.lines()):
+            try:
+                yield order_of(line, follower.progress)
+            except InputError as error:
+                self._say(error.problems[0].message)
         self._due = reading.time + _BEAT
         width = shutil.get_terminal_size().columns - 1
-        shown = [visible(line)[:width] for line in panel(reading, follower, self._assignment, self._writer)]
+        lines = [*panel(reading, follower, self._assignment, self._writer), self._keyboard.line]
+        shown = [visible(line)[:width] for line in lines]
         print(self._back(), *(f"{line}\n" for line in shown), sep="", end="", flush=True)
         self._shown = len(shown)
 

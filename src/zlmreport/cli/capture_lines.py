@@ -8,6 +8,7 @@ from math import isclose
 
 from zlmreport.capture.events import (
     Closed,
+    Commented,
     DatumHolds,
     DatumMoved,
     DatumTaken,
@@ -22,6 +23,8 @@ from zlmreport.capture.events import (
     Placed,
     Recorded,
     Repeated,
+    Retake,
+    Skipped,
     TooSlow,
     TrackLost,
     Unclear,
@@ -115,18 +118,34 @@ def _out_of_sight(event: Event, writer: AxisWriter) -> str:
     match event:
         case TrackLost(silence=silence):
             line = f"SILENT   no sound reading came for {silence:.1f} s; visits may have gone unseen"
-        case Unclear(expected=float(expected), candidates=((ListedVisit() as visit, _), *_)):
-            line = f"DOUBT    {writer.visit(visit)}: {_departs(event.position - expected, writer)}"
-        case Unclear(target=target, approach=approach):
-            line = f"WHERE?   target {target} {approach.arrow}: {candidates(event)}"
-        case Placed(visit=visit):
-            line = f"placed   {writer.visit(visit) if visit else 'no visit'}"
         case Frozen(seconds=seconds):
             line = f"FROZEN   the display has shown the same for {seconds:.0f} s: {_FROZEN_HELP}"
         case Elsewhere(position=position, factor=None):
             line = f"no target at {writer.position(position)}, where it stands; is the datum right?"
         case Elsewhere(position=position, factor=float(factor)):
             line = f"DISPLAY  {writer.position(position)} is no target, {misread(factor)}"
+        case _:
+            line = _asked_and_told(event, writer)
+    return line
+
+
+def _asked_and_told(event: Event, writer: AxisWriter) -> str:
+    line = ""
+    match event:
+        case Unclear(expected=float(expected), candidates=((ListedVisit() as visit, _), *_)):
+            line = f"DOUBT    {writer.visit(visit)}: {_departs(event.position - expected, writer)}"
+        case Unclear(target=target, approach=approach):
+            line = f"WHERE?   target {target} {approach.arrow}: {candidates(event)}"
+        case Placed(visit=visit):
+            line = f"placed   {writer.visit(visit) if visit else 'no visit'}"
+        case Retake(first=first, last=last):
+            until = "" if last == first else f" to {last.number}"
+            came = f"{writer.visit(first)} {SIDES[first.approach]}"
+            line = f"RETAKE   visit {first.number}{until}: let the axis come to {came}"
+        case Skipped(visit=visit):
+            line = f"skipped  {writer.visit(visit)}: left out, as you said"
+        case Commented(text=text):
+            line = f"comment  {text}"
     return line
 
 

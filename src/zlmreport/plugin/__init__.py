@@ -11,10 +11,13 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from zlmreport.capture.events import Closed as DatumClosed
+    from zlmreport.capture.events import Commented as OperatorCommented
     from zlmreport.capture.events import DatumHolds, DatumMoved, DatumTaken, ZeroLost
     from zlmreport.capture.events import Ended as CaptureEnded
     from zlmreport.capture.events import Recorded as ReadingRecorded
     from zlmreport.capture.events import Resumed as CaptureResumed
+    from zlmreport.capture.events import Retake as OperatorRetake
+    from zlmreport.capture.events import Skipped as OperatorSkipped
     from zlmreport.capture.history import Entry as JournalEntry
     from zlmreport.capture.history import History as JournalHistory
     from zlmreport.capture.history import read_history as read_journal
@@ -389,6 +392,9 @@ __all__ = [
     "Notice",
     "Notifier",
     "Occasion",
+    "OperatorCommented",
+    "OperatorRetake",
+    "OperatorSkipped",
     "Options",
     "PageWords",
     "Panel",
@@ -568,7 +574,8 @@ _ROOMS = {
     "zlmreport.certificate.conditions": "Described",
     "zlmreport.capture.events": (
         "CaptureEnded=Ended CaptureResumed=Resumed DatumClosed=Closed DatumHolds DatumMoved DatumTaken "
-        "ReadingRecorded=Recorded ZeroLost"
+        "OperatorCommented=Commented OperatorRetake=Retake OperatorSkipped=Skipped ReadingRecorded=Recorded "
+        "ZeroLost"
     ),
     "zlmreport.capture.history": "JournalEntry=Entry JournalHistory=History read_journal=read_history",
     "zlmreport.capture.options": "CaptureOptions",

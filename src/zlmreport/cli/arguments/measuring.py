@@ -216,6 +216,7 @@ def capture(command: str) -> CommandParser:
         "examples:\n  zlmreport capture x-axis.yaml\n"
         "  zlmreport capture x-axis.yaml --resume\n"
         "  zlmreport capture x-axis.yaml --resume --answer 17\n"
+        "  zlmreport capture x-axis.yaml --retake 17\n"
         "  zlmreport capture x-axis.yaml --end && zlmreport x-axis.yaml",
     )
     parser.add_argument("job", metavar="JOB.yaml", type=Path, help="job file")
@@ -228,6 +229,13 @@ def capture(command: str) -> CommandParser:
         default="",
         help="with --resume: the visit at which the axis stood when the capture asked and ended, by its\n"
         "number, or none",
+    )
+    parser.add_argument(
+        "--retake",
+        metavar="VISIT",
+        default="",
+        help="go on, but first take a visit again, by its number, or a run ('run 2'); also when all visits\n"
+        "were taken; the earlier readings stay in the journal",
     )
     parser.add_argument(
         "--end",
