@@ -98,3 +98,17 @@ def test_millimetres_taken_for_degrees(tmp_path: Path) -> None:
         tmp_path, {"axis": {"name": "Y2", "kind": "rotary", "travel": [-20, 20]}, "environment": {}}
     )
     assert sentence.endswith("measured over 40°; if these are millimetres: axis.kind: linear")
+
+
+def test_a_run_in_another_unit_is_named_on_the_first_page(tmp_path: Path) -> None:
+    rows = "".join(
+        f"{target},{way},{run},{(run + target) * (0.001 if run == 3 else 1.0)}\n"
+        for run in range(1, 6)
+        for way in "+-"
+        for target in (5, 10, 15)
+    )
+    readings = tmp_path / "mixed.csv"
+    readings.write_text(f"target,direction,run,deviation\n{rows}", encoding="utf-8")
+    measurement = {"date": "2022-04-07", "source": {"plugin": "laser-csv", "file": str(readings)}}
+    (sentence,) = said(tmp_path, {"measurement": measurement})
+    assert sentence.startswith("run 3 looks as if it were in another unit than the others; correct the run")

@@ -94,8 +94,8 @@ def test_the_first_page_of_a_report_names_what_is_not_considered_beside_u(tmp_pa
 
     headings = [block.heading for block in document.cover if isinstance(block, Notice)]
     assert (
-        "U incomplete: Temperature measurement, machine, Temperature measurement, measuring device, "
-        "Expansion coefficient, machine, Expansion coefficient, measuring device not considered"
+        "U incomplete: Temperature measurement, machine; Temperature measurement, measuring device; "
+        "Expansion coefficient, machine; Expansion coefficient, measuring device not considered"
     ) in headings
     assert not any("about 95 %" in getattr(block, "text", "") for block in document.cover)
 

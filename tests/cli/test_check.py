@@ -16,6 +16,22 @@ def test_sound_job_is_told_with_every_requirement(shop: Shop) -> None:
     ]
 
 
+MEASURED = """instrument: {name: Laser, expanded_uncertainty: 0.4}
+environment: {axis_temperature: 68.2, expansion_coefficient: 11.5}
+"""
+
+
+def test_nothing_is_called_sound_above_a_doubt_or_an_incomplete_uncertainty(shop: Shop) -> None:
+    shop.job(("evaluate:", f"{MEASURED}evaluate:"))
+    checked = shop.run("check", "job.yaml").output.splitlines()
+    made = shop.run("job.yaml").output.splitlines()
+    assert checked[0] == "job.yaml  can be evaluated, with reservations"
+    (incomplete, unlikely) = checked[1:3]
+    assert incomplete.startswith("  open     U incomplete: Misalignment of the measuring line; Temperature")
+    assert unlikely.endswith("68.2 °F would be 20.1 °C")
+    assert {incomplete, unlikely} <= set(made)
+
+
 def test_nothing_is_written(shop: Shop) -> None:
     shop.job()
     before = sorted(shop.folder.rglob("*"))

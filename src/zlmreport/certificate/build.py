@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
+
+import numpy as np
 
 from zlmreport.certificate.attachments import sources
 from zlmreport.certificate.conditions import Described
@@ -26,6 +28,9 @@ if TYPE_CHECKING:
     from zlmreport.figures.figure import Figure
     from zlmreport.job.document_keys import Laboratory
     from zlmreport.job.job import Job
+    from zlmreport.measurement.measurement_set import MeasurementSet
+
+_OF_A_RUN = Words("{statement}; {remedy}", "{statement}; {remedy}")
 
 GENERATOR = f"zlmreport {__version__}"
 
@@ -71,7 +76,7 @@ def build(  # noqa: PLR0913, PLR0917 - what a document is made of
     read = (measurements, *(each.evaluation.measurements for each in as_found[:1]))
     files = [file for each in read for file in each.provenance.files]
     made_from = sources(job, files, logo.file if logo else None)
-    doubtful = doubts(job, [each.evaluation for each in evaluated])
+    doubtful = (*doubts(job, [each.evaluation for each in evaluated]), *_of_runs(measurements))
     letterhead, title = _letterhead(job.keys.laboratory, logo), writer.say(document_title(certificate))
     material = Material(
         job,
@@ -121,6 +126,19 @@ def build(  # noqa: PLR0913, PLR0917 - what a document is made of
         is_compact=laid_out.is_compact,
         doubts=doubtful,
     )
+
+
+def _of_runs(measurements: MeasurementSet) -> Iterator[Words]:
+    """Yield a sentence for each run that seems to be in another unit than the others."""
+    if not np.isfinite(measurements.deviation).any():
+        return
+    from zlmreport.model.faults import FaultKind, recorded_faults  # noqa: PLC0415 - brings the error model
+    from zlmreport.model.observations import observations_of  # noqa: PLC0415 - likewise
+
+    observed = observations_of(measurements)
+    for each in recorded_faults(observed.design, observed.deviation):
+        if each.kind is FaultKind.WRONG_UNIT and each.run is not None:
+            yield _OF_A_RUN.given(statement=each.statement, remedy=each.remedy)
 
 
 def _laid_out(material: Material) -> LaidOut:

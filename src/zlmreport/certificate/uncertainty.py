@@ -114,7 +114,7 @@ def statement(budget: Budget | NoBudget, writer: Writer) -> Iterator[Block]:
     elif budget.is_complete:
         yield Paragraph(writer.say(_COVERAGE))
     else:
-        missing = ", ".join(writer.say(wording.contributor(name)) for name in budget.missing)
+        missing = "; ".join(writer.say(wording.contributor(name)) for name in budget.missing)
         yield Notice(writer.say(_INCOMPLETE.given(missing=missing)), (writer.say(_INCOMPLETE_MEANS),))
     if budget.uncorrected_expansion is None:
         yield Notice(writer.say(_NOT_AT_REFERENCE), ())

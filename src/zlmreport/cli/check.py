@@ -33,6 +33,7 @@ def run(options: Namespace) -> int:
             evaluations=certificate.evaluations,
             diagnosis=certificate.diagnosis,
             doubts=certificate.doubts,
+            budget=certificate.budget,
         )
 
     def lines(result: Result) -> Iterator[str]:

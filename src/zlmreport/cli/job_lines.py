@@ -7,14 +7,17 @@ from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from zlmreport.certificate.conformity import STATEMENTS
+from zlmreport.certificate.document import Notice
 from zlmreport.certificate.readings import missing_readings
 from zlmreport.certificate.statements import exclusion_notice
+from zlmreport.certificate.uncertainty import statement
 from zlmreport.certificate.values import limit
 from zlmreport.cli.terminal import Colour, shown_path, table
 from zlmreport.language import Language
 from zlmreport.presenting.amounts import written
 from zlmreport.presenting.writer import Writer
 from zlmreport.quantities.notation import plain
+from zlmreport.uncertainty.budget import Budget
 
 if TYPE_CHECKING:
     from zlmreport.cli.jobs import Result
@@ -28,6 +31,7 @@ if TYPE_CHECKING:
 #: parameters, and how much of a name is always shown; what the column of uncertainties needs.
 _USUAL_WIDTH, _OTHER_COLUMNS, _SHORTEST_NAME = 120, 44, 24
 _UNCERTAINTY_COLUMN = 7
+_SOUND = "the job and its data are sound"
 
 
 def report(result: Result) -> Iterator[str]:
@@ -51,11 +55,12 @@ def findings(result: Result) -> Iterator[str]:
         return
     writer = Writer.of(result.evaluations[0].measurements, Language.ENGLISH)
     faults = _faults(result.evaluations[0].measurements)
-    sound = Colour.RED.of("its data look wrong") if faults else "the job and its data are sound"
-    yield f"{Colour.BOLD.of(str(result.path))}  {sound}"
+    reserved = (*_incomplete(result, writer), *_unlikely(result, writer))
+    sound = Colour.YELLOW.of("can be evaluated, with reservations") if reserved else _SOUND
+    yield f"{Colour.BOLD.of(str(result.path))}  {Colour.RED.of('its data look wrong') if faults else sound}"
     for fault in faults:
         yield f"  {writer.say(fault.statement)}; {writer.say(fault.remedy)}"
-    yield from _unlikely(result, writer)
+    yield from reserved
     for evaluation in result.evaluations:
         yield from requirements(evaluation.designation, evaluation.findings, writer)
     yield from _missing(result, writer)
@@ -63,7 +68,7 @@ def findings(result: Result) -> Iterator[str]:
 
 
 def _faults(measurements: MeasurementSet) -> tuple[Fault, ...]:
-    """Return what the rows of a file themselves show to be wrong."""
+    """Return what the rows of a file themselves show to be wrong; units are among the doubts."""
     import numpy as np  # noqa: PLC0415 - the same
 
     from zlmreport.model.faults import FaultKind, recorded_faults  # noqa: PLC0415 - only where data are checked
@@ -73,9 +78,7 @@ def _faults(measurements: MeasurementSet) -> tuple[Fault, ...]:
         return ()
     observed = observations_of(measurements)
     found = recorded_faults(observed.design, observed.deviation)
-    return tuple(
-        each for each in found if each.is_sure or (each.kind is FaultKind.WRONG_UNIT and each.run is not None)
-    )
+    return tuple(each for each in found if each.is_sure and each.kind is not FaultKind.WRONG_UNIT)
 
 
 def requirements(designation: str, found: Iterable[Finding], writer: Writer) -> Iterator[str]:
@@ -143,7 +146,7 @@ def _verdict(parameter: Parameter, writer: Writer) -> str:
 
 
 def _notices(result: Result, writer: Writer) -> Iterator[str]:
-    notices = [*_unlikely(result, writer), *_missing(result, writer)]
+    notices = [*_incomplete(result, writer), *_unlikely(result, writer), *_missing(result, writer)]
     for evaluation in result.evaluations:
         notices.extend(
             f"  {Colour.YELLOW.of('not met')}  {evaluation.designation}: "
@@ -155,6 +158,14 @@ def _notices(result: Result, writer: Writer) -> Iterator[str]:
     if notices:
         yield ""
         yield from notices
+
+
+def _incomplete(result: Result, writer: Writer) -> Iterator[str]:
+    """Yield what U leaves out, where there is one."""
+    if isinstance(result.budget, Budget):
+        for block in statement(result.budget, writer):
+            if isinstance(block, Notice):
+                yield f"  {Colour.YELLOW.of('open')}     {block.heading}"
 
 
 def _unlikely(result: Result, writer: Writer) -> Iterator[str]:

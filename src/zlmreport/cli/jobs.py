@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from zlmreport.language import Words
     from zlmreport.model.diagnosis import Diagnosis
     from zlmreport.plugins import Registry
+    from zlmreport.uncertainty.budget import Budget, NoBudget
 
 _NOT_MET = 1
 SCHEMA = "zlmreport/summary/1"
@@ -83,6 +84,8 @@ class Result:
         Of its error model; None where the job names none.
     doubts
         Values that seem to be in another unit, in sentences.
+    budget
+        Of the uncertainty; None where nothing was evaluated.
     files
         That were written.
     error
@@ -94,6 +97,7 @@ class Result:
     evaluations: tuple[Evaluation, ...] = ()
     diagnosis: Diagnosis | None = None
     doubts: tuple[Words, ...] = ()
+    budget: Budget | NoBudget | None = None
     files: tuple[Path, ...] = ()
     error: ZlmreportError | None = None
 

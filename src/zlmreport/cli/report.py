@@ -50,6 +50,7 @@ def _make(options: Namespace, registry: Registry, formats: tuple[str, ...], sign
             evaluations=made.evaluations,
             diagnosis=made.diagnosis,
             doubts=made.doubts,
+            budget=made.budget,
             files=files,
         )
 
