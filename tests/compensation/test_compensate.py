@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 from typing import Any
 
@@ -152,6 +153,41 @@ def test_a_second_run_is_held_against_the_forecast(
     assert (found, values["verdict"]) == (code, verdict)
     if verdict != "other":
         assert values["ratio"] == pytest.approx({"held": 0.0, "wrong-sign": 2.0}[verdict], abs=0.01)
+
+
+def test_the_forecast_is_named_beside_what_the_second_test_shows(folder: Path, capsys: Capture) -> None:
+    before = job(folder, "before.yaml", "without", more="compensation: {controller: linuxcnc}")
+    after = job(folder, "after.yaml", "type0")
+    _, values = run(capsys, "--confirm", before, after)
+    assert values["before"]["E"] == pytest.approx(65.4, abs=0.01)
+    assert values["after"]["E"] == pytest.approx(0.08, abs=0.01)
+    assert values["forecast"]["E"]["low"] < values["forecast"]["E"]["high"]
+    assert main(["compensate", "--confirm", before, after]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert re.fullmatch(r"  E  65\.40   0\.\d\d to 0\.\d\d +0\.08 +µm  (within|outside)", lines[5])
+    assert lines[-1] == "the certificate of both tests, as found and as left: --output DIR writes the job"
+
+
+def test_both_tests_make_one_certificate(folder: Path, capsys: Capture) -> None:
+    more = "environment: {air_temperature: 21.5}\ncompensation: {controller: linuxcnc}"
+    before = job(folder, "before.yaml", "without", more=more)
+    after = job(folder, "after.yaml", "type0", more="output: {formats: [json]}")
+    Path("before.yaml").write_text(Path("before.yaml").read_text().replace(str(DATA), "readings"))
+    (folder / "readings").symlink_to(DATA)
+    assert main(["compensate", "--confirm", before, after, "-o", "both"]) == 0
+    assert capsys.readouterr().out.endswith("as found and as left: zlmreport both/LOOP-1-as-left.yaml\n")
+    assert main(["both/LOOP-1-as-left.yaml"]) == 0
+    results = json.loads((folder / "both" / "LOOP-1.json").read_text(encoding="utf-8"))
+    found, left = (
+        {each["symbol"]: each["value"] for each in evaluations[0]["parameters"]}
+        for evaluations in (results["as_found"]["evaluations"], results["evaluations"])
+    )
+    assert (found["E"], left["E"]) == (pytest.approx(65.4, abs=0.01), pytest.approx(0.08, abs=0.01))
+    assert (
+        main(["compensate", "--confirm", before, after, "-o", "both"]) == 2
+    )  # nobody's work is written over
+    assert main(["compensate", "--confirm", before, "both/LOOP-1-as-left.yaml"]) == 0
+    assert capsys.readouterr().out.endswith("as found and as left: zlmreport both/LOOP-1-as-left.yaml\n")
 
 
 def test_a_table_that_was_active_is_part_of_the_new_one(folder: Path) -> None:

@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
+import json
+import os
 from argparse import Namespace
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from zlmreport import pipeline
 from zlmreport.certificate.compensation_sheet import compensation_sheet, remarks
-from zlmreport.cli.terminal import Colour, print_json, shown_path, table, wrapped
+from zlmreport.cli.terminal import Colour, print_json, said, shown_path, table, wrapped
 from zlmreport.compensation.basis import Basis, FittedModel, Periodic, basis_of_means, basis_of_model
 from zlmreport.compensation.confirmation import Confirmation, ConfirmationVerdict, confirm
 from zlmreport.compensation.curve import ErrorCurve, curve_of, rows_of
+from zlmreport.compensation.forecast import Expected, Figures, figures
 from zlmreport.compensation.making import Made, make
 from zlmreport.errors import InputError, Place
 from zlmreport.files import Document, demand_free, write
@@ -24,9 +29,10 @@ from zlmreport.language import Language
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.plugin.protocols import Controller
 from zlmreport.plugins import Registry, find_plugins
-from zlmreport.presenting.writer import Writer
+from zlmreport.presenting.writer import NOTHING, Writer
 from zlmreport.quantities.arrays import FloatArray
 from zlmreport.quantities.formatting import fixed_number, general_number
+from zlmreport.quantities.units import Unit
 
 SCHEMA = "zlmreport/compensation/1"
 CONFIRMATION_SCHEMA = "zlmreport/confirmation/1"
@@ -154,13 +160,18 @@ def _controller(job: Job, registry: Registry, options: Namespace) -> tuple[Contr
 def _confirm(options: Namespace, registry: Registry) -> int:
     before, after = (load(path, registry) for path in options.jobs)
     made, _ = _made(before, registry, options)
-    found = confirm(
-        made.basis.curve,
-        curve_of(pipeline.read(after, registry), after.source.place),
-        made.decoded,
-        after.source.place,
-    )
+    curve = curve_of(pipeline.read(after, registry), after.source.place)
+    found = confirm(made.basis.curve, curve, made.decoded, after.source.place)
+    shown = figures(np.stack([curve.forward, curve.reverse]), curve)
+    written: Sequence[Path] = ()
+    if options.output and after.keys.as_found is None:
+        document = _job_of_both(before, after, made, options.jobs[1], options.output)
+        demand_free([document.path])
+        written = write([document])
+    unit = before.axis.deviation_unit
+    factor = unit.from_si(1.0)
     if options.json:
+        expected = made.forecast.second_test
         print_json(
             {
                 "schema": CONFIRMATION_SCHEMA,
@@ -168,11 +179,45 @@ def _confirm(options: Namespace, registry: Registry) -> int:
                 "ratio": found.ratio,
                 "applied": found.applied,
                 "shift": before.axis.position_unit.from_si(found.shift),
+                "unit": unit.ascii,
+                "before": made.forecast.before.in_unit(factor),
+                "forecast": {name: each.in_unit(factor) for name, each in expected.items()},
+                "after": shown.in_unit(factor),
+                "files": [str(path) for path in written],
             }
         )
     else:
         print(*_confirmation_lines(before, found), sep="\n")
+        print(*_against_forecast(made, shown, unit), sep="\n")
+        both = written[0] if written else options.jobs[1] if after.keys.as_found else None
+        how = f"zlmreport {shown_path(both)}" if both else "--output DIR writes the job"
+        print(f"the certificate of both tests, as found and as left: {how}")
     return 0 if found.verdict is ConfirmationVerdict.HELD else 1
+
+
+def _job_of_both(before: Job, after: Job, made: Made, path: Path, folder: Path) -> Document:
+    """Return the job of the axis as found, before its table, and as left."""
+
+    def told(value: object) -> str:
+        return str(value) if not isinstance(value, Path) else os.path.relpath(value, folder)
+
+    source = before.source.options.model_dump(exclude_unset=True, exclude={"instrument"})
+    measurement: dict[str, Any] = {"source": {"plugin": before.source.identifier, **source}}
+    if before.keys.measurement.date is not None:
+        measurement = {"date": before.keys.measurement.date, **measurement}
+    control = said(made.controller.title)
+    found = {
+        "adjustment": f"Compensation table of {len(made.decoded.positions)} rows in the control ({control}).",
+        "measurement": measurement,
+    }
+    if before.keys.environment is not None:
+        found["environment"] = before.keys.environment.model_dump(mode="json", exclude_unset=True)
+    text = (
+        "# The axis as found and as left, before and after its compensation table.\n"
+        f"extends: {json.dumps(told(path.resolve()))}\n"
+        f"as_found: {json.dumps(found, default=told, ensure_ascii=False, indent=2)}\n"
+    )
+    return Document(folder / f"{after.keys.certificate.number}-as-left.yaml", text.encode())
 
 
 def _confirmation_lines(job: Job, found: Confirmation) -> Iterator[str]:
@@ -183,6 +228,28 @@ def _confirmation_lines(job: Job, found: Confirmation) -> Iterator[str]:
     if found.shift:
         unit = job.axis.position_unit
         yield from wrapped(f"shifted by {general_number(round(unit.from_si(found.shift), 3))} {unit.symbol}")
+
+
+def _against_forecast(made: Made, shown: Figures, unit: Unit) -> Iterator[str]:
+    """Yield the table of what was, what was forecast, and what the second test shows."""
+    factor = unit.from_si(1.0)
+    before, after = made.forecast.before.in_unit(factor), shown.in_unit(factor)
+    rows = []
+    for symbol, value in after.items():
+        expected, where = made.forecast.second_test.get(symbol), ""
+        if expected is not None:
+            where = "within" if expected.low <= value / factor <= expected.high else "outside"
+        was = fixed_number(before[symbol], 2) if symbol in before else NOTHING
+        rows.append((symbol, was, _interval(expected, factor), fixed_number(value, 2), unit.symbol, where))
+    yield ""
+    yield from table([("", "before", "forecast, 95 %", "second test", "", ""), *rows], indent="  ")
+    yield ""
+
+
+def _interval(expected: Expected | None, factor: float) -> str:
+    if expected is None:
+        return NOTHING
+    return " to ".join(fixed_number(each * factor, 2) for each in (expected.low, expected.high))
 
 
 def _values(job: Job, made: Made, written: Sequence[Path]) -> dict[str, Any]:
@@ -222,12 +289,7 @@ def _lines(job: Job, made: Made, writer: Writer) -> Iterator[str]:
     before, after = (each.in_unit(factor) for each in (made.forecast.before, made.forecast.after))
     rows = []
     for symbol, value in before.items():
-        expected = made.forecast.second_test.get(symbol)
-        second = (
-            "–"
-            if expected is None
-            else " to ".join(fixed_number(each * factor, 2) for each in (expected.low, expected.high))
-        )
+        second = _interval(made.forecast.second_test.get(symbol), factor)
         rows.append((symbol, fixed_number(value, 2), fixed_number(after[symbol], 2), second, unit.symbol))
     yield from table([("", "before", "after", "a second test, 95 %", ""), *rows], indent="  ")
     yield ""

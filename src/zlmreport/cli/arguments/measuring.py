@@ -98,7 +98,13 @@ def compensate(command: str) -> CommandParser:
         help="with --from model: periodic effects go into the table, or stay out; without it those go in "
         "that have four rows in each period",
     )
-    parser.add_argument("-o", "--output", metavar="DIR", type=Path, help="folder of the table and its sheet")
+    parser.add_argument(
+        "-o",
+        "--output",
+        metavar="DIR",
+        type=Path,
+        help="folder of the table and its sheet; with --confirm of the job that shows both tests",
+    )
     parser.add_argument(
         "--unconfirmed",
         action="store_true",
