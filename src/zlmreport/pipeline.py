@@ -93,6 +93,11 @@ def read_whole(job: Job, registry: Registry) -> MeasurementSet:
     return measurements
 
 
+def read_sessions(job: Job, registry: Registry) -> tuple[MeasurementSet, ...]:
+    """Read the further tests of the axis against which the job's error model is held."""
+    return tuple(read(each, registry) for each in job.sessions)
+
+
 def compose(job: Job, registry: Registry) -> Certificate:
     """Read, evaluate by every standard that the job names, and compose the document; nothing is rendered."""
     missing = list(missing_items(job))
@@ -165,7 +170,7 @@ def modelled(job: Job, measurements: MeasurementSet, registry: Registry) -> Mode
     from zlmreport.certificate.model_annex import Modelled  # noqa: PLC0415
     from zlmreport.model.study import Fitted, Study  # noqa: PLC0415
 
-    study = Study.of(job, measurements, registry.effects)
+    study = Study.of(job, measurements, registry.effects, read_sessions(job, registry))
     diagnosis = study.diagnosis(registry.effects)
     history = study.history(Fitted(diagnosis.fit, diagnosis.error))
     return Modelled(

@@ -73,7 +73,8 @@ def build(  # noqa: PLR0913, PLR0917 - what a document is made of
         evaluated, as_found = map(_without_readings, (evaluated, as_found))
     designations = tuple(each.evaluation.designation for each in evaluated)
     logo = _logo(job)
-    read = (measurements, *(each.evaluation.measurements for each in as_found[:1]))
+    sessions = modelled.study.sessions if modelled else ()
+    read = (measurements, *(each.evaluation.measurements for each in as_found[:1]), *sessions)
     files = [file for each in read for file in each.provenance.files]
     made_from = sources(job, files, logo.file if logo else None)
     doubtful = (*doubts(job, [each.evaluation for each in evaluated]), *_of_runs(measurements))

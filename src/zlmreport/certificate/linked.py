@@ -161,11 +161,11 @@ def graphs(study: Study, whole: Fitted, language: Language) -> dict[str, Any]:
     """
     observed, axis = study.observed, study.job.axis
     design = observed.design
-    diagram = ModelDiagram(whole.fit, whole.error)
+    diagram = ModelDiagram(whole.fit.of_the_job, whole.error)
     left = corrected(study.measurements, observed, whole.fit).deviation[observed.reading]
-    aside = outliers(design, observed.deviation).readings
+    aside = outliers(study.together.design, study.together.deviation).readings
     fitted = np.ones(len(observed.reading), dtype=np.bool_)
-    fitted[aside] = False
+    fitted[aside[aside < len(fitted)]] = False  # the job's own readings stand first
     unit = axis.deviation_unit
     return {
         "axes": list(_axes(study, language)),
@@ -244,4 +244,4 @@ def _readings(failure: Failure, diagnosis: Diagnosis, study: Study) -> list[int]
     if failure.test is ResidualTest.OUTLIERS:
         return [int(each) for each in diagnosis.outliers]
     kept = study.observed.reading[~np.isin(study.observed.reading, diagnosis.outliers)]
-    return [int(each) for each in kept[failure.readings]]
+    return [int(each) for each in kept[failure.readings[failure.readings < len(kept)]]]

@@ -88,7 +88,7 @@ def section(modelled: Modelled, writer: Writer) -> Section:
     rows = DiagnosisRows.of(diagnosis, writer.language, modelled.titles)
     moving = no_table_takes_away(whole.fit, writer.language)
     tables = ModelTables(writer, whole.fit.design, modelled.titles)
-    diagram = ModelDiagram(whole.fit, whole.error)
+    diagram = ModelDiagram(whole.fit.of_the_job, whole.error)
     blocks: list[Block] = [
         Notice(writer.say(OPINION), (writer.say(_BASIS),)),
         Paragraph(rows.statement),

@@ -129,7 +129,7 @@ def _basis(  # noqa: PLR0913, PLR0917 - of what, and how it is asked for
     if job.effects:
         from zlmreport.model.study import Study  # noqa: PLC0415 - only for a job with a model
 
-        study = Study.of(job, measurements, registry.effects)
+        study = Study.of(job, measurements, registry.effects, pipeline.read_sessions(job, registry))
         fitted = FittedModel(measurements, study.observed, study.fitted().fit)
     if is_of_model and fitted:
         return basis_of_model(curve, fitted, _COMMAND, rows, Periodic(options.periodic or Periodic.FITTING))

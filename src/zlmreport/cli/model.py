@@ -41,6 +41,7 @@ class _Session:
     path: Path
     job: Job
     measurements: MeasurementSet
+    sessions: tuple[MeasurementSet, ...]
     registry: Registry
 
     @property
@@ -55,7 +56,7 @@ class _Session:
 
     def study(self, job: Job | None = None) -> Study:
         """Return the study of the job, or of what it is to become."""
-        return Study.of(job or self.job, self.measurements, self.registry.effects)
+        return Study.of(job or self.job, self.measurements, self.registry.effects, self.sessions)
 
     def forecasts(self, study: Study, history: Sequence[Fitted]) -> tuple[Forecast, ...]:
         """Return what the job's standards would say of a corrected axis."""
@@ -66,7 +67,9 @@ def run(options: Namespace) -> int:
     """Do what the action says with a job's error model."""
     registry = find_plugins(files=options.plugin)
     job = load(options.job, registry)
-    session = _Session(options.job, job, pipeline.read(job, registry), registry)
+    session = _Session(
+        options.job, job, pipeline.read(job, registry), pipeline.read_sessions(job, registry), registry
+    )
     lines, values = _ACTIONS[options.action](session, options)
     if options.json:
         print_json(values)

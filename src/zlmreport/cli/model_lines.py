@@ -156,7 +156,11 @@ def change_lines(path: Path, change: Change, writer: Writer) -> Iterator[str]:
 def _heading(job: Job, fit: Fit) -> str:
     """Return the first line: which job, which axis, which model."""
     model = " + ".join(fit.model.identifiers) or "no effects yet"
-    return f"{Colour.BOLD.of(job.keys.certificate.number)}  axis {job.axis.name}: {model}"
+    heading = f"{Colour.BOLD.of(job.keys.certificate.number)}  axis {job.axis.name}: {model}"
+    others = [each.files[0].name for each in job.sessions]
+    runs = [fit.design.cycle[fit.design.session == number] for number in range(1, len(others) + 1)]
+    held = [f"{name} (runs {each.min()} to {each.max()})" for name, each in zip(others, runs, strict=True)]
+    return f"{heading}\n  held together with {', '.join(held)}" if held else heading
 
 
 def _parameters(fit: Fit) -> Iterator[str]:

@@ -9,6 +9,7 @@ from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from zlmreport.job.types import (
     JobPart,
+    JobPath,
     NotNegative,
     Positive,
     Text,
@@ -217,4 +218,10 @@ class Model(JobPart):
     candidates: list[dict[str, Any]] = Field(
         default_factory=list,
         description="Effects written as formulas, which a diagnosis tries beside the installed ones.",
+    )
+    sessions: list[JobPath] = Field(
+        default_factory=list,
+        description="Jobs of further tests of the same axis, on other days or at other temperatures: the "
+        "model is held against all of them, each with its own zero. They are not evaluated.",
+        examples=[["second-test.yaml"]],
     )

@@ -84,9 +84,12 @@ class Job:
     directory
         Where the files go.
     files
-        The job file, every file that it extends, and the tables of its axis, with digests.
+        The job file, every file that it extends, the tables of its axis, and those of its sessions, with
+        digests.
     tree
         What the files say, value by value, with the places.
+    sessions
+        Further tests of the same axis, against which the error model is held as well.
     """
 
     keys: JobKeys
@@ -103,6 +106,7 @@ class Job:
     extensions: tuple[ExtensionChoice, ...] = ()
     controller: ControllerChoice | None = None
     tree: Keys = field(default_factory=lambda: keys_of(Place("job")))
+    sessions: tuple[Job, ...] = ()
 
     @property
     def as_found(self) -> Job | None:

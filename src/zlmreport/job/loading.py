@@ -65,6 +65,20 @@ def load(
     AccessError
         If the job, or a file that it extends, cannot be read.
     """
+    job = _load(path, registry, formats, content, defaults)
+    sessions = _sessions(job, path, registry)
+    files = (file for each in sessions for file in each.files)
+    return replace(job, sessions=sessions, files=(*job.files, *files))
+
+
+def _load(
+    path: Path,
+    registry: Installed,
+    formats: tuple[str, ...] = (),
+    content: bytes | None = None,
+    defaults: Defaults | None = None,
+) -> Job:
+    """Read a job file without the further tests that its model names."""
     composition = compose(path, content, defaults)
     tree = composition.keys
     refuse_other_format(
@@ -117,6 +131,34 @@ def load(
         files=(*composition.files, *axis.files),
         tree=tree,
     )
+
+
+def _sessions(job: Job, path: Path, registry: Installed) -> tuple[Job, ...]:
+    """Return the jobs of further tests of an axis; the sessions that these name are not theirs to add.
+
+    Raises
+    ------
+    InputError
+        If one is the job itself, stands there twice, or is of another axis.
+    """
+    keys, found = job.keys, list[Job]()
+    named = [path.resolve()]
+    for number, stated in enumerate(keys.model.sessions if keys.model else ()):
+        place = job.place_of(f"model.sessions.{number}")
+        if stated.resolve() in named:
+            raise InputError.at(place, "this test is in the model already; name each further test once")
+        named.append(stated.resolve())
+        other = _load(stated, registry)
+        axis, machine = other.keys.axis, other.keys.machine
+        same = (axis.name, axis.kind) == (keys.axis.name, keys.axis.kind)
+        serials = {each for each in (machine.serial, keys.machine.serial) if each}
+        if not same or len(serials) > 1:
+            of = f"axis {axis.name} ({axis.kind}) of {machine.serial or 'a machine without a serial number'}"
+            raise InputError.at(
+                place, f"it is a test of {of}; sessions of a model are tests of one axis of one machine"
+            )
+        found.append(other)
+    return tuple(found)
 
 
 def _source(

@@ -19,7 +19,7 @@ from zlmreport.quantities.units import Unit
 
 _OF_THE_READINGS = (math.nan, math.nan)
 _ROUNDING = 1e-12
-_ARRAYS = ("position", "direction", "run", "target", "time", "since_reversal")
+_ARRAYS = ("position", "direction", "run", "target", "time", "since_reversal", "session")
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,11 +35,11 @@ class Design:
     direction : (N,) array
         +1.0 for the positive approach, −1.0 for the negative.
     run : (N,) integer array
-        Number of the run, from 1.
+        Number of the run in its session, from 1.
     target : (N,) integer array
         Index of the target position.
     time : (N,) array
-        From the first reading, s; where the source tells no times, the number of the reading.
+        From the first reading of its session, s; where the source tells no times, the number of the reading.
     time_is_counted
         True where `time` counts readings instead of seconds: time constants then come in readings.
     since_reversal : (N,) array
@@ -50,6 +50,9 @@ class Design:
         First and last position of the measured travel, m or rad; those of the readings if it is not given.
         ``dataclasses.replace`` keeps it, so that a design which asks for other positions (a prediction, a
         second test) still means the travel on which the parameters were estimated.
+    session : (N,) integer array
+        Which test of the axis each reading is of, where several are held together; 0, the job's own, where
+        nothing is given.
     """
 
     axis: Axis
@@ -62,9 +65,12 @@ class Design:
     since_reversal: FloatArray
     conditions: Mapping[str, FloatArray] = field(default_factory=dict)
     span: tuple[float, float] = _OF_THE_READINGS
+    session: IntArray = field(default_factory=lambda: np.empty(0, dtype=np.int64))
 
     def __post_init__(self) -> None:
         """Take the span from the readings where none is given; let no effect alter the arrays."""
+        if len(self.session) != len(self.position):  # other readings are asked for, of one session
+            object.__setattr__(self, "session", np.zeros(len(self.position), dtype=np.int64))
         for name in _ARRAYS:
             if (array := getattr(self, name)).flags.writeable:
                 object.__setattr__(self, name, array := array.view())
@@ -95,13 +101,19 @@ class Design:
         return np.unique(self.position)
 
     @property
+    def cycle(self) -> IntArray:
+        """The number of each run among those of all sessions: those of a later one count on, shape (N,)."""
+        runs = [0, *(int(self.run[self.session == each].max()) for each in range(self.session.max()))]
+        return np.asarray(np.cumsum(runs)[self.session] + self.run, dtype=np.int64)
+
+    @property
     def is_bidirectional(self) -> bool:
         """Whether targets are approached from both directions."""
         return bool(self.direction.min() < 0 < self.direction.max())
 
 
 def at_positions(design: Design, positions: FloatArray, approach: Approach) -> Design:
-    """Return the design of one approach to positions, all else being as it was in the mean of the test.
+    """Return the design of one approach to positions, all else being as it was in the mean of the job's test.
 
     Parameters
     ----------
@@ -113,7 +125,8 @@ def at_positions(design: Design, positions: FloatArray, approach: Approach) -> D
         A direction in which it was measured.
     """
     count = len(positions)
-    of_approach = np.flatnonzero(design.direction == approach)
+    own = design.session == 0
+    of_approach = np.flatnonzero((design.direction == approach) & own)
     order = of_approach[np.argsort(design.position[of_approach], kind="stable")]
     targets, first = np.unique(design.position[order], return_index=True)
     travelled = np.add.reduceat(design.since_reversal[order], first) / np.diff([*first, len(order)])
@@ -121,13 +134,14 @@ def at_positions(design: Design, positions: FloatArray, approach: Approach) -> D
         design,
         position=read_only_floats(positions),
         direction=read_only_floats(np.full(count, float(approach))),
-        run=read_only_integers(np.full(count, int(np.median(design.run)))),
+        run=read_only_integers(np.full(count, int(np.median(design.run[own])))),
         target=read_only_integers(np.arange(count)),
-        time=read_only_floats(np.full(count, design.time.mean())),
+        time=read_only_floats(np.full(count, design.time[own].mean())),
         since_reversal=read_only_floats(np.interp(positions, targets, travelled)),
         conditions={
-            name: read_only_floats(np.full(count, log.mean())) for name, log in design.conditions.items()
+            name: read_only_floats(np.full(count, log[own].mean())) for name, log in design.conditions.items()
         },
+        session=read_only_integers(np.zeros(count)),
     )
 
 

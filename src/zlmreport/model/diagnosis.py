@@ -23,6 +23,7 @@ from zlmreport.model.repeats import noise_floor
 from zlmreport.model.residual_means import flagged
 from zlmreport.model.residual_tests import failures, residual_tests
 from zlmreport.model.residuals import Failure, residuals_of
+from zlmreport.model.sessions import of_the_job
 from zlmreport.model.steps import Step, add, discriminate_by, equals_of, is_impossible, named_effects, steps
 from zlmreport.model.visibility import Visibility
 from zlmreport.quantities.arrays import IntArray
@@ -282,7 +283,7 @@ def diagnose(
         not_testable=not_testable,
         not_excluded=_not_excluded(candidates, not_testable),
         visibility=first.visible,
-        outliers=observed.reading[aside.readings],
+        outliers=_of_the_set(observed.reading[aside.readings]),
         remarks=(
             *observed.remarks,
             *(_LOOKS_WRONG.given(statement=each.statement, remedy=each.remedy) for each in faults),
@@ -291,9 +292,15 @@ def diagnose(
     )
 
 
+def _of_the_set(readings: IntArray) -> IntArray:
+    """Return the places of readings without those of other sessions."""
+    return readings[readings >= 0]
+
+
 def _faults(observed: Observations, first: Step, effects: Sequence[Effect]) -> tuple[Fault, ...]:
     """Return what looks wrong in the data; a run that two signs betray is named once."""
-    recorded = recorded_faults(observed.design, observed.deviation)
+    own = of_the_job(observed)
+    recorded = recorded_faults(own.design, own.deviation)
     foremost = (*((first.best,) if first.best else ()), *first.ranking.impossible[:1])
     rivals = [add(first.fit, each) for each in foremost] if first.something_is_missing else []
     by_runs = run_faults(first.fit, rivals, first.ranking.shape_evidence)

@@ -120,7 +120,7 @@ def run_faults(fitted: Fit, rivals: Sequence[Fit] = (), shape_evidence: float = 
         Evidence of the best shape without a name.
     """
     design, deviation = fitted.design, fitted.deviation
-    runs = np.unique(design.run)
+    runs = np.unique(design.cycle)
     if len(runs) < _FEWEST_RUNS:
         return ()
     spread = repeats(design, deviation).squares
@@ -128,7 +128,7 @@ def run_faults(fitted: Fit, rivals: Sequence[Fit] = (), shape_evidence: float = 
     tried = [
         (kind, run, left, whole, count)
         for run in runs.tolist()
-        for kind, left, whole, count in _slips(design, deviation, design.run == run)
+        for kind, left, whole, count in _slips(design, deviation, design.cycle == run)
     ]
     found = []
     for kind, run, left, whole, count in tried:
@@ -228,12 +228,12 @@ def _moved_by(design: Design, own: BoolArray, step: int) -> IntArray:
     places = {
         (run, sign, target): place
         for place, (run, sign, target) in enumerate(
-            zip(design.run.tolist(), design.direction.tolist(), design.target.tolist(), strict=True)
+            zip(design.cycle.tolist(), design.direction.tolist(), design.target.tolist(), strict=True)
         )
     }
     source = np.arange(len(own))
     for place in np.flatnonzero(own).tolist():
-        key = int(design.run[place]), float(design.direction[place]), int(design.target[place]) + step
+        key = int(design.cycle[place]), float(design.direction[place]), int(design.target[place]) + step
         source[place] = places.get(key, -1)
     return np.asarray(source, dtype=np.int64)
 
@@ -259,8 +259,8 @@ def _squares_left(columns: FloatArray, deviation: FloatArray) -> float:
 def _against_the_order(design: Design) -> Iterator[Fault]:
     """Yield runs whose rows lead the other way than their directions say, where others do not."""
     agrees = {}
-    for run in np.unique(design.run).tolist():
-        own = design.run == run
+    for run in np.unique(design.cycle).tolist():
+        own = design.cycle == run
         steps = np.diff(design.position[own])
         same_way = np.diff(design.direction[own]) == 0
         along = np.sign(steps[same_way]) * design.direction[own][1:][same_way]
@@ -276,10 +276,10 @@ def _against_the_order(design: Design) -> Iterator[Fault]:
 def _duplicated(design: Design, deviation: FloatArray) -> Iterator[Fault]:
     """Yield runs that repeat another reading for reading, where readings do not repeat as a rule."""
     runs = {
-        run: deviation[design.run == run][
-            np.lexsort((design.direction[design.run == run], design.target[design.run == run]))
+        run: deviation[design.cycle == run][
+            np.lexsort((design.direction[design.cycle == run], design.target[design.cycle == run]))
         ]
-        for run in np.unique(design.run).tolist()
+        for run in np.unique(design.cycle).tolist()
     }
     pairs = [
         (one, other) for one in runs for other in runs if one < other and len(runs[one]) == len(runs[other])
@@ -307,7 +307,7 @@ def _of_wrong_targets(design: Design, deviation: FloatArray) -> Iterator[Fault]:
                 reading=wording.reading_at(design, place),
                 target=wording.position(design.axis, float(targets[other])),
             )
-            yield Fault(FaultKind.WRONG_TARGET, int(design.run[place]), 1.0, statement, _CORRECT_TARGET)
+            yield Fault(FaultKind.WRONG_TARGET, int(design.cycle[place]), 1.0, statement, _CORRECT_TARGET)
 
 
 def _of_the_clock(design: Design) -> Iterator[Fault]:
@@ -317,7 +317,7 @@ def _of_the_clock(design: Design) -> Iterator[Fault]:
     steps = np.diff(design.time)
     for place in np.flatnonzero(steps < 0).tolist()[:1]:
         statement = _CLOCK_FALLS.given(reading=wording.reading_at(design, place + 1))
-        yield Fault(FaultKind.CLOCK_JUMP, int(design.run[place + 1]), 1.0, statement, _CORRECT_CLOCK)
+        yield Fault(FaultKind.CLOCK_JUMP, int(design.cycle[place + 1]), 1.0, statement, _CORRECT_CLOCK)
 
 
 def _of_sensors(design: Design) -> Iterator[Fault]:
@@ -342,7 +342,8 @@ def _of_sensors(design: Design) -> Iterator[Fault]:
 def _of_units(design: Design, deviation: FloatArray) -> Iterator[Fault]:
     """Yield runs of another size than all others, and a test that is hardly any deviation at all."""
     sizes = {
-        run: float(np.median(np.abs(deviation[design.run == run]))) for run in np.unique(design.run).tolist()
+        run: float(np.median(np.abs(deviation[design.cycle == run])))
+        for run in np.unique(design.cycle).tolist()
     }
     for run, size in sizes.items() if len(sizes) >= _FEWEST_RUNS else ():
         others = sorted(each for other, each in sizes.items() if other != run)

@@ -8,7 +8,7 @@ covariance is that of all parameters, the searched ones included.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -123,6 +123,15 @@ class Fit:
     def open_deviation(self) -> FloatArray:
         """Deviations less what given parameters make of them, shape (N,), m or rad."""
         return _open(self.model, self.design, self.deviation, self.solution)
+
+    @property
+    def of_the_job(self) -> Fit:
+        """The same model beside the readings of the job's own session alone."""
+        own = np.flatnonzero(self.design.session == 0)
+        if len(own) == len(self.deviation):
+            return self
+        design = of_readings(self.design, own)
+        return replace(self, design=design, deviation=self.deviation[own], fitted=self.fitted[own])
 
     @property
     def degrees(self) -> int:
@@ -276,13 +285,14 @@ def cross_validated_rms(
     thetas
         Searched parameters of the whole test; refined anew without each run.
     """
-    runs = np.unique(design.run)
+    cycle = design.cycle
+    runs = np.unique(cycle)
     if len(runs) < 2:
         return None
     squares = 0.0
     for run in runs:
-        left_out = np.flatnonzero(design.run == run)
-        kept = np.flatnonzero(design.run != run)
+        left_out = np.flatnonzero(cycle == run)
+        kept = np.flatnonzero(cycle != run)
         problem = Problem(model, of_readings(design, kept), deviation[kept], _as_they_are)
         found = refine(problem, problem.solution(thetas))
         others = of_readings(design, left_out)

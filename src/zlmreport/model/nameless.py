@@ -14,6 +14,7 @@ import numpy as np
 from zlmreport.language import Words
 from zlmreport.model.contrasts import Contrasts, Metric
 from zlmreport.model.design import Design
+from zlmreport.model.noise import by_session
 from zlmreport.quantities.arrays import FloatArray, IntArray
 
 #: Variances that are tried of a shape, in units of σ²: from hidden in the scatter to far above it.
@@ -63,13 +64,13 @@ def nameless_shapes(design: Design, space: Contrasts) -> tuple[NamelessShape, ..
     """Return the shapes that the plan can see beside the model; a smooth one once for each length."""
     along, moment = _unit(design.position), _unit(design.time)
     lever = (2.0 * along - 1.0)[:, np.newaxis]
-    by_target, by_run = _membership(design.target), _membership(design.run)
+    by_target, by_run = _membership(design.target), _membership(design.cycle)
     shapes = [(_IRREGULAR_PLACE, by_target), (_RUNS, by_run), (_SLOPE_RUNS, lever * by_run)]
     direction = design.direction[:, np.newaxis]
     if design.is_bidirectional:
         shapes.append((_IRREGULAR_DIRECTION, direction * by_target))
     for length in _LENGTHS:
-        place, time = _smooth(along, length), _smooth(moment, length)
+        place, time = _smooth(along, length), by_session(design, _smooth(moment, length))
         shapes += [
             (_SMOOTH_PLACE, place),
             (_SMOOTH_TIME, time),

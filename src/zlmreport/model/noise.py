@@ -123,7 +123,7 @@ def noise_parts(design: Design) -> tuple[NoisePart, ...]:
     if design.is_bidirectional and _repeats(by_cell):
         signed = by_target * design.direction[:, np.newaxis]
         parts.append(NoisePart(NoiseSource.DIRECTION, signed))
-    by_run = _membership(design.run)
+    by_run = _membership(design.cycle)
     if by_run.shape[1] > 1 and _repeats(by_run):
         parts.append(NoisePart(NoiseSource.RUN, by_run))
     if design.duration > 0:
@@ -150,6 +150,12 @@ def _membership(labels: IntArray) -> FloatArray:
     return np.asarray(labels[:, np.newaxis] == np.unique(labels), dtype=np.float64)
 
 
+def by_session(design: Design, columns: FloatArray) -> FloatArray:
+    """Return columns, shape (N, k), once for each session, zero in the others: what each has of its own."""
+    own = design.session[:, np.newaxis] == np.unique(design.session)
+    return np.asarray((own[:, :, np.newaxis] * columns[:, np.newaxis]).reshape(len(columns), -1))
+
+
 def _repeats(membership: FloatArray) -> bool:
     """Whether most members of the groups have company: only then does a group show itself."""
     company = membership.sum(axis=0)
@@ -165,4 +171,4 @@ def _slow_drift(design: Design) -> FloatArray:
     values, functions = np.linalg.eigh(covariance)
     terms = functions[:, -_DRIFT_TERMS:] * np.sqrt(values[-_DRIFT_TERMS:])
     factor = np.column_stack([np.interp(moment, grid, term) for term in terms.T])
-    return np.asarray(factor / np.linalg.norm(factor, axis=1, keepdims=True), dtype=np.float64)
+    return by_session(design, factor / np.linalg.norm(factor, axis=1, keepdims=True))

@@ -199,6 +199,7 @@ def of_readings(design: Design, readings: IntArray) -> Design:
         time=read_only_floats(design.time[readings]),
         since_reversal=read_only_floats(design.since_reversal[readings]),
         conditions={name: read_only_floats(log[readings]) for name, log in design.conditions.items()},
+        session=read_only_integers(design.session[readings]),
     )
 
 

@@ -55,8 +55,9 @@ class Repeats:
 
 
 def cells(design: Design) -> IntArray:
-    """Return for each reading the index of its cell, shape (N,)."""
-    _, index = np.unique(2 * design.target + (design.direction > 0), return_inverse=True)
+    """Return for each reading the index of its cell, shape (N,); each session has its own."""
+    target = design.target + design.session * (design.target.max() + 1)
+    _, index = np.unique(2 * target + (design.direction > 0), return_inverse=True)
     return np.asarray(index, dtype=np.int64)
 
 
@@ -116,7 +117,7 @@ def noise_floor(design: Design, deviation: FloatArray) -> float | None:
     if within.degrees < 1:
         return None
     if apart_in_time(design):
-        neighbours = (np.diff(within.cell) != 0) & (np.diff(design.run) == 0)
+        neighbours = (np.diff(within.cell) != 0) & (np.diff(design.cycle) == 0)
         steps = np.diff(within.centred)[neighbours]
         # A mean of n̄ readings is subtracted from each, and takes a share of 1/n̄ of its variance along.
         shares = 1.0 - 1.0 / within.count[within.cell]
@@ -222,7 +223,7 @@ def _groupings(design: Design) -> dict[SpreadFactor, IntArray]:
     return {
         SpreadFactor.POSITION: design.target,
         SpreadFactor.DIRECTION: design.direction.astype(np.int64),
-        SpreadFactor.RUN: design.run,
+        SpreadFactor.RUN: design.cycle,
     }
 
 
@@ -243,7 +244,7 @@ def _drift_free(design: Design, values: FloatArray) -> FloatArray:
     count = np.bincount(cell)
     membership = (cell == np.arange(len(count))[:, np.newaxis]) / count[:, np.newaxis]
     left = values - (membership @ values)[cell]
-    _, passes = np.unique(2 * design.run + (design.direction > 0), return_inverse=True)
+    _, passes = np.unique(2 * design.cycle + (design.direction > 0), return_inverse=True)
     for index in range(passes.max() + 1):
         taken = np.flatnonzero(passes == index)
         line = np.column_stack([np.ones(len(taken)), design.position[taken] - design.middle])

@@ -157,6 +157,7 @@ def report_covariance(fitted: Fit) -> dict[str, Any]:
 
 def report_residuals(fitted: Fit) -> list[dict[str, Any]]:
     """Return what the model leaves of each reading, in the order in which they were taken."""
+    fitted = fitted.of_the_job
     design = fitted.design
     positions = design.axis.position_unit.from_si(design.position).tolist()
     residuals = design.axis.deviation_unit.from_si(fitted.residual).tolist()

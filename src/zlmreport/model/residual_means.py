@@ -123,15 +123,15 @@ def direction(residuals: Residuals) -> Failure | None:
 def runs(residuals: Residuals) -> Failure | None:
     """Return the test of runs that are displaced as a whole."""
     design = residuals.design
-    numbers = np.unique(design.run)
+    numbers = np.unique(design.cycle)
     if len(numbers) < 2:
         return None
-    membership = (design.run[:, np.newaxis] == numbers).astype(np.float64)
-    means = _means(residuals.fit.residual, design.run)
+    membership = (design.cycle[:, np.newaxis] == numbers).astype(np.float64)
+    means = _means(residuals.fit.residual, design.cycle)
     worst = int(np.argmax(np.abs(means)))
     run = int(numbers[worst])
     statement = _RUNS.given(size=wording.deviation(design.axis, abs(float(means[worst]))))
-    where, readings = _RUN.given(run=run), read_only_integers(np.flatnonzero(design.run == run))
+    where, readings = _RUN.given(run=run), read_only_integers(np.flatnonzero(design.cycle == run))
     return Failure(ResidualTest.RUNS, residuals.p_value(membership), where, statement, readings)
 
 
@@ -195,7 +195,7 @@ def _widest(design: Design, test: SpreadTest) -> tuple[Words, IntArray]:
         chosen = np.sign(design.direction) == np.sign(test.widest)
         return (_UPWARDS if test.widest > 0 else _DOWNWARDS), read_only_integers(np.flatnonzero(chosen))
     if test.factor is SpreadFactor.RUN:
-        chosen = design.run == test.widest
+        chosen = design.cycle == test.widest
         place = _RUN.given(run=test.widest)
     else:
         chosen = design.target == test.widest

@@ -24,12 +24,14 @@ from zlmreport.model.fit import Assumptions, Fit, fit
 from zlmreport.model.harmonic import Harmonic, harmonics
 from zlmreport.model.observations import Observations, observations_of, thinned
 from zlmreport.model.outliers import outliers
+from zlmreport.model.sessions import held_together, of_the_job, with_zeros
 from zlmreport.quantities.arrays import read_only_floats
 from zlmreport.quantities.formula import names_in, parse_formula
 
 #: Coverage factor of the instrument's uncertainty as a job states it.
 _COVERAGE_FACTOR = 2.0
 _KEY = "model.effects"
+_SESSIONS = "model.sessions"
 #: What a table of positions, one for each direction, can take away; the rest changes with time or run.
 BY_TABLE = frozenset({Shape.POSITION, Shape.DIRECTION})
 _CORRECTED = Words(
@@ -60,11 +62,15 @@ class Study:
     measurements
         Its readings.
     model
-        Its effects.
+        Its effects, after the zeros of further sessions.
     observed
-        The readings as the model sees them, none set aside.
+        Its readings as the model sees them, none set aside.
     assumptions
         What fits take for granted: the error of the instrument, as the job states it.
+    sessions
+        The readings of the job's further sessions.
+    together
+        The readings of all sessions below one another; without others, those of the job.
     """
 
     job: Job
@@ -72,9 +78,17 @@ class Study:
     model: AxisModel
     observed: Observations
     assumptions: Assumptions
+    sessions: tuple[MeasurementSet, ...]
+    together: Observations
 
     @classmethod
-    def of(cls, job: Job, measurements: MeasurementSet, effects: Sequence[Effect]) -> Study:
+    def of(
+        cls,
+        job: Job,
+        measurements: MeasurementSet,
+        effects: Sequence[Effect],
+        sessions: Sequence[MeasurementSet] = (),
+    ) -> Study:
         """Begin the study of a job.
 
         Parameters
@@ -85,14 +99,28 @@ class Study:
             Its readings.
         effects
             All that are installed.
+        sessions
+            The readings of the further sessions that the job names.
         """
         find = {effect.identifier: effect for effect in effects}.__getitem__
+        own = _with_feed(observations_of(measurements), job)
+        names = [each.files[0].name for each in job.sessions]
+        others = [
+            _with_feed(observations_of(each), other)
+            for each, other in zip(sessions, job.sessions, strict=True)
+        ]
+        try:
+            together = held_together(own, list(zip(names, others, strict=True)))
+        except ModelError as error:
+            raise InputError(Problem(job.place_of(_SESSIONS), each) for each in error.sentences) from error
         return cls(
             job,
             measurements,
-            AxisModel(chosen_terms(job.effects, find, job.axis.kind)),
-            _with_feed(observations_of(measurements), job),
+            with_zeros(AxisModel(chosen_terms(job.effects, find, job.axis.kind)), together.design),
+            of_the_job(together),
             Assumptions(instrument=instrument_error(job)),
+            tuple(sessions),
+            together,
         )
 
     def fitted(self) -> Fitted:
@@ -102,7 +130,7 @@ class Study:
     def diagnosis(self, effects: Sequence[Effect]) -> Diagnosis:
         """Return the diagnosis: every installed effect is tried, and every formula that the job lists."""
         try:
-            return diagnose(self.model, self.observed, [*effects, *self._formulas()], self.assumptions)
+            return diagnose(self.model, self.together, [*effects, *self._formulas()], self.assumptions)
         except ModelError as error:
             raise InputError(self._problems(error)) from error
 
@@ -132,7 +160,7 @@ class Study:
         return (*parts, whole or self.fitted())
 
     def _fitted(self, model: AxisModel) -> Fitted:
-        every = thinned(self.observed)
+        every = thinned(self.together)
         kept = every.without(outliers(every.design, every.deviation).readings)
         try:
             found = fit(model, kept.design, kept.deviation, self.assumptions)

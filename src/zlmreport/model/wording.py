@@ -74,7 +74,7 @@ def reading_at(design: Design, reading: int) -> Words:
     return _READING.given(
         position=position(design.axis, float(design.position[reading])),
         arrow=_arrow(design, reading),
-        run=int(design.run[reading]),
+        run=int(design.cycle[reading]),
     )
 
 

@@ -17,7 +17,9 @@ from zlmreport.job.choices import EffectChoice
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
 from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.measurement.provenance import SourceFile
 from zlmreport.model.axis_model import AxisModel, chosen_terms
+from zlmreport.model.sessions import with_zeros
 from zlmreport.model.study import Fitted, Study, addition
 from zlmreport.plugins import Registry
 
@@ -61,7 +63,7 @@ class Loaded:
     @property
     def content(self) -> str:
         """Names what stands in all files behind it, wherever and whenever they were written."""
-        files = (*self.job.files, *self.measurements.provenance.files)
+        files = (*self.job.files, *_files(self.measurements, *self.study.sessions))
         return hashlib.sha256(" ".join(each.sha256 for each in files).encode()).hexdigest()
 
 
@@ -121,7 +123,7 @@ class Bench:
                 named = (Path(each.place.file) for each in error.problems)
                 self._watched = tuple(dict.fromkeys((*self._watched, *named)))
                 raise
-            files = (*job.files, *found.measurements.provenance.files)
+            files = (*job.files, *_files(found.measurements, *found.study.sessions))
             self._watched = tuple(dict.fromkeys(each.path for each in files if each.path is not None))
             self._loaded = replace(found, stamp=self.stamp())
             return self._loaded
@@ -130,7 +132,8 @@ class Bench:
         """Return a job with its readings, whether or not it is written already."""
         with self.lock:
             readings = self._read(job)
-            study = Study.of(job, readings.measurements, self.registry.effects)
+            sessions = pipeline.read_sessions(job, self.registry)
+            study = Study.of(job, readings.measurements, self.registry.effects, sessions)
             return Loaded(job, study, readings.basis)
 
     def evaluated(self, loaded: Loaded) -> tuple[Evaluated, ...]:
@@ -175,7 +178,8 @@ class Bench:
             effects = (*kept, named.choice)
             by_identifier = {each.identifier: each for each in installed}
             terms = chosen_terms(effects, by_identifier.__getitem__, job.axis.kind)
-            return self._fitted(loaded.basis, replace(loaded.study, model=AxisModel(terms)), effects)
+            model = with_zeros(AxisModel(terms), loaded.study.together.design)
+            return self._fitted(loaded.basis, replace(loaded.study, model=model), effects)
 
     def _read(self, job: Job) -> _Readings:
         """Return the readings: as before, if only the model has changed; read, if more than exclusions has.
@@ -199,6 +203,8 @@ class Bench:
     def _fitted(self, basis: str, study: Study, effects: tuple[EffectChoice, ...]) -> Fitted:
         key = (
             basis,
+            *(each.sha256 for each in _files(*study.sessions)),
+            len(study.model.terms),
             *((each.identifier, each.settings, tuple(sorted(each.values.items()))) for each in effects),
         )
         found = self._fits.get(key)
@@ -220,6 +226,11 @@ def _basis(job: Job, measurements: MeasurementSet, *, but_for_excluded: bool = F
     files = (*job.files[1:], *measurements.provenance.files)
     state = _stamp(each.path for each in files if each.path is not None)
     return hashlib.sha256(f"{stated!r} {state}".encode()).hexdigest()
+
+
+def _files(*measurements: MeasurementSet) -> tuple[SourceFile, ...]:
+    """Return the files from which readings came."""
+    return tuple(file for each in measurements for file in each.provenance.files)
 
 
 def _stamp(paths: Iterable[Path]) -> str:
