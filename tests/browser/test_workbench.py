@@ -318,3 +318,21 @@ def test_a_tablet_in_the_dark_shows_it_all_in_german(address: str, window: Windo
     picture(page, "tablet")
     page.get_by_role("link", name="English").click()
     expect(page.get_by_role("heading", name="Where the model fails")).to_be_visible()
+
+
+def test_what_a_certificate_lacks_is_filled_in_on_the_page(address: str, job: Path, window: Window) -> None:
+    text = job.read_text(encoding="utf-8")
+    job.write_text(text.replace("kind: report", "kind: certificate"), encoding="utf-8")
+    page = window(address)
+    form = page.locator("form.lacking")
+    form.get_by_label("Customer", exact=True).fill("Example Customer: Ltd")
+    form.get_by_label("Place of the work").select_option(label="at the laboratory")
+    form.get_by_label("Date of issue").fill("2026-11-20")
+    row = form.locator("dl > div", has_text="Temperature measurement, measuring device")
+    row.get_by_label("or negligible because").fill("laser, no length of its own")
+    form.get_by_role("button", name="Save into the job").click()
+    expect(form.get_by_label("Customer", exact=True)).to_have_count(0)
+    expect(form.get_by_label("Its serial number")).to_be_visible()
+    written = job.read_text(encoding="utf-8")
+    assert 'customer: {name: "Example Customer: Ltd"}' in written
+    assert 'uncertainty: {negligible: {device_temperature: "laser, no length of its own"}}' in written

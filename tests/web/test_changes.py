@@ -228,16 +228,17 @@ def test_the_pitch_is_asked_for_and_written_into_the_job(
     pitch = without_pitch["asked"][0]
     assert pitch | {"key": "screw_pitch", "name": "Screw pitch", "unit": "mm"} == pitch
     assert "screw-pitch" in pitch["effects"]
-    after = click(browser, without_pitch, action="state", parameter="screw_pitch", value=10)
+    after = click(browser, without_pitch, action="state", stated={"axis.screw_pitch": 10})
     assert "travel: [0, 600], screw_pitch: 10}" in job.read_text(encoding="utf-8")
     assert "screw-pitch" in [each["effect"] for each in after["others"]]
     assert after["undo"] == "axis.screw_pitch stated"
 
 
 @pytest.mark.parametrize(
-    ("parameter", "value"), [("screw_pitch", 0), ("screw_pitch", None), ("travel", 10), ("__class__", 1)]
+    "stated",
+    [{"axis.screw_pitch": 0}, {"axis.screw_pitch": " "}, {"axis.travel": 10}, {"__class__": 1}, {}, {"": ""}],
 )
-def test_nothing_but_a_length_that_is_asked_for_is_written(
-    browser: TestClient, without_pitch: dict[str, Any], parameter: str, value: float | None
+def test_nothing_but_what_is_asked_for_is_written(
+    browser: TestClient, without_pitch: dict[str, Any], stated: dict[str, Any]
 ) -> None:
-    refused(browser, without_pitch, action="state", parameter=parameter, value=value)
+    refused(browser, without_pitch, action="state", stated=stated)

@@ -129,6 +129,15 @@ def test_a_diagnosis_is_made_beside_and_says_how_long_it_has_been_under_way(brow
     assert second["axis"] == "position"
 
 
+def test_a_diagnosis_is_stopped_and_begun_anew(browser: TestClient) -> None:
+    assert "seconds" in browser.get("/api/diagnosis").json()
+    assert browser.post("/api/diagnosis/stop", json={}).is_success
+    assert browser.get("/api/diagnosis").json() == {"stopped": True}
+    assert "seconds" in browser.get("/api/diagnosis").json()
+    found = awaited(lambda: "diagnosis" in browser.get("/api/diagnosis").json())
+    assert found
+
+
 def test_a_diagnosis_that_was_made_is_there_at_once_also_for_a_copy_and_after_a_restart(
     workbench: Workbench, browser: TestClient, tmp_path: Path
 ) -> None:

@@ -13,26 +13,23 @@ export function verdict(texts, job, diagnosis, number, actions) {
   const numbers = h("dl", { class: "numbers" }, job.error.map((each) => h("div", {}, h("dt", {}, each.name), h("dd", {}, each.value))));
   if (!diagnosis?.diagnosis) {
     const problems = diagnosis?.problems;
-    return [
-      h("h2", {}, texts.verdict),
-      problems
-        ? h("ul", { class: "problems" }, problems.map((each) => h("li", {}, each)))
-        : h("p", { class: "progress" }, h("progress", { "aria-label": texts.diagnosing }), ` ${texts.diagnosing} `,
-          h("span", { "aria-hidden": "true" }, said(texts.seconds, { seconds: number(diagnosis?.seconds ?? 0) }))),
-      numbers,
-    ];
+    let state = h("p", { class: "progress" }, h("progress", { "aria-label": texts.diagnosing }), ` ${texts.diagnosing} `,
+      h("span", { "aria-hidden": "true" }, said(texts.seconds, { seconds: number(diagnosis?.seconds ?? 0) })), " ", button(texts.stop, texts.stop, "diagnosis", actions.stop));
+    if (problems) state = h("ul", { class: "problems" }, problems.map((each) => h("li", {}, each)));
+    if (diagnosis?.stopped) state = h("p", {}, `${texts.stopped} `, button(texts.diagnose, texts.diagnose, "diagnosis", actions.diagnose));
+    return [h("h2", {}, texts.verdict), state, numbers];
   }
   const found = diagnosis.diagnosis;
   return [
     h("h2", {}, texts.verdict),
     h("p", { class: `verdict ${found.verdict}` }, h("span", { class: "sign", "aria-hidden": "true" }, SIGNS[found.verdict]), h("span", {}, found.statement)),
     numbers,
-    lacking(job, found).map((each) => asked(texts, each, actions)),
+    unasked(job, found).map((each) => asked(texts, each, actions)),
   ];
 }
 
 /** Return what is asked for: all where no effect is likely, else what would let a rival of the likely one be tried. */
-function lacking(job, found) {
+function unasked(job, found) {
   if (found.verdict === "adequate") return [];
   const isLikely = found.verdict === "missing" && found.candidates.some((each) => each.share >= LIKELY);
   return job.asked.filter((each) => !isLikely || each.effects.some((effect) => found.notExcluded.includes(effect)));
@@ -40,7 +37,7 @@ function lacking(job, found) {
 
 function asked(texts, each, actions) {
   const field = `ask-${each.key}`;
-  return h("form", { class: "ask", submit: (event) => { event.preventDefault(); actions.state(each.key, event.target.elements.value.valueAsNumber); } },
+  return h("form", { class: "ask", submit: (event) => { event.preventDefault(); actions.state({ [`axis.${each.key}`]: event.target.elements.value.valueAsNumber }); } },
     h("p", {}, said(texts.ask, { effects: each.effects.join(", ") })),
     h("label", { for: field }, each.name),
     h("input", { id: field, name: "value", type: "number", step: "any", min: Number.MIN_VALUE, required: true, "data-key": field, "aria-describedby": `${field}-unit` }),
@@ -196,6 +193,31 @@ export function excluded(texts, job, actions) {
     h("ul", { class: "excluded" }, job.excluded.map((each, index) => h("li", {},
       h("span", {}, `${each.reading}, ${texts.run} ${each.run}: ${each.deviation}`, h("br"), h("q", {}, each.reason)),
       button(texts.bringBack, `${texts.bringBack}: ${each.reading}, ${texts.run} ${each.run}`, `include-${index}`, () => actions.include(index))))),
+  ];
+}
+
+/** What the job lacks to be a calibration certificate, as fields; those that are filled in are written into it. */
+export function lacking(texts, fields, actions) {
+  if (fields.length === 0) return [];
+  const send = (event) => {
+    event.preventDefault();
+    const filled = [...event.target.elements].filter((each) => each.name && each.value.trim());
+    actions.state(Object.fromEntries(filled.map((each) => [each.name, each.type === "number" ? each.valueAsNumber : each.value.trim()])));
+  };
+  return [h("form", { class: "lacking", submit: send },
+    h("p", {}, texts.lacking),
+    h("dl", {}, fields.map((each) => h("div", {}, h("dt", {}, h("label", { for: `lacks-${each.key}` }, each.name)), h("dd", {}, field(texts, each))))),
+    h("button", { type: "submit", "data-key": "state-lacking" }, texts.state))];
+}
+
+function field(texts, each) {
+  const named = { id: `lacks-${each.key}`, name: each.key, "data-key": `lacks-${each.key}` };
+  if (each.form === "place") {
+    return h("select", { ...named, name: `${each.key}.kind` }, h("option", { value: "" }), h("option", { value: "laboratory" }, texts.atLaboratory), h("option", { value: "customer" }, texts.atCustomer));
+  }
+  return [
+    h("input", { ...named, type: each.form, step: each.form === "number" ? "any" : false, min: each.key.startsWith("uncertainty.") ? 0 : false, maxlength: each.form === "text" ? 300 : false, autocomplete: "off" }), each.unit && ` ${each.unit}`,
+    each.reason && h("label", { class: "reason" }, ` ${texts.orNegligible} `, h("input", { type: "text", name: each.reason, maxlength: 300, autocomplete: "off", "data-key": `lacks-${each.reason}` })),
   ];
 }
 

@@ -10,6 +10,7 @@ import { Refusal, Silence, get, post } from "./server.js";
 
 const LOOK = 1500;
 const ASK = 250;
+const NESTED = new Set(["lacking", "certificate"]);
 
 class Page {
   constructor(texts) {
@@ -23,21 +24,23 @@ class Page {
       fix: (effect, parameter, value) => this.#change({ action: "fix", effect, parameter, value }),
       free: (effect, parameter) => this.#change({ action: "free", effect, parameter }),
       include: (listed) => this.#change({ action: "include", listed }),
-      state: (parameter, value) => this.#change({ action: "state", parameter, value }),
+      state: (stated) => this.#change({ action: "state", stated }),
+      stop: () => post("/api/diagnosis/stop", {}).catch((error) => this.#tell(error)),
+      diagnose: () => { this.diagnosis = null; this.#showDiagnosis(); this.#diagnose(this.stamp); },
       preview: (step, name) => this.#preview(step, name),
       make: (name, wanted) => { this.wanted[name] = wanted; this.#make(name, wanted); },
-      noTable: () => this.#change({ action: "state", parameter: "compensation_table" }),
+      noTable: () => this.#change({ action: "state", stated: { "axis.compensation_table": "none" } }),
     };
     this.graphs = new Graphs(texts, this.number, (readings, reason) => this.#change({ action: "exclude", readings, reason }));
     this.comparison = new Comparison(texts, this.number, (curves) => this.graphs.overlay(curves));
     this.notice = h("div", { class: "notice", role: "alert", hidden: true });
     this.header = h("header", {}, h("p", { role: "status" }, texts.working));
-    this.parts = Object.fromEntries(["verdict", "fall", "faults", "failures", "candidates", "hidden", "compensation", "certificate", "effects", "standards", "excluded", "steps"]
-      .map((name) => [name, h("section", { class: "panel", id: `part-${name}` })]));
-    const { verdict, fall, faults, failures, candidates, hidden, compensation, certificate, effects, standards, excluded, steps } = this.parts;
+    this.parts = Object.fromEntries(["verdict", "fall", "faults", "failures", "candidates", "hidden", "compensation", "lacking", "certificate", "effects", "standards", "excluded", "steps"]
+      .map((name) => [name, h("section", { class: NESTED.has(name) ? false : "panel", id: `part-${name}` })]));
+    const { verdict, fall, faults, failures, candidates, hidden, compensation, lacking, certificate, effects, standards, excluded, steps } = this.parts;
     document.body.replaceChildren(this.header, this.notice, h("main", {},
       h("div", { class: "bench" }, h("div", { class: "always" }, verdict, fall), h("div", { class: "seen" }, this.graphs.element, this.comparison.element, effects, standards),
-      h("div", { class: "findings" }, faults, failures, candidates, hidden, compensation, certificate, excluded, steps))));
+      h("div", { class: "findings" }, faults, failures, candidates, hidden, compensation, h("div", { class: "panel", id: "part-document" }, certificate, lacking), excluded, steps))));
   }
 
   /** Show the job as it is, and go on looking whether it still is. */
@@ -84,6 +87,7 @@ class Page {
       if (this.stamp !== stamp) return;
       fill(this.parts.fall, panels.fall(this.texts, results, this.actions));
       fill(this.parts.standards, panels.standards(this.texts, results));
+      fill(this.parts.lacking, panels.lacking(this.texts, results.lacking, this.actions));
     } catch (error) {
       if (!(error instanceof Refusal || error instanceof Silence)) throw error; // what is wrong is said already
     }
@@ -165,8 +169,10 @@ class Page {
         this.diagnosis = { problems: error.problems };
       }
       if (this.stamp !== stamp) return;
-      this.#showDiagnosis();
-      if (this.diagnosis.diagnosis || this.diagnosis.problems) return;
+      const waits = this.parts.verdict.querySelector(".progress span");
+      if (this.diagnosis.seconds !== undefined && waits) waits.textContent = said(this.texts.seconds, { seconds: this.number(this.diagnosis.seconds) });
+      else this.#showDiagnosis();
+      if (this.diagnosis.seconds === undefined) return;
       await new Promise((resolve) => { setTimeout(resolve, ASK); });
     }
   }

@@ -30,7 +30,7 @@ from zlmreport.web.comparison import Comparison
 from zlmreport.web.diagnoses import Diagnoses
 from zlmreport.web.effect_page import effect_page
 from zlmreport.web.guard import HOST, Door, Guard
-from zlmreport.web.pictures import page_picture
+from zlmreport.web.making import page_picture
 from zlmreport.web.remembered import Answers
 from zlmreport.web.texts import texts
 from zlmreport.web.view import before_and_after, results, view
@@ -93,6 +93,7 @@ class Workbench:
             Route("/api/step", self.step),
             Route("/api/tests", self.tests),
             Route("/api/diagnosis", self.diagnosis),
+            Route("/api/diagnosis/stop", self.stop, methods=["POST"]),
             Route("/api/effects/{effect}", self.effect),
             Route("/api/change", self.change, methods=["POST"]),
             Route("/api/made/{name}", self.made),
@@ -172,6 +173,11 @@ class Workbench:
             return answer
 
         return await self._answered(request, found)
+
+    async def stop(self, _: HttpRequest) -> Response:
+        """Let go of the diagnosis that is under way."""
+        await run_in_threadpool(self.diagnoses.stop)
+        return JSONResponse({})
 
     async def effect(self, request: HttpRequest) -> Response:
         """Answer with what there is to say of an effect."""

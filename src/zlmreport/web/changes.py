@@ -16,8 +16,8 @@ from pydantic import BaseModel, ConfigDict, StringConstraints, ValidationError
 
 from zlmreport.errors import InputError, Place, Problem
 from zlmreport.job.edit import Edit, edit_effects
-from zlmreport.job.edit_axis import edit_axis
 from zlmreport.job.edit_items import ParameterChoice, edit_parameter, exclude, include
+from zlmreport.job.edit_keys import edit_keys
 from zlmreport.job.loading import load
 from zlmreport.job.measurement_keys import ExclusionKeys
 from zlmreport.language import Words
@@ -25,11 +25,13 @@ from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.model.study import Fitted, addition, refuse_useless
 from zlmreport.web.asked import asked
 from zlmreport.web.bench import Bench, Loaded
+from zlmreport.web.lacking import lacking
 from zlmreport.web.journal import REDO, UNDO, Entry, Journal, entry, redoable, undoable
 
 _PLACE = Place("workbench")
 _KEY = "model.effects"
-_TABLE = "compensation_table"
+_TABLE = "axis.compensation_table"
+_NOTHING = "fill in a field first"
 #: Of a target position in mm or degrees: finer than any control is told.
 _DECIMALS = 6
 
@@ -73,9 +75,11 @@ class Request(BaseModel):
     effect
         Of add and remove, fix and free: an effect; of add as in a job, with its keys.
     parameter
-        Of fix and free; of state a key of the axis that the page asks for.
+        Of fix and free.
     value
-        Of fix and state: in the unit of the page.
+        Of fix: in the unit of the page.
+    stated
+        Of state: values by the keys that the page asks for, in the units of the job.
     readings
         Of exclude the places of readings in the measurement set.
     listed
@@ -91,6 +95,7 @@ class Request(BaseModel):
     effect: ShortText = ""
     parameter: ShortText = ""
     value: float | None = None
+    stated: dict[ShortText, float | ShortText] = {}
     readings: tuple[int, ...] = ()
     listed: int = -1
     reason: ShortText = ""
@@ -205,17 +210,33 @@ def _include(bench: Bench, loaded: Loaded, request: Request) -> _Step:
 
 
 def _state(bench: Bench, loaded: Loaded, request: Request) -> _Step:
-    key = request.parameter
-    if key == _TABLE and loaded.job.keys.axis.compensation_table is None:
-        edit = edit_axis(bench.path, loaded.job, bench.registry, key, "none")
-    elif key not in {each.key for each in asked(loaded, bench.registry.effects)}:
-        raise InputError.at(_PLACE, f"the job is not asked for {key[:60]!r}")
-    elif request.value is None or not math.isfinite(request.value) or request.value <= 0:
-        raise InputError.at(_PLACE, "write the length as a number above zero, such as 10")
-    else:
-        edit = edit_axis(bench.path, loaded.job, bench.registry, key, request.value)
+    units = _asked_for(bench, loaded)
+    unasked = [key for key in request.stated if key not in units]
+    if unasked or not request.stated:
+        raise InputError.at(_PLACE, f"the job is not asked for {unasked[0][:60]!r}" if unasked else _NOTHING)
+    wrong = [key for key, value in request.stated.items() if not _is_value(value)]
+    if wrong:
+        raise InputError(
+            Problem(_PLACE, f"{key}: write a number such as 10, or a line of text") for key in wrong
+        )
+    edit = edit_keys(bench.path, loaded.job, bench.registry, request.stated, units)
     _tried(bench, loaded, edit)
-    return _Step(edit, f"axis.{key}")
+    return _Step(edit, ", ".join(request.stated))
+
+
+def _asked_for(bench: Bench, loaded: Loaded) -> dict[str, str]:
+    """Return the keys that the page asks for, each with the symbol of its unit."""
+    units = {f"axis.{each.key}": each.unit for each in asked(loaded, bench.registry.effects)}
+    if loaded.job.keys.axis.compensation_table is None:
+        units[_TABLE] = ""
+    for field in lacking(loaded, bench.registry):
+        units |= {f"{field.key}.kind": ""} if field.form == "place" else {field.key: field.unit}
+        units |= {field.reason: ""} if field.reason else {}
+    return units
+
+
+def _is_value(value: float | str) -> bool:
+    return bool(value.strip()) if isinstance(value, str) else math.isfinite(value)
 
 
 def _undo(bench: Bench, loaded: Loaded, _: Request) -> _Step:

@@ -67,6 +67,13 @@ class Diagnoses:
             self._asked = ""  # what failed may do better when it is asked for again
             return self._answer
 
+    def stop(self) -> None:
+        """Let go of the diagnosis that is under way; who asks next is told so, who asks again begins it anew."""
+        with self._lock:
+            if self._asked and self._answer is None:
+                self._end()
+                self._answer = {"stopped": True}
+
     def end(self) -> None:
         """End the process."""
         with self._lock:

@@ -1,7 +1,12 @@
-"""Makes files of the job in a process of their own, as a command on the terminal does, and hands them out."""
+"""Makes files of the job in a process of their own, as a command on the terminal does, and hands them out.
+
+Pages of a PDF are handed out as pictures: a preview beside the graphs, for the policy of the page allows no
+frame.
+"""
 
 from __future__ import annotations
 
+import io
 import json
 import os
 import subprocess
@@ -13,8 +18,12 @@ from pathlib import Path
 from threading import Lock, Thread
 from typing import Any
 
-from zlmreport.web.pictures import page_count
+import pypdfium2
 
+#: Pixels for each point of the page: 108 to the inch, for a screen.
+_SCALE = 1.5
+#: The library behind is not made for several threads.
+_ONE_AT_A_TIME = Lock()
 _ENDED = "zlmreport ended unexpectedly"
 
 
@@ -142,3 +151,19 @@ class Making:
                 return
             self._process = None
             self._made = self.read(output, complaints)
+
+
+def page_picture(path: Path, number: int) -> bytes | None:
+    """Return a page of a PDF as PNG, counted from 1; None where there is no such page."""
+    with _ONE_AT_A_TIME, pypdfium2.PdfDocument(path) as document:
+        if not 0 < number <= len(document):
+            return None
+        content = io.BytesIO()
+        document[number - 1].render(scale=_SCALE).to_pil().save(content, "PNG")
+        return content.getvalue()
+
+
+def page_count(path: Path) -> int:
+    """Return how many pages a PDF has."""
+    with _ONE_AT_A_TIME, pypdfium2.PdfDocument(path) as document:
+        return len(document)

@@ -25,6 +25,13 @@ TEXTS: Mapping[str, Words] = MappingProxyType(
         "makeCertificate": Words(en="Make the certificate", de="Kalibrierschein erstellen"),
         "making": Words(en="The certificate is being made …", de="Der Kalibrierschein entsteht …"),
         "formats": Words(en="Formats", de="Formate"),
+        "lacking": Words(
+            en="A calibration certificate must state these too; the job does not yet.",
+            de="Ein Kalibrierschein muss auch dies angeben; der Auftrag tut es noch nicht.",
+        ),
+        "orNegligible": Words(en="or negligible because", de="oder vernachlässigbar, weil"),
+        "atLaboratory": Words(en="at the laboratory", de="beim Laboratorium"),
+        "atCustomer": Words(en="at the customer's", de="beim Auftraggeber"),
         "page": Words(en="Page {page} of {pages}", de="Seite {page} von {pages}"),
         "pageBefore": Words(en="The page before", de="Die Seite davor"),
         "pageAfter": Words(en="The next page", de="Die nächste Seite"),
@@ -127,6 +134,9 @@ TEXTS: Mapping[str, Words] = MappingProxyType(
         "diagnosing": Words(
             en="Every installed effect is being tried …", de="Jeder installierte Einfluss wird geprüft …"
         ),
+        "stop": Words(en="Stop", de="Anhalten"),
+        "stopped": Words(en="The diagnosis was stopped.", de="Die Diagnose wurde angehalten."),
+        "diagnose": Words(en="Diagnose", de="Diagnose beginnen"),
         "seconds": Words(en="{seconds} s", de="{seconds} s"),
         "working": Words(en="Working …", de="Einen Moment …"),
         "setAside": Words(en="Set this reading aside", de="Diesen Messwert beiseite legen"),

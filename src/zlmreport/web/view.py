@@ -17,6 +17,7 @@ from zlmreport.web.asked import asked
 from zlmreport.web.bench import Bench, Loaded
 from zlmreport.web.commands import offered
 from zlmreport.web.journal import REDO, UNDO, Entry, Journal, redoable, undoable
+from zlmreport.web.lacking import field_values, lacking
 from zlmreport.web.panels import Panels, error_values, parameter_values
 
 _READING = Words(en="{target} {arrow}, run {run}", de="{target} {arrow}, Durchlauf {run}")
@@ -90,6 +91,7 @@ def results(bench: Bench, loaded: Loaded, language: Language) -> dict[str, Any]:
         "fall": panels.fall(bench.history(loaded)),
         "standards": panels.standards(bench.evaluated(loaded)),
         "moving": panels.moving(),
+        "lacking": [field_values(each, language) for each in lacking(loaded, bench.registry)],
     }
 
 
