@@ -1,4 +1,4 @@
-"""Writing into a job what it does not state: the pitch of its screw, the customer, a part of the uncertainty."""
+"""Writing into a job what it does not state: the pitch of its screw, the customer, parts of its uncertainty."""
 
 from __future__ import annotations
 

@@ -25,8 +25,8 @@ from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.model.study import Fitted, addition, refuse_useless
 from zlmreport.web.asked import asked
 from zlmreport.web.bench import Bench, Loaded
-from zlmreport.web.lacking import lacking
 from zlmreport.web.journal import REDO, UNDO, Entry, Journal, entry, redoable, undoable
+from zlmreport.web.lacking import lacking
 
 _PLACE = Place("workbench")
 _KEY = "model.effects"

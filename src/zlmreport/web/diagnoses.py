@@ -68,7 +68,7 @@ class Diagnoses:
             return self._answer
 
     def stop(self) -> None:
-        """Let go of the diagnosis that is under way; who asks next is told so, who asks again begins it anew."""
+        """Let go of the diagnosis that is under way; who asks is told so once, and then begins it anew."""
         with self._lock:
             if self._asked and self._answer is None:
                 self._end()

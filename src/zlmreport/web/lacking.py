@@ -1,4 +1,4 @@
-"""What a calibration certificate of the job would lack, as fields that a page can show and a job can be given."""
+"""What a certificate of the job would lack, as fields that a page can show and a job can be given."""
 
 from __future__ import annotations
 
