@@ -26,7 +26,7 @@ def test_tests_are_overlaid_and_taken_away_and_everybody_can_use_them(address: s
     tests = page.locator("#part-tests")
     expect(tests.get_by_role("heading", name="Tests of this axis")).to_be_visible()
     above = page.locator(".plot").first
-    expect(above.locator(".curve.test-1, .curve.test-2")).to_have_count(4)  # two tests, both directions
+    expect(above.locator(".curve.test-0, .curve.test-2")).to_have_count(4)  # two tests, both directions
     accuracy = tests.locator("tr", has_text="Bidirectional positioning error").first
     expect(accuracy.locator(".trend")).to_be_visible()
     expect(page.locator("body")).to_have_attribute("data-state", "missing")
@@ -34,7 +34,7 @@ def test_tests_are_overlaid_and_taken_away_and_everybody_can_use_them(address: s
     found = Axe().run(page)
     assert found.violations_count == 0, found.generate_report()
     tests.get_by_role("button", name="certificate, as found").click()
-    expect(above.locator(".curve.test-1")).to_have_count(0)
+    expect(above.locator(".curve.test-0")).to_have_count(0)
     expect(above.locator(".curve.test-2")).to_have_count(2)
 
 

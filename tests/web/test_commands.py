@@ -27,12 +27,15 @@ def made(browser: TestClient, name: str, **wanted: Any) -> dict[str, Any]:
     return state
 
 
+_TABLE = "axis.compensation_table"
+
+
 @pytest.fixture
 def without_table(job: Path, browser: TestClient) -> Path:
     """Return the job after the page has written into it that no table was active."""
     before = browser.get("/api/job").json()
     assert not before["offered"]["tableIsStated"]
-    wanted = {"based_on": before["digest"], "action": "state", "parameter": "compensation_table"}
+    wanted = {"based_on": before["digest"], "action": "state", "stated": {_TABLE: "none"}}
     after = browser.post("/api/change", json=wanted).json()
     assert after["offered"]["tableIsStated"]
     assert "screw_pitch: 10, compensation_table: none}" in job.read_text(encoding="utf-8")

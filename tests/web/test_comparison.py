@@ -28,9 +28,9 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Return a folder with a test of an axis, and one of half a year before that read otherwise."""
     folder = tmp_path_factory.mktemp("tests")
     text = (EXAMPLE / "job.yaml").read_text(encoding="utf-8")
-    own = text.replace("method: linear", "date: 2026-11-02\n  method: linear")
+    own = text.replace("2026-11-18", "2026-11-02")
     (folder / "after.yaml").write_text(own, encoding="utf-8")
-    before = text.replace("method: linear", "date: 2026-05-04\n  method: linear")
+    before = text.replace("2026-11-18", "2026-05-04")
     (folder / "before.yaml").write_text(before.replace("x-axis.csv", "before.csv"), encoding="utf-8")
     shutil.copy(EXAMPLE / "x-axis.csv", folder)
     (folder / "before.csv").write_text(_shifted(folder / "x-axis.csv"), encoding="utf-8")

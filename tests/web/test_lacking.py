@@ -12,6 +12,7 @@ from web.jobs import registry
 from zlmreport import pipeline
 from zlmreport.job.loading import load
 
+_GROUPS = ("laboratory:", "customer:", "machine:", "authorised_by:")
 _REASON = "laser, no length of its own"
 _STATED = {"text": "As on the order: no. 7", "date": "2026-11-20", "number": 0.5}
 _OF_ITS_OWN = {"environment.axis_temperature": 20.4, "environment.expansion_coefficient": 11.5}
@@ -19,8 +20,10 @@ _OF_ITS_OWN = {"environment.axis_temperature": 20.4, "environment.expansion_coef
 
 @pytest.fixture
 def certificate(job: Path) -> Path:
-    """Make the job one of a certificate, which it cannot be yet."""
-    job.write_text(job.read_text(encoding="utf-8").replace("kind: report", "kind: certificate"), "utf-8")
+    """Make the job one of a certificate, which it cannot be yet, and take away what it states of people."""
+    lines = job.read_text(encoding="utf-8").splitlines(keepends=True)
+    kept = [each for each in lines if not each.lstrip().startswith(_GROUPS)]
+    job.write_text("".join(kept).replace("kind: report", "kind: certificate"), encoding="utf-8")
     return job
 
 

@@ -1,4 +1,4 @@
-"""Writing into a job what it does not state: the pitch of its screw, the customer, parts of its uncertainty."""
+"""Writing into a job what it does not state: the pitch of its screw, the customer, parts of its U."""
 
 from __future__ import annotations
 
