@@ -2,17 +2,25 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
-from collections.abc import Iterator
-from dataclasses import replace
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
 from pathlib import Path
+from unittest.mock import Mock
 
+import pypdfium2
 import pytest
 from dcclib.validation.schematron import SchematronValidator
 
+from configs.pages import embarrassments
 from environments import ROOT
+from figures.samples import collisions
+from typesetting import samples
 from zlmreport import pipeline
+from zlmreport.certificate.document import Certificate, Notice, Paragraph, Section
 from zlmreport.cli import main
+from zlmreport.errors import InputError
 from zlmreport.files import write
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
@@ -53,22 +61,72 @@ def jobs(registry: Registry) -> list[Job]:
     return [load(path, registry) for path in JOBS]
 
 
-@pytest.mark.parametrize("path", JOBS, ids=name)
-def test_a_job_gives_each_of_its_formats_and_each_of_its_standards(
-    path: Path, registry: Registry, tmp_path: Path
-) -> None:
-    job = load(path, registry)
-    job = replace(job, directory=tmp_path, formats=(*job.formats, "dcc"))
-    written = write(pipeline.run(job, registry).documents)
-    stem = job.keys.certificate.number
+@dataclass(frozen=True)
+class Made:
+    """An example's job, its files, and its certificate in each layout that holds it."""
+
+    job: Job
+    written: tuple[Path, ...]
+    laid_out: Mapping[str, Certificate]
+
+
+@pytest.fixture(scope="module", params=JOBS, ids=name)
+def made(
+    request: pytest.FixtureRequest, registry: Registry, tmp_path_factory: pytest.TempPathFactory
+) -> Made:
+    """An example, evaluated once for all tests of it."""
+    job = load(request.param, registry)
+    job = replace(job, directory=tmp_path_factory.mktemp("made"), formats=(*job.formats, "dcc"))
+    with pytest.MonkeyPatch.context() as patch:
+        build = Mock(wraps=pipeline.build)
+        patch.setattr(pipeline, "build", build)
+        written = write(pipeline.run(job, registry).documents)
+    (_, *others), _ = build.call_args
+    laid_out = {}
+    for layout in ("sheet", "standard", "full"):
+        keys = job.keys.certificate.model_copy(update={"layout": layout})
+        with contextlib.suppress(InputError):  # a certificate that a sheet does not hold
+            certificate = replace(job, keys=job.keys.model_copy(update={"certificate": keys}))
+            laid_out[layout] = build(certificate, *others)
+    return Made(job, tuple(written), laid_out)
+
+
+def test_a_job_gives_each_of_its_formats_and_each_of_its_standards(made: Made) -> None:
+    stem = made.job.keys.certificate.number
     suffixes = {"dcc": "xml"}
-    expected = {f"{stem}.{suffixes.get(identifier, identifier)}" for identifier in job.formats}
-    assert {file.name for file in written} == expected
-    rules = SchematronValidator.for_dcc().validate_file(tmp_path / f"{stem}.xml")
+    expected = {f"{stem}.{suffixes.get(identifier, identifier)}" for identifier in made.job.formats}
+    assert {file.name for file in made.written} == expected
+    rules = SchematronValidator.for_dcc().validate_file(made.job.directory / f"{stem}.xml")
     assert rules.failed_assertions == []
-    results = json.loads((tmp_path / f"{stem}.json").read_bytes())
-    stated = [choice.identifier for choice in job.standards]
+    results = json.loads((made.job.directory / f"{stem}.json").read_bytes())
+    stated = [choice.identifier for choice in made.job.standards]
     assert [evaluation["standard"] for evaluation in results["evaluations"]] == stated
+
+
+def test_no_page_of_any_layout_embarrasses(made: Made, registry: Registry) -> None:
+    press = registry.renderer("pdf-typst")
+    found = {layout: embarrassments(each, press.render(each)) for layout, each in made.laid_out.items()}
+    of_files = [each for each in made.written if each.suffix == ".pdf"]
+    asked_for = made.laid_out[made.job.keys.certificate.layout]
+    found |= {each.name: embarrassments(asked_for, each.read_bytes()) for each in of_files}
+    assert not {where: what for where, what in found.items() if what}
+
+
+def test_nothing_drawn_in_any_layout_collides(made: Made) -> None:
+    figures = {each.key: each for every in made.laid_out.values() for each in every.figures}
+    assert not {key: what for key, each in figures.items() if (what := collisions(each))}
+
+
+def test_an_embarrassing_page_is_found() -> None:
+    lone = Section("lone", "Lone", (Notice("Only a note", ("of one item",)),), new_page=True)
+    last = Section("last", "Last", (Paragraph("The end."),), new_page=True)
+    certificate = samples.certificate(standards=1, sections=(lone, last))
+    pdf = find_plugins().renderer("pdf-typst").render(certificate)
+    pages = len(pypdfium2.PdfDocument(pdf))
+    assert embarrassments(certificate, pdf) == [
+        f"page {pages - 1} is filled to 0.10",
+        f"page {pages} ends with '2 Last / The end. / — End of the calibration certificate —'",
+    ]
 
 
 def test_each_standard_is_shown_by_a_job(jobs: list[Job], registry: Registry) -> None:

@@ -21,6 +21,7 @@ from zlmreport.figures.figure import (
     Readings,
     Role,
 )
+from zlmreport.figures.layout import figure_size
 from zlmreport.figures.metrics import plain_label
 from zlmreport.figures.shapes import Box
 from zlmreport.language import Language, Words
@@ -364,3 +365,31 @@ def pairs(boxes: Sequence[Box]) -> Iterator[tuple[Box, Box]]:
     for number, one in enumerate(boxes):
         for other in boxes[number + 1 :]:
             yield one, other
+
+
+#: Kinds of labels that stand where a dimension is.
+DIMENSIONS = ("arrow", "bracket", "level")
+
+
+def collisions(of: Figure, language: Language = Language.ENGLISH) -> list[str]:
+    """Return the labels of a figure that lie on each other, on a line of a dimension, or outside of it."""
+    canvas = drawn(of, language)
+    width, height = figure_size(of)
+    dimensions = [text.box for text in canvas.texts_of(*DIMENSIONS)]
+    around = [text.box for text in canvas.texts_of("tick x", "tick y", "legend", "heading", "title")]
+    found = [f"{a} overlaps {b}" for both in (dimensions, around) for a, b in pairs(both) if a.overlaps(b)]
+    for text in canvas.texts:
+        box = text.box
+        if box.left < 0 or box.bottom < 0 or box.right > width or box.top > height:
+            found.append(f"{text.text} is outside")
+    through = ((DIMENSIONS, ("arrow", "bracket")), (("bar",), ("level",)))
+    for kinds, of_lines in through:
+        lines = [line.points for kind in of_lines for line in canvas.of(kind)]
+        for text in canvas.texts_of(*kinds):
+            found += [f"a line runs through {text.text}" for points in lines if _meets(text.box, points)]
+    return found
+
+
+def _meets(box: Box, line: FloatArray) -> bool:
+    x, y = line[:, 0], line[:, 1]
+    return box.left < x.max() and x.min() < box.right and box.bottom < y.max() and y.min() < box.top

@@ -7,14 +7,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from figures.samples import ALL, ORDINARY, both_directions, drawn, each_direction, figure, pairs
+from figures.samples import ALL, ORDINARY, both_directions, collisions, drawn, each_direction, figure
 from zlmreport.figures.canvas import Face
 from zlmreport.figures.figure import Figure
 from zlmreport.figures.layout import figure_size
 from zlmreport.language import Language
 
 by_name = pytest.mark.parametrize("sample", ALL.values(), ids=ALL.keys())
-DIMENSIONS = ("arrow", "bracket", "level")
 
 
 def _texts(language: Language, kind: str) -> list[str]:
@@ -103,37 +102,9 @@ def test_the_title_of_the_values_reads_upwards() -> None:
 
 
 @by_name
-def test_labels_stay_inside_the_drawing(sample: Figure) -> None:
-    width, height = figure_size(sample)
-    for text in drawn(sample, Language.GERMAN).texts:
-        box = text.box
-        assert box.left >= 0, text
-        assert box.right <= width, text
-        assert box.bottom >= 0, text
-        assert box.top <= height, text
-
-
-@by_name
-def test_labels_of_dimensions_do_not_overlap(sample: Figure) -> None:
-    boxes = [text.box for text in drawn(sample).texts_of(*DIMENSIONS)]
-    assert not [pair for pair in pairs(boxes) if pair[0].overlaps(pair[1])]
-
-
-@by_name
-def test_labels_beside_the_axes_and_above_the_frame_do_not_overlap(sample: Figure) -> None:
-    canvas = drawn(sample, Language.GERMAN)
-    boxes = [text.box for text in canvas.texts_of("tick x", "tick y", "legend", "heading", "title")]
-    assert not [pair for pair in pairs(boxes) if pair[0].overlaps(pair[1])]
-
-
-@by_name
-def test_no_dimension_line_runs_through_a_label(sample: Figure) -> None:
-    canvas = drawn(sample)
-    for text in canvas.texts_of(*DIMENSIONS):
-        for line in (*canvas.of("arrow"), *canvas.of("bracket")):
-            x, y = line.points[:, 0], line.points[:, 1]
-            passes = text.box.left < x.max() and x.min() < text.box.right
-            assert not (passes and text.box.bottom < y.max() and y.min() < text.box.top), text
+@pytest.mark.parametrize("language", Language)
+def test_labels_stay_inside_and_off_each_other_and_off_lines(sample: Figure, language: Language) -> None:
+    assert not collisions(sample, language)
 
 
 def test_no_extension_line_runs_through_the_label_of_a_bracket() -> None:

@@ -7,10 +7,10 @@ cell; so the widths are estimated here, from the characters in the cells.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
-from itertools import accumulate
+from itertools import combinations
 from math import ceil
 from typing import TypeAlias
 from unicodedata import combining
@@ -26,6 +26,7 @@ from zlmreport.certificate.document import (
     Graph,
     Notice,
     Paragraph,
+    RowGroup,
     Symbol,
     Table,
     Verdict,
@@ -127,8 +128,9 @@ class TableLayout:
     in_fives: bool
 
 
-def table_layout(table: Table) -> TableLayout:
-    """Return how a table stands on a page."""
+def table_layout(block: Table | Formulas) -> TableLayout:
+    """Return how a table stands on a page, or definitions, which are a table without headings."""
+    table = block if isinstance(block, Table) else Table("", (Column(""),) * 3, (RowGroup(block.rows),))
     needs = measures(table)
     chosen = size(table, needs)
     shares = widths(needs, chosen.page_em)
@@ -140,16 +142,16 @@ def table_layout(table: Table) -> TableLayout:
         rooms=rooms,
         lines=body,
         apart=stands_apart(table.columns),
-        is_whole=body <= _WHOLE_LINES,
+        is_whole=(body if isinstance(block, Table) else len(block.rows)) <= _WHOLE_LINES,
         in_fives=chosen.name != SIZES[0].name and table.columns[0].align is Align.RIGHT,
     )
 
 
-def text_of(cell: Cell) -> str:
-    """Return what a cell shows, as a plain line."""
+def text_of(cell: Cell, symbol: Callable[[str], str] = plain) -> str:
+    """Return what a cell shows in its first line; `symbol` writes the notation of a symbol."""
     match cell:
         case Symbol(notation):
-            return plain(notation)
+            return symbol(notation)
         case Verdict(word=word):
             return word
         case Explained(name=name):
@@ -284,6 +286,8 @@ GatheredBlock: TypeAlias = Table | Formulas | Graph | Paragraph | Notice | tuple
 #: Characters of a value that stand on one line of a column, and of its name; counted low.
 _VALUE_LINE = 26
 _NAME_LINE = 20
+#: Lines that it must save for a group to stand out of its order, and groups of which every way is tried.
+_OUT_OF_ORDER, _MOST_PARTED = 3, 9
 #: Lines of a heading with the space around it.
 _HEADING_LINES = 2
 
@@ -304,13 +308,26 @@ def gather_facts(blocks: Iterable[Block]) -> Iterator[GatheredBlock]:
 
 
 def side_by_side(groups: tuple[Facts, ...]) -> tuple[tuple[Facts, ...], ...]:
-    """Part groups of facts into two columns of nearly one height; a single group keeps the page's width."""
+    """Part groups of facts into two columns of nearly one height; a single group keeps the page's width.
+
+    The first group stands first. Groups go over to the other column out of their order where that saves
+    lines.
+    """
     if len(groups) == 1:
         return (groups,)
-    *ends, total = accumulate(map(_fact_lines, groups))
-    heights = [max(end, total - end) for end in ends]
-    first = heights.index(min(heights)) + 1
-    return groups[:first], groups[first:]
+    lines = dict(enumerate(map(_fact_lines, groups)))
+
+    def height(left: tuple[int, ...]) -> int:
+        beside = sum(lines.values()) - sum(lines[each] for each in left)
+        is_in_order = left == tuple(range(len(left)))
+        return max(sum(lines[each] for each in left), beside) + (0 if is_in_order else _OUT_OF_ORDER)
+
+    numbers = range(1, len(groups) if len(groups) <= _MOST_PARTED else 1)
+    ways = [tuple(range(end)) for end in range(1, len(groups))]
+    ways += [(0, *others) for size in numbers for others in combinations(numbers, size - 1)]
+    left = min(ways, key=height)
+    right = (each for each in lines if each not in left)
+    return tuple(groups[each] for each in left), tuple(groups[each] for each in right)
 
 
 def _fact_lines(group: Facts) -> int:

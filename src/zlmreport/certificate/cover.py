@@ -33,7 +33,8 @@ _CALIBRATION = Words(en="Calibration", de="Kalibrierung")
 def blocks(of: Material, pages: Sequence[tuple[Evaluated, ...]] | None = None) -> tuple[Block, ...]:
     """Return the blocks under the title.
 
-    Where standards share `pages`, they share their results in brief, and the conditions stand here too.
+    Where standards share `pages`, they share their results in brief, and the conditions stand here too; the
+    statements that every certificate makes find their place there.
     """
     job, measurements, evaluated, writer = of.job, of.measurements, of.evaluated, of.writer
     evaluations = tuple(each.evaluation for each in evaluated)
@@ -55,7 +56,7 @@ def blocks(of: Material, pages: Sequence[tuple[Evaluated, ...]] | None = None) -
         *_shortfalls(evaluations, writer, in_a_line=pages is not None),
         *_as_found(job, writer),
         *statements.notices(job.keys, writer),
-        *statements.paragraphs(job.keys, writer),
+        *(statements.paragraphs(job.keys, writer) if pages is None else ()),
     )
 
 

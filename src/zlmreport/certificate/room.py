@@ -22,11 +22,12 @@ from zlmreport.certificate.document import (
     Verdict,
 )
 
-_MILLIMETRE = 72 / 25.4
+#: In points.
+MILLIMETRE = 72 / 25.4
 #: What stands between the margins of a page of each paper, but for the mark at the end of a document.
-PAGES = {paper: (height - 21 - 19) * _MILLIMETRE - 22 for paper, height in (("A4", 297.0), ("Letter", 279.4))}
+PAGES = {paper: (height - 21 - 19) * MILLIMETRE - 22 for paper, height in (("A4", 297.0), ("Letter", 279.4))}
 #: What the first page has besides, for it has no running head.
-OF_FIRST = 6 * _MILLIMETRE
+OF_FIRST = 6 * MILLIMETRE
 
 _EM = 8.1
 _LINE = 1.3 * _EM
@@ -44,7 +45,7 @@ _LOGO = 31.0
 #: Em of the names and values of facts in one of two columns.
 _NAME_EM, _VALUE_EM = 9.9, 16.8
 _FACTS_MARGIN = 4.0
-_USUAL_GRAPH = 60 * _MILLIMETRE
+_USUAL_GRAPH = 60 * MILLIMETRE
 
 
 def height(blocks: Iterable[Block]) -> float:
@@ -72,9 +73,9 @@ def _height(block: columns.GatheredBlock) -> float:
         case Table():
             return _table(block)
         case Formulas(rows=rows):
-            return 25.0 + len(rows) * (_SMALL * _LINE + 3.4)
+            return 25.0 + len(rows) * (_DENSE * _LINE + 3.4)
         case Graph(figure):
-            drawing = figure.height * _MILLIMETRE if figure.height else _USUAL_GRAPH * len(figure.panels)
+            drawing = figure.height * MILLIMETRE if figure.height else _USUAL_GRAPH * len(figure.panels)
             return drawing + 10.0 + _SMALL * _LINE
         case Paragraph(text):
             return _lines(text, _PAGE_EM) * _LINE + 3.0

@@ -33,7 +33,6 @@ if TYPE_CHECKING:
 _LEAST_GRAPH, _LARGEST_GRAPH = 38.0, 92.0
 #: Of its caption and of the space around it, mm.
 _BESIDE_GRAPH = 8.0
-_MILLIMETRE = 72 / 25.4
 
 _TITLE = Words(en="Results by {designations}", de="Ergebnisse nach {designations}")
 
@@ -114,7 +113,7 @@ def _sheet(of: Material, page: tuple[Evaluated, ...], above: float) -> tuple[Sec
     free = room.PAGES[of.job.keys.certificate.paper] - above - room.heading(title)
     free -= sum(room.height(each.blocks) for each in (*before, *after))
     table = results.positions(evaluation, writer)
-    graph = (_LEAST_GRAPH + _BESIDE_GRAPH) * _MILLIMETRE if main else 0.0
+    graph = (_LEAST_GRAPH + _BESIDE_GRAPH) * room.MILLIMETRE if main else 0.0
     holds_table = room.height([table]) <= free - graph
     if holds_table:
         free -= room.height([table])
@@ -132,7 +131,7 @@ def _blocks(items: Iterable[_Item]) -> Iterator[Block]:
 
 
 def _as_high_as(figure: Figure, free: float) -> Figure:
-    height = free / _MILLIMETRE - _BESIDE_GRAPH
+    height = free / room.MILLIMETRE - _BESIDE_GRAPH
     return replace(figure, height=round(min(max(height, _LEAST_GRAPH), _LARGEST_GRAPH), 1))
 
 

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from typing import TypeAlias
 
-from zlmreport.certificate import conditions, conformity, cover, results, room
+from zlmreport.certificate import conditions, conformity, cover, results, room, statements
 from zlmreport.certificate.document import (
     Block,
     Column,
@@ -39,6 +39,10 @@ from zlmreport.presenting.writer import Writer
 
 #: Heights of graphs, mm: of the main one, of panels beside each other, of any other panel.
 _MAIN, _BESIDE, _OTHER = 57.0, 43.0, 54.0
+#: The part of its height that a graph keeps at least where a page is short of room.
+_LEAST_DRAWN = 0.75
+#: The part of the first page that must be taken for the next part to begin a page.
+_FULL_ENOUGH = 0.38
 #: Panels that have room beside each other.
 _MOST_BESIDE = 2
 
@@ -64,23 +68,26 @@ _DEFINED = Words(en="{caption} {designations}.", de="{caption} {designations}.")
 def lay_out(of: Material) -> LaidOut:
     """Return the document.
 
-    Each standard begins a page where the first page holds all that stands before the results; where it does
-    not, parts follow each other without a break.
+    Each standard begins a page where the first page holds all that stands before the results, and is not
+    left empty by it; where it does not, parts follow each other without a break. What holds of every
+    certificate goes over to its end where only that makes the first page too long.
     """
     pages = together(of.evaluated, of.writer)
-    on_cover = cover.blocks(of, pages)
-    besides = tuple(map(_in_less_room, _besides_conditions(of)))
-    taken = room.head(of.letterhead, of.title) + room.height(on_cover)
-    breaks = not besides and taken <= room.PAGES[of.job.keys.certificate.paper]
+    page = room.PAGES[of.job.keys.certificate.paper]
+    on_cover, said = cover.blocks(of, pages), tuple(statements.paragraphs(of.job.keys, of.writer))
+    free = page - room.head(of.letterhead, of.title) - room.height(on_cover)
+    is_said_at_end = room.height(said) > free >= 0
+    breaks = 0 <= free <= (1 - _FULL_ENOUGH) * page
+    origin = _in_less_room(origin_section(of))
     return LaidOut(
-        on_cover,
+        on_cover if is_said_at_end else (*on_cover, *said),
         (
-            *besides,
-            *_results(of, pages, breaks=breaks),
+            *_results(of, pages, page if breaks else None),
+            *map(_in_less_room, _besides_conditions(of)),
             *in_common(pages, of.writer),
             *map(_without_graphs, uncertainty_sections(of)),
             *readings_sections(of),
-            origin_section(of),
+            replace(origin, blocks=(*origin.blocks, *said)) if is_said_at_end else origin,
             *map(_in_less_room, opinions_and_model(of)),
         ),
         is_compact=True,
@@ -95,10 +102,10 @@ def _besides_conditions(of: Material) -> Iterator[Section]:
         yield replace(section, blocks=blocks)
 
 
-def _results(of: Material, pages: Pages, *, breaks: bool) -> Iterator[Section]:
+def _results(of: Material, pages: Pages, room_of_page: float | None) -> Iterator[Section]:
     """Yield the results; of an axis that was adjusted, compared first, after and before.
 
-    Each standard `breaks` the page before it, or goes on where the one before ends.
+    Each standard begins a page of that many points, or goes on where the one before ends.
     """
     sections: Iterator[Section] = (page(each, of.writer) for each in pages)
     keys = of.job.keys.as_found
@@ -106,8 +113,11 @@ def _results(of: Material, pages: Pages, *, breaks: bool) -> Iterator[Section]:
         from zlmreport.certificate.as_found import beside_as_found  # noqa: PLC0415 - of the few that need it
 
         sections = beside_as_found(keys, sections, of.as_found, of.evaluated, of.writer, page_of_one)
-        yield _in_less_room(next(sections))
-    yield from (replace(each, new_page=breaks) for each in sections)
+        yield _on_a_page(_in_less_room(next(sections)), room.PAGES[of.job.keys.certificate.paper])
+    if room_of_page is None:
+        yield from sections
+    else:
+        yield from (replace(_on_a_page(each, room_of_page), new_page=True) for each in sections)
 
 
 def _without_graphs(section: Section) -> Section:
@@ -118,6 +128,23 @@ def _without_graphs(section: Section) -> Section:
 def _in_less_room(section: Section) -> Section:
     """Return a section with graphs no higher than they must be, and tables in smaller type."""
     return replace(section, blocks=tuple(map(_smaller, section.blocks)))
+
+
+def _on_a_page(section: Section, page: float) -> Section:
+    """Return a section with its graphs somewhat lower, if that makes it fit on a page."""
+    graphs = [each.figure for each in section.blocks if isinstance(each, Graph)]
+    excess = room.heading(section.title) + room.height(section.blocks) - page
+    drawn = sum(each.height or 0.0 for each in graphs) * room.MILLIMETRE
+    if excess <= 0 or drawn - excess < _LEAST_DRAWN * drawn:
+        return section
+    part = 1 - excess / drawn
+
+    def lower(block: Block) -> Block:
+        if not isinstance(block, Graph) or block.figure.height is None:
+            return block
+        return Graph(replace(block.figure, height=round(block.figure.height * part, 1)))
+
+    return replace(section, blocks=tuple(map(lower, section.blocks)))
 
 
 def _smaller(block: Block) -> Block:
@@ -178,9 +205,10 @@ def page_of_one(evaluated: Evaluated, writer: Writer) -> Section:
 def in_common(pages: Sequence[Sequence[Evaluated]], writer: Writer) -> Iterator[Section]:
     """Yield what is said once for all standards: limits, requirements, definitions, notes."""
     evaluations = [each.evaluation for page in pages for each in page]
-    blocks: list[Block] = [*conformity.statements([page[0].evaluation for page in pages], writer)]
+    tables = [*conformity.statements([page[0].evaluation for page in pages], writer)]
     if any(each.findings for each in evaluations):
-        blocks.append(results.requirements(evaluations, writer))
+        tables.append(results.requirements(evaluations, writer))
+    blocks: list[Block] = [*map(_smaller, tables)]
     for page in pages:
         lead = page[0].evaluation
         if lead.parameters:

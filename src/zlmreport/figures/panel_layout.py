@@ -129,12 +129,22 @@ def _levels(panel: Panel, frame: Frame) -> tuple[tuple[Level, float, PlacedLabel
 
 
 def _bar_values(panel: Panel, frame: Frame, language: Language) -> tuple[PlacedLabel, ...]:
+    """Return the values above their bars, none of them on a line."""
     labels = [plain_label(bar.value.in_language(language), TICK_TEXT_SIZE) for bar in panel.bars]
+    lines = sorted(frame.y_point(level.y) for level in drawable_levels(panel))
+
+    def foot(top_of_bar: float, height: float) -> float:
+        at = top_of_bar + _VALUE_GAP
+        for line in lines:
+            if at - _VALUE_GAP < line < at + height:
+                at = line + _VALUE_GAP
+        return at
+
     return tuple(
         PlacedLabel(
             label,
             frame.x_point(number) - label.width / 2,
-            frame.y_point(bar.y + bar.uncertainty) + _VALUE_GAP,
+            foot(frame.y_point(bar.y + bar.uncertainty), label.height),
         )
         for number, (bar, label) in enumerate(zip(panel.bars, labels, strict=True))
     )

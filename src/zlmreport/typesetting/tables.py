@@ -8,12 +8,9 @@ from zlmreport.certificate import columns
 from zlmreport.certificate.document import (
     Align,
     Cell,
-    Column,
     Explained,
     Formulas,
     Mark,
-    RowGroup,
-    Symbol,
     Table,
     Verdict,
 )
@@ -50,7 +47,7 @@ def table_context(table: Table, label: str, page: str) -> TableContext:
         in_fives=layout.in_fives,
         widths=_per_cent(layout.widths),
         headings=tuple(
-            CellContext(_content(column.heading), style, column.unit)
+            CellContext(columns.text_of(column.heading, symbol), style, column.unit)
             for column, style in zip(table.columns, styles, strict=True)
         ),
         groups=tuple(
@@ -68,8 +65,7 @@ def table_context(table: Table, label: str, page: str) -> TableContext:
 
 def formulas_context(formulas: Formulas, label: str) -> FormulasContext:
     """Return the context of definitions, which are set as a table without headings."""
-    columns_of_words = (Column(""),) * 3
-    layout = columns.table_layout(Table("", columns_of_words, (RowGroup(formulas.rows),)))
+    layout = columns.table_layout(formulas)
     return FormulasContext(
         label=label,
         caption=formulas.caption,
@@ -90,16 +86,4 @@ def _cell(cell: Cell, style: str, padding: str) -> CellContext:
     if isinstance(cell, Verdict):
         return CellContext(cell.word, f"verdict {_SHAPE[cell.mark]} {style}".strip())
     note = cell.meaning if isinstance(cell, Explained) else ""
-    return CellContext(_content(cell), f"{style} {padding}".strip(), note=note)
-
-
-def _content(cell: Cell) -> str:
-    match cell:
-        case Symbol(notation):
-            return symbol(notation)
-        case Verdict(word=word):
-            return word
-        case Explained(name=name):
-            return name
-        case _:
-            return cell
+    return CellContext(columns.text_of(cell, symbol), f"{style} {padding}".strip(), note=note)

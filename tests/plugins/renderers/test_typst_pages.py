@@ -116,7 +116,9 @@ def test_a_title_stays_with_what_follows(lines: int) -> None:
     rows = RowGroup(tuple((f"row {n:02d}",) for n in range(30)))
     table = Table("a caption", (Column("heading"),), (rows,))
     reader = read(with_blocks(Section("a", "Filler", filler), Section("b", "A title", (table,))))
-    assert len({page_of(reader, text) for text in ("A title", "a caption", "row 00")}) == 1
+    begins, *goes_on = (number for number, page in enumerate(texts(reader), 1) if "A title" in page)
+    assert {page_of(reader, text) for text in ("a caption", "row 00")} == {begins}
+    assert goes_on == list(range(begins + 1, len(reader.pages) + 1)), "the head names what goes on"
 
 
 @pytest.mark.parametrize("word", ["0ff1ce" * 40, "Positioniergenauigkeitsmessunsicherheitsbilanz"])

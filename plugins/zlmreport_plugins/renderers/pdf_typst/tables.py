@@ -10,12 +10,10 @@ from typing import Any
 from zlmreport.plugin import (
     Align,
     Cell,
-    Column,
     Explained,
     FontFace,
     Formulas,
     Mark,
-    RowGroup,
     Symbol,
     Table,
     Verdict,
@@ -44,7 +42,9 @@ _SHAPE = {Mark.MET: "met", Mark.NOT_MET: "not-met", Mark.OPEN: "open"}
 
 def table_data(table: Table) -> dict[str, Any]:
     """Return the columns and rows of a table."""
-    columns_data = _columns(table)
+    columns_data = _columns(
+        table, [group.rows for group in table.groups], [column.align for column in table.columns]
+    )
     rooms = columns_data.pop("rooms")
     padding = iter(decimal_padding(table))
     return {
@@ -68,27 +68,29 @@ def table_data(table: Table) -> dict[str, Any]:
 
 def formulas_data(formulas: Formulas) -> dict[str, Any]:
     """Return definitions, which are set as a table without headings."""
-    columns_data = _columns(Table("", (Column(""),) * 3, (RowGroup(formulas.rows),)))
+    columns_data = _columns(formulas, [formulas.rows], [Align.LEFT] * 3)
     rooms = columns_data.pop("rooms")
     return {**columns_data, "rows": [_row(row, rooms) for row in formulas.rows]}
 
 
-def _columns(table: Table) -> dict[str, Any]:
+def _columns(
+    block: Table | Formulas, groups: Sequence[Sequence[Sequence[Cell]]], alignments: Sequence[Align]
+) -> dict[str, Any]:
     """Return how columns share the page, and `rooms`: the width that each leaves for words, in em.
 
     Columns of numbers were made wide enough for each of them, and never part one.
     """
-    layout = table_layout(table)
+    layout = table_layout(block)
     return {
         "size": layout.size,
         "widths": layout.widths,
         "apart": layout.apart,
         "whole": layout.is_whole,
         "in-fives": layout.in_fives,
-        "breakable": any(_is_long(cell) for group in table.groups for row in group.rows for cell in row),
+        "breakable": any(_is_long(cell) for rows in groups for row in rows for cell in row),
         "rooms": [
-            inf if column.align is Align.RIGHT else room - _PADDING - (_APART if apart else 0.0)
-            for room, column, apart in zip(layout.rooms, table.columns, layout.apart, strict=True)
+            inf if align is Align.RIGHT else room - _PADDING - (_APART if apart else 0.0)
+            for room, align, apart in zip(layout.rooms, alignments, layout.apart, strict=True)
         ],
     }
 

@@ -1,0 +1,111 @@
+"""What a page may not be: nearly empty, ending on a heading, parting what belongs together, cut off."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import pairwise
+
+import numpy as np
+import pypdfium2
+
+from zlmreport.certificate.columns import table_layout, text_of
+from zlmreport.certificate.document import Certificate, Notice, Paragraph, Symbol, Table
+
+#: Points from the edge of a page in which its head and its foot stand, and its margin at the sides.
+_HEAD, _FOOT, _SIDE = 58.0, 52.0, 55.0
+#: A part of a page that may be left empty nowhere but on the last.
+_LEAST_FILL = 0.35
+
+
+def embarrassments(certificate: Certificate, pdf: bytes) -> list[str]:
+    """Return what nobody would put his name on, page by page."""
+    document = pypdfium2.PdfDocument(pdf)
+    pages = list(document)
+    bodies = [
+        _lines(page, _FOOT, page.get_height() - (_HEAD if number else 40))
+        for number, page in enumerate(pages)
+    ]
+    return [
+        *(f"page {number} is filled to {fill:.2f}" for number, fill in _emptiness(pages)),
+        *(f"page {number} ends with {line!r}" for number, line in _left_alone(certificate, bodies)),
+        *(f"page {number} parts a paragraph: {line!r}" for number, line in _widows(certificate, bodies)),
+        *(f"page {number} parts the table {caption!r}" for number, caption in _parted(certificate, bodies)),
+        *(
+            f"page {number} has text outside its margins"
+            for number, page in enumerate(pages, 1)
+            if _spills(page)
+        ),
+    ]
+
+
+def _lines(page: pypdfium2.PdfPage, bottom: float, top: float) -> list[str]:
+    text = page.get_textpage().get_text_bounded(bottom=bottom, top=top)
+    return [line for line in (" ".join(each.split()) for each in text.splitlines()) if line]
+
+
+def _emptiness(pages: list[pypdfium2.PdfPage]) -> Iterator[tuple[int, float]]:
+    for number, page in enumerate(pages[:-1], 1):
+        ink = page.render(scale=0.5, grayscale=True).to_numpy().squeeze() < 225
+        body = ink[int(_HEAD / 2) : int((page.get_height() - _FOOT) / 2)].any(axis=1)
+        fill = (np.flatnonzero(body).max(initial=-1) + 1) / len(body)
+        if fill < _LEAST_FILL:
+            yield number, fill
+
+
+def _left_alone(certificate: Certificate, bodies: list[list[str]]) -> Iterator[tuple[int, str]]:
+    """Yield pages that end with a heading or a caption, or consist of a note alone."""
+    notes = [each for each in _blocks(certificate) if isinstance(each, Paragraph | Notice)]
+    headings = {f"{number} {section.title}" for number, section in enumerate(certificate.sections, 1)}
+    headings |= {each.heading for each in notes if isinstance(each, Notice)}
+    table = f"{certificate.page_words.table} "
+    for number, body in enumerate(bodies, 1):
+        last = body[-1].lstrip("! ")
+        if last in headings or last.startswith(table):
+            yield number, last
+    *_, end = bodies
+    if len(bodies) > 1 and len(end) < 4:
+        yield len(bodies), " / ".join(end)
+
+
+def _widows(certificate: Certificate, bodies: list[list[str]]) -> Iterator[tuple[int, str]]:
+    """Yield pages that hold a single line of a paragraph that goes on."""
+    texts = [each.text for each in _blocks(certificate) if isinstance(each, Paragraph)]
+    for number, (before, after) in enumerate(pairwise(bodies), 1):
+        for text in texts:
+            if f"{before[-1]} {after[0]}" in text:
+                if len(before) > 1 and f"{before[-2]} {before[-1]}" not in text:
+                    yield number, before[-1]
+                if len(after) > 1 and f"{after[0]} {after[1]}" not in text:
+                    yield number + 1, after[0]
+
+
+def _parted(certificate: Certificate, bodies: list[list[str]]) -> Iterator[tuple[int, str]]:
+    """Yield short tables whose rows do not all stand on the page of their caption."""
+    tables = [each for each in _blocks(certificate) if isinstance(each, Table)]
+    for place, table in enumerate(tables, 1):
+        begins = f"{certificate.page_words.table} {place} {table.caption[:20]}"
+        numbered = [at for at, body in enumerate(bodies) if any(each.startswith(begins) for each in body)]
+        if not numbered or not table_layout(table).is_whole:
+            continue
+        words = "".join("".join(bodies[numbered[0]]).split())
+        cells = [
+            text_of(cell)
+            for group in table.groups
+            for row in group.rows
+            for cell in row
+            if not isinstance(cell, Symbol)
+        ]
+        if not all("".join(cell.split()) in words for cell in cells if cell.isascii()):
+            yield numbered[0] + 1, table.caption
+
+
+def _spills(page: pypdfium2.PdfPage) -> bool:
+    text = page.get_textpage()
+    edges = [text.get_rect(each) for each in range(text.count_rects())]
+    return any(left < _SIDE or right > page.get_width() - _SIDE for left, _, right, _ in edges)
+
+
+def _blocks(certificate: Certificate) -> Iterator[object]:
+    yield from certificate.cover
+    for section in certificate.sections:
+        yield from section.blocks
