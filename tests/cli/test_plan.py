@@ -271,3 +271,31 @@ def test_mistake_of_the_job_is_told_at_its_place(folder: Path, capsys: Capture) 
 def test_job_without_a_file_of_its_own_cannot_be_planned(folder: Path, capsys: Capture) -> None:
     assert main(["plan", str(folder / "none.yaml")]) == 3
     assert "cannot be read" in capsys.readouterr().err
+
+
+def test_job_that_decides_is_printed_or_written(folder: Path, capsys: Capture) -> None:
+    cool = ("plan: {}", "plan: {temperature_change: 0.01}")
+    (folder / "job.yaml").write_text(job_text(cool), encoding="utf-8")
+    asked = ["plan", "job.yaml", "--decide", "scale-error,scale-expansion"]
+    assert main(asked) == 0
+    printed = capsys.readouterr().out
+    assert 'extends: "job.yaml"' in printed
+    assert main([*asked, "--output", "next"]) == 0
+    written = (folder / "next" / "PLAN-1-decide.yaml").read_text(encoding="utf-8")
+    assert written == printed.replace('"job.yaml"', '"../job.yaml"')
+    assert "next: zlmreport plan next/PLAN-1-decide.yaml" in capsys.readouterr().out
+    assert main(["plan", "next/PLAN-1-decide.yaml", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["certificate"]["number"] == "PLAN-1-decide"
+    assert main([*asked, "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["schema"] == "zlmreport/decision/1"
+    assert found["decides"] >= 0.95
+    assert found["minutes"] > found["job"]["plan"]["pause"]["minutes"]
+
+
+def test_deciding_needs_readings_that_are_sound_or_none(folder: Path, capsys: Capture) -> None:
+    (folder / "not-measured-yet.csv").write_text(
+        "target,direction,run,deviation\n0,+,1,x\n", encoding="utf-8"
+    )
+    assert main(["plan", "job.yaml", "--decide", "scale-error,scale-expansion"]) == 2
+    assert "not-measured-yet.csv:2:7" in capsys.readouterr().err

@@ -28,6 +28,7 @@ from zlmreport.language import Language
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.model.report import report
 from zlmreport.model.study import Fitted, Study, addition, refuse_useless
+from zlmreport.planning.deciding import experiment_of_tie, experiment_values
 from zlmreport.plugins import Registry, find_plugins
 from zlmreport.presenting.writer import Writer
 
@@ -92,8 +93,12 @@ def _fit(session: _Session, options: Namespace) -> tuple[Iterable[str], Any]:
 
 
 def _diagnose(session: _Session, _: Namespace) -> tuple[Iterable[str], Any]:
-    diagnosis = session.study().diagnosis(session.registry.effects)
-    return diagnosis_lines(diagnosis, session.job, session.shown_path), report(diagnosis)
+    study, effects = session.study(), session.registry.effects
+    diagnosis = study.diagnosis(effects)
+    experiment = experiment_of_tie(study, diagnosis, effects)
+    lines = diagnosis_lines(diagnosis, session.job, session.shown_path, experiment)
+    values = experiment_values(experiment, session.job, Language.ENGLISH) if experiment else None
+    return lines, report(diagnosis, experiment=values)
 
 
 def _history(session: _Session, _: Namespace) -> tuple[Iterable[str], Any]:

@@ -17,6 +17,7 @@ from zlmreport.model.estimate import Plausibility
 from zlmreport.model.fit import Fit
 from zlmreport.model.report import listed
 from zlmreport.model.study import Fitted
+from zlmreport.planning.experiment import Experiment
 from zlmreport.presenting.diagnosis import CandidateRow, DiagnosisRows
 from zlmreport.presenting.model import (
     ErrorRows,
@@ -89,7 +90,9 @@ def point_lines(points: Points | None, axis: Axis) -> Iterator[str]:
     yield f"  deviation by the model, ± expanded uncertainty for 95 %{when}"
 
 
-def diagnosis_lines(diagnosis: Diagnosis, job: Job, path: str) -> Iterator[str]:
+def diagnosis_lines(
+    diagnosis: Diagnosis, job: Job, path: str, experiment: Experiment | None
+) -> Iterator[str]:
     """Yield the lines on a diagnosis; `path` is the job as the user types it."""
     fit, rows = diagnosis.fit, DiagnosisRows.of(diagnosis, _ENGLISH)
     yield _heading(job, fit)
@@ -113,7 +116,18 @@ def diagnosis_lines(diagnosis: Diagnosis, job: Job, path: str) -> Iterator[str]:
     for each in hidden:
         yield from wrapped(f"{', '.join(each.effects)}: {each.reason}")
     yield ""
-    if rows.candidates and diagnosis.verdict is Verdict.MISSING:
+    yield from _what_next(rows, diagnosis, path, experiment)
+
+
+def _what_next(
+    rows: DiagnosisRows, diagnosis: Diagnosis, path: str, experiment: Experiment | None
+) -> Iterator[str]:
+    """Yield the experiment that tells candidates apart, and the command that comes next."""
+    if experiment:
+        yield from (Colour.BOLD.of("what tells them apart"), *wrapped(said(experiment.statement)), "")
+    if experiment and experiment.plan:
+        yield f"next: zlmreport plan {path} --decide {','.join(experiment.effects)} --output next"
+    elif rows.candidates and diagnosis.verdict is Verdict.MISSING:
         argument = rows.candidates[0].argument
         yield f"next: zlmreport model add {path} " + (f"'{argument}'" if ":" in argument else argument)
     else:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 from argparse import Namespace
 from collections.abc import Iterator, Sequence
 from functools import partial
@@ -14,11 +15,15 @@ from zlmreport.capture.of_job import options_of
 from zlmreport.cli.plan_files import SIGNS, chosen_programs, plan_files, program_files
 from zlmreport.cli.plan_lines import plan_lines
 from zlmreport.cli.terminal import Colour, print_json, said, shown_path, wrapped
+from zlmreport.errors import AccessError
 from zlmreport.files import Document, demand_free, write
 from zlmreport.job.job import ExtensionChoice, Job
 from zlmreport.job.loading import load
+from zlmreport.language import Language
 from zlmreport.measurement.axis import Axis
 from zlmreport.model.effect import unit_of
+from zlmreport.model.study import Study
+from zlmreport.planning.deciding import deciding_experiment, deciding_number, deciding_text, experiment_values
 from zlmreport.planning.planned_test import PlannedTest, planned_test
 from zlmreport.planning.programs import motion_of
 from zlmreport.planning.targets import in_users_unit
@@ -26,13 +31,15 @@ from zlmreport.planning.visibility import Remedy, SeenEffect
 from zlmreport.plugin.extension import Extension, ExtensionPlan
 from zlmreport.plugins import Registry, find_plugins
 
-SCHEMA = "zlmreport/plan/1"
+SCHEMA, DECISION = "zlmreport/plan/1", "zlmreport/decision/1"
 
 
 def run(options: Namespace) -> int:
     """Plan the test of a job; its readings need not exist."""
     registry = find_plugins(files=options.plugin)
     job = load(options.job, registry)
+    if options.decide:
+        return _decide(options, job, registry)
     own = _plan_of_extension(job, registry)
     if own:
         return _show_plan(options, job, registry, own)
@@ -62,6 +69,41 @@ def run(options: Namespace) -> int:
         print(shown_path(path))
     command = "zlmreport capture" if options_of(job) else "measure, then zlmreport"
     print(f"next: {command} {shown_path(options.job)}")
+    return 0
+
+
+def _decide(options: Namespace, job: Job, registry: Registry) -> int:
+    """Write or print the job of the experiment that decides between effects."""
+    names = [name.strip() for name in options.decide.split(",") if name.strip()]
+    study: Study | None = None
+    try:
+        study = Study.of(
+            job, pipeline.read(job, registry), registry.effects, pipeline.read_sessions(job, registry)
+        )
+    except AccessError:
+        file = getattr(job.source.options, "file", None)
+        if file is None or Path(file).exists():
+            raise
+    experiment = deciding_experiment(names, job, study, registry.effects, pipeline.standards(job, registry))
+    folder = options.output or Path()
+    documents: tuple[Document, ...] = ()
+    if experiment.plan:
+        extends = Path(os.path.relpath(options.job, folder)).as_posix()
+        text = deciding_text(experiment, job, extends)
+        if options.output:
+            documents = (Document(folder / f"{deciding_number(job)}.yaml", text.encode()),)
+    demand_free(document.path for document in documents)
+    written = write(documents)
+    if options.json:
+        values = experiment_values(experiment, job, Language.ENGLISH)
+        print_json({"schema": DECISION, **values, "files": [str(path) for path in written]})
+    elif experiment.plan and not options.output:
+        print(text, end="")
+    else:
+        print(*wrapped(said(experiment.statement), ""), sep="\n")
+    for path in written:
+        print(shown_path(path))
+        print(f"next: zlmreport plan {shown_path(path)}")
     return 0
 
 

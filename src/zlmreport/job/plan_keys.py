@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any
+from typing import Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
@@ -54,6 +54,18 @@ class ControllerKeys(BaseModel):
     controller: Text = Field(description="Identifier of an installed controller.", examples=["linuxcnc"])
 
 
+class PauseKeys(JobPart):
+    """A rest half-way through the test in which a temperature changes."""
+
+    minutes: Positive = Field(description="How long.")
+    change: Finite = Field(description="By how much the temperature changes meanwhile, K.")
+    of: Literal["axis_temperature", "screw_temperature", "air_temperature"] = Field(
+        "axis_temperature",
+        description="Which one: the whole machine's; the screw's, while the axis runs to and fro; or the "
+        "air's. What it takes along with it is estimated.",
+    )
+
+
 class PlanKeys(JobPart):
     """The test before it is done, for `zlmreport plan`."""
 
@@ -84,6 +96,11 @@ class PlanKeys(JobPart):
     )
     temperature_change: Positive = Field(
         1.0, description="By how much temperatures are expected to rise during the test, K."
+    )
+    pause: PauseKeys | None = Field(
+        None,
+        description="A rest half-way, between two runs where the method goes run by run.",
+        examples=[{"minutes": 60, "change": 3}],
     )
     programs: list[ProgramKeys] = Field(
         default_factory=list,

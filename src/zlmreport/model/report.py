@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -63,7 +63,11 @@ _OR = Words(en="{one} or {other}", de="{one} oder {other}")
 _AND = Words(en="{one} and {other}", de="{one} und {other}")
 
 
-def report(diagnosis: Diagnosis, language: Language = Language.ENGLISH) -> dict[str, Any]:
+def report(
+    diagnosis: Diagnosis,
+    language: Language = Language.ENGLISH,
+    experiment: Mapping[str, Any] | None = None,
+) -> dict[str, Any]:
     """Return a diagnosis as plain values for a JSON file.
 
     Parameters
@@ -72,6 +76,8 @@ def report(diagnosis: Diagnosis, language: Language = Language.ENGLISH) -> dict[
         The diagnosis.
     language
         Of its sentences; names and verdicts are the same in every language.
+    experiment
+        What tells the first candidate from its equals, with these under the key ``effects``.
     """
     fitted = diagnosis.fit
     axis = fitted.design.axis
@@ -83,7 +89,13 @@ def report(diagnosis: Diagnosis, language: Language = Language.ENGLISH) -> dict[
         "verdict": diagnosis.verdict.value,
         "p_value": diagnosis.p_value,
         "failures": [_failure(each, language) for each in diagnosis.failures],
-        "candidates": [_candidate(each, fitted.design, language) for each in diagnosis.candidates],
+        "candidates": [
+            {
+                **_candidate(each, fitted.design, language),
+                "experiment": experiment if experiment and each.identifier in experiment["effects"] else None,
+            }
+            for each in diagnosis.candidates
+        ],
         "implausible": [_candidate(each, fitted.design, language) for each in diagnosis.implausible],
         "further": list(diagnosis.further),
         "unexplained": None

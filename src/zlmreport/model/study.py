@@ -130,20 +130,21 @@ class Study:
     def diagnosis(self, effects: Sequence[Effect]) -> Diagnosis:
         """Return the diagnosis: every installed effect is tried, and every formula that the job lists."""
         try:
-            return diagnose(self.model, self.together, [*effects, *self._formulas()], self.assumptions)
+            return diagnose(self.model, self.together, self.tried(effects), self.assumptions)
         except ModelError as error:
             raise InputError(self._problems(error)) from error
 
     def titles(self, effects: Sequence[Effect]) -> dict[str, Words]:
         """Return what installed effects and the formulas of the job are called, by identifier."""
         of_model = (term.effect for term in self.model.terms)
-        return {each.identifier: each.title for each in (*effects, *of_model, *self._formulas())}
+        return {each.identifier: each.title for each in (*self.tried(effects), *of_model)}
 
-    def _formulas(self) -> list[Effect]:
-        """Return the effects that the job writes as formulas to be tried."""
+    def tried(self, effects: Sequence[Effect]) -> list[Effect]:
+        """Return the effects that are tried: those installed, and the formulas that the job lists."""
         by_identifier: dict[str, Effect] = {}
         kind = self.job.axis.kind
-        return [chosen_effect(each, by_identifier.__getitem__, kind) for each in self.job.candidates]
+        formulas = (chosen_effect(each, by_identifier.__getitem__, kind) for each in self.job.candidates)
+        return [*effects, *formulas]
 
     def history(self, whole: Fitted | None = None) -> tuple[Fitted, ...]:
         """Return the fits of no effect, of the first, of the first two …, up to the whole model.

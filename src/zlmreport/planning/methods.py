@@ -26,6 +26,10 @@ class Method(StrEnum):
     QUASI_PILGRIM = "quasi-pilgrim"
 
 
+#: Methods that have taken all readings of a run before the next begins.
+RUN_BY_RUN = frozenset({Method.LINEAR, Method.UNIDIRECTIONAL})
+
+
 @dataclass(frozen=True, slots=True)
 class Stop:
     """A point at which the axis stops: at a target for a reading, or beyond one to turn round.
@@ -183,6 +187,12 @@ def visits(path: Iterable[Stop]) -> tuple[Visit, ...]:
         found.append(Visit(stop.target, direction, stop.run, abs(position - turning_point), travelled))
         travelled = 0.0
     return tuple(found)
+
+
+def half_way(listed: Sequence[Visit]) -> int:
+    """Return the reading with which the second half of the runs begins, where these follow one another."""
+    middle = max(visit.run for visit in listed) // 2 + 1
+    return next(index for index, visit in enumerate(listed) if visit.run >= middle)
 
 
 def times(listed: Sequence[Visit], feed: float, dwell: float) -> FloatArray:

@@ -10,7 +10,8 @@ from __future__ import annotations
 import hashlib
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import pairwise
 from typing import Any, Protocol, TypeAlias
 
 import numpy as np
@@ -23,8 +24,8 @@ from zlmreport.language import Words
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.measurement.measurement_set import MeasurementSet
-from zlmreport.planning.methods import Method
-from zlmreport.planning.targets import drawn_targets, usual_overrun
+from zlmreport.planning.methods import RUN_BY_RUN, Method, path
+from zlmreport.planning.targets import drawn_targets, makes_whole_turns, usual_overrun
 from zlmreport.quantities.arrays import FloatArray, read_only_floats, read_only_integers
 from zlmreport.quantities.temperature import REFERENCE_TEMPERATURE
 
@@ -37,6 +38,7 @@ _MOST_READINGS = 5000
 _FALL_OF_PRESSURE, _RISE_OF_HUMIDITY = 100.0, 0.03
 #: How many of its time constants a machine has warmed up for when the test ends.
 _TIME_CONSTANTS = 3.0
+_OF_MACHINE = ("axis_temperature", "screw_temperature", "material_temperature")
 
 ASSUMPTION = Words(
     en="temperatures rise by {rise} K during the test from 20 °C, the machine's ever more slowly, the air's "
@@ -103,8 +105,8 @@ def propose(job: Job, standards: Sequence[PlannedStandard]) -> Proposal:
             "axis.travel is missing: targets are spread over it; for example [0, 1000]",
         )
     to_si = axis.position_unit.to_si
-    method = Method(job.keys.measurement.method or Method.LINEAR)
-    overrun = to_si(keys.overrun) if keys.overrun else usual_overrun(axis)
+    motion = _motion(job)
+    method, overrun = motion.method, motion.overrun
     seed = seed_of(job.keys.certificate.number) if keys.seed is None else keys.seed
     period = None if keys.targets.fractions_of is None else to_si(keys.targets.fractions_of)
 
@@ -120,24 +122,42 @@ def propose(job: Job, standards: Sequence[PlannedStandard]) -> Proposal:
     except ValueError as error:
         raise InputError.at(job.place_of("plan.targets"), f"plan.targets: {error}") from error
     runs = keys.runs or chosen_runs(axis, method, targets, standards)
+    if keys.pause and (method not in RUN_BY_RUN or runs == 1):
+        raise InputError.at(
+            job.place_of("plan.pause"),
+            "plan.pause lies between two runs: take the linear or the unidirectional method, and two runs",
+        )
     if 2 * len(targets) * runs > _MOST_READINGS:
         raise InputError.at(
             job.place_of("plan"),
             f"plan: {len(targets)} targets in {runs} runs are more than {_MOST_READINGS} readings; state a "
             "smaller plan.targets.count, or plan.runs",
         )
-    feed, dwell = job.keys.measurement.feed, job.keys.measurement.dwell
-    plan = Plan(
-        targets=targets,
-        method=method,
-        runs=runs,
-        overrun=overrun,
-        feed=to_si(feed or _USUAL_FEED) / _SECONDS_PER_MINUTE,
-        dwell=dwell or _USUAL_DWELL,
-    )
+    plan = replace(motion, targets=targets, runs=runs)
     expected = Expected(axis.deviation_unit.to_si(keys.repeatability), keys.temperature_change)
     has_fractions = keys.targets.positions is None and period != 0
     return Proposal(plan, expected, seed, has_fractions, _assumed(job))
+
+
+def measured_plan(job: Job, measurements: MeasurementSet) -> Plan:
+    """Return the plan of a test that has been done, as far as its job and its readings tell it."""
+    runs = max(1, int(measurements.run.max(initial=1)))
+    return replace(_motion(job), targets=measurements.target_positions, runs=runs)
+
+
+def _motion(job: Job) -> Plan:
+    """Return what a job says of a plan, and custom of the rest, but for targets and runs."""
+    axis, keys, measured = job.axis, job.keys.plan, job.keys.measurement
+    to_si = axis.position_unit.to_si
+    pause = keys.pause
+    return Plan(
+        targets=read_only_floats([]),
+        method=Method(measured.method or Method.LINEAR),
+        overrun=to_si(keys.overrun) if keys.overrun else usual_overrun(axis),
+        feed=to_si(measured.feed or _USUAL_FEED) / _SECONDS_PER_MINUTE,
+        dwell=measured.dwell or _USUAL_DWELL,
+        pause=Pause(pause.minutes * _SECONDS_PER_MINUTE, pause.change, pause.of) if pause else None,
+    )
 
 
 def seed_of(number: str) -> int:
@@ -188,6 +208,8 @@ class Plan:
         m/s or rad/s.
     dwell
         Time at rest before each reading, s.
+    pause
+        Half-way.
     """
 
     targets: FloatArray
@@ -196,9 +218,80 @@ class Plan:
     overrun: float = 5e-3
     feed: float = 2 / 60
     dwell: float = 5.0
+    pause: Pause | None = None
+
+    @property
+    def stops(self) -> list[float]:
+        """Where the axis stops one after another, m or rad."""
+        return [stop.position for stop in path(self.method, self.targets.tolist(), self.runs, self.overrun)]
+
+    @property
+    def travelled(self) -> float:
+        """The whole way of the axis, loops included, m or rad."""
+        return sum(abs(later - earlier) for earlier, later in pairwise(self.stops))
+
+    @property
+    def readings(self) -> int:
+        """How many are taken."""
+        return len(self.targets) * self.runs * (1 if self.method is Method.UNIDIRECTIONAL else 2)
+
+    @property
+    def duration(self) -> float:
+        """Of motion, rest and pause together, s."""
+        rest = self.dwell * self.readings + (self.pause.duration if self.pause else 0.0)
+        return self.travelled / self.feed + rest
 
 
-def expected_conditions(rise: float, time: FloatArray) -> Mapping[str, FloatArray]:
+def beyond_travel(axis: Axis, plan: Plan) -> tuple[float, float] | None:
+    """Return the lowest and highest position of a plan, m or rad, where one lies beyond the travel."""
+    if axis.travel is None or makes_whole_turns(axis):
+        return None
+    first, last = axis.travel
+    slack = _ROUNDING * (last - first)
+    lowest, highest = min(plan.stops), max(plan.stops)
+    return (lowest, highest) if lowest < first - slack or highest > last + slack else None
+
+
+#: What other temperatures do while one changes by 1 K: a hall warms its machines slowly, a screw the scale
+#: beside it; what warms the scale warms the whole machine.
+_THIRD = 1 / 3
+_FOLLOW: Mapping[str, Mapping[str, float]] = {
+    "axis_temperature": {"screw_temperature": 1.0, "material_temperature": 1.0, "air_temperature": _THIRD},
+    "screw_temperature": {"axis_temperature": _THIRD},
+    "air_temperature": {
+        "axis_temperature": _THIRD,
+        "screw_temperature": _THIRD,
+        "material_temperature": _THIRD,
+    },
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Pause:
+    """A rest half-way through a test in which a temperature changes.
+
+    Attributes
+    ----------
+    duration
+        s.
+    change
+        Of the temperature, K.
+    of
+        Which one, by the name of its column: others follow it in part.
+    """
+
+    duration: float
+    change: float
+    of: str
+
+    def change_of(self, column: str) -> float:
+        """Return by how much another temperature changes meanwhile, K."""
+        return self.change if column == self.of else self.change * _FOLLOW[self.of].get(column, 0.0)
+
+
+def expected_conditions(
+    rise: float, time: FloatArray, pause: Pause | None = None, half_way: int = 0
+) -> Mapping[str, FloatArray]:
     """Return every condition that files may log, by its name, as it may be expected at each reading, SI.
 
     Parameters
@@ -207,16 +300,21 @@ def expected_conditions(rise: float, time: FloatArray) -> Mapping[str, FloatArra
         Of temperatures from the first reading to the last, K.
     time : (N,) array
         Of the readings, s from the first.
+    pause, half_way
+        What changes temperatures beside that, and before which reading.
     """
     duration = float(time[-1]) or 1.0
     warming = np.expm1(-_TIME_CONSTANTS * time / duration) / math.expm1(-_TIME_CONSTANTS)
     steadily = time / duration
-    of_machine = read_only_floats(REFERENCE_TEMPERATURE + rise * warming)
+    after = np.arange(len(time)) >= half_way
+
+    def temperature(column: str, course: FloatArray) -> FloatArray:
+        jump = pause.change_of(column) if pause else 0.0
+        return read_only_floats(REFERENCE_TEMPERATURE + rise * course + jump * after)
+
     return {
-        "axis_temperature": of_machine,
-        "screw_temperature": of_machine,
-        "material_temperature": of_machine,
-        "air_temperature": read_only_floats(REFERENCE_TEMPERATURE + rise * steadily),
+        **{name: temperature(name, warming) for name in _OF_MACHINE},
+        "air_temperature": temperature("air_temperature", steadily),
         "air_pressure": read_only_floats(STANDARD_PRESSURE - _FALL_OF_PRESSURE * steadily),
         "relative_humidity": read_only_floats(STANDARD_HUMIDITY + _RISE_OF_HUMIDITY * steadily),
     }

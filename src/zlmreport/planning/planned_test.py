@@ -4,19 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from itertools import pairwise
 
 from zlmreport.errors import InputError
 from zlmreport.evaluation.requirements import Finding
 from zlmreport.job.job import Job
 from zlmreport.language import Words
-from zlmreport.measurement.axis import Axis
 from zlmreport.model.axis_model import AxisModel, Term, chosen_terms
 from zlmreport.model.design import Design
 from zlmreport.model.effect import Effect
-from zlmreport.planning.methods import Visit, path
-from zlmreport.planning.plan import PlannedStandard, Proposal, as_measured, propose
-from zlmreport.planning.targets import makes_whole_turns, periods_at_phases
+from zlmreport.planning.methods import Visit
+from zlmreport.planning.plan import PlannedStandard, Proposal, as_measured, beyond_travel, propose
+from zlmreport.planning.targets import periods_at_phases
 from zlmreport.planning.visibility import (
     Remedy,
     SeenEffect,
@@ -27,7 +25,6 @@ from zlmreport.planning.visibility import (
     remedies,
 )
 
-_ROUNDING = 1e-9
 #: Readings beyond the number of parameters that a diagnosis needs.
 _FEWEST_DEGREES = 6
 #: What is taken for granted of an axis where the job names no model.
@@ -107,11 +104,9 @@ def planned_test(job: Job, standards: Sequence[PlannedStandard], effects: Sequen
     """
     proposal = propose(job, standards)
     plan = proposal.plan
-    stops = [stop.position for stop in path(plan.method, plan.targets.tolist(), plan.runs, plan.overrun)]
-    travelled = sum(abs(later - earlier) for earlier, later in pairwise(stops))
     listed = planned_visits(plan)
     design = expected_design(job.axis, plan, proposal.expected)
-    model = _model(job, effects)
+    model = model_of(job, effects)
     base = determined(model, design)
     _demand_readings(job, base, design)
     seen_effects = effects_seen(base, design, effects, proposal.expected)
@@ -120,10 +115,10 @@ def planned_test(job: Job, standards: Sequence[PlannedStandard], effects: Sequen
         proposal=proposal,
         visits=listed,
         design=design,
-        travelled=travelled,
-        duration=travelled / plan.feed + plan.dwell * len(listed),
+        travelled=plan.travelled,
+        duration=plan.duration,
         half_seen=tuple(periods_at_phases(job.axis, plan.targets, 2)),
-        beyond_travel=_beyond_travel(job.axis, min(stops), max(stops)),
+        beyond_travel=beyond_travel(job.axis, plan),
         model=base,
         seen_effects=seen_effects,
         remedies=remedies(seen_effects, model, job.axis, proposal),
@@ -146,15 +141,8 @@ def _demand_readings(job: Job, base: AxisModel, design: Design) -> None:
         )
 
 
-def _beyond_travel(axis: Axis, lowest: float, highest: float) -> tuple[float, float] | None:
-    if axis.travel is None or makes_whole_turns(axis):
-        return None
-    first, last = axis.travel
-    slack = _ROUNDING * (last - first)
-    return (lowest, highest) if lowest < first - slack or highest > last + slack else None
-
-
-def _model(job: Job, effects: Sequence[Effect]) -> AxisModel:
+def model_of(job: Job, effects: Sequence[Effect]) -> AxisModel:
+    """Return the effects beside which others are looked for: those of the job, or the usual ones."""
     by_identifier = {effect.identifier: effect for effect in effects}
     if job.effects:
         return AxisModel(chosen_terms(job.effects, by_identifier.__getitem__, job.axis.kind))

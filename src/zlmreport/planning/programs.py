@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import Literal
+from typing import Literal, TypeAlias
 
 import numpy as np
 from pydantic import Field
@@ -14,7 +14,7 @@ from zlmreport.errors import InputError, Place
 from zlmreport.job.types import Options
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.axis import Axis, AxisKind
-from zlmreport.planning.methods import Method, Stop, path, visits
+from zlmreport.planning.methods import RUN_BY_RUN, Method, Stop, path, visits
 from zlmreport.planning.plan import Plan
 from zlmreport.planning.targets import in_users_unit
 
@@ -54,6 +54,9 @@ class Reading:
     run: int
 
 
+Begins: TypeAlias = Literal["", "test", "run", "second half"]
+
+
 @dataclass(frozen=True, slots=True)
 class ProgramStop:
     """A point at which the axis stops: to be read, or to turn round.
@@ -65,13 +68,13 @@ class ProgramStop:
     reading
         What is read there; None where the axis only turns round.
     begins
-        Of a stop before the first reading of the test, or of a run that goes over the whole axis: which of
-        the two begins from here; empty for any other.
+        Of a stop before the first reading of the test, of a run that goes over the whole axis, or of the
+        second half after a pause: which of them begins from here; empty for any other.
     """
 
     position: float
     reading: Reading | None = None
-    begins: Literal["", "test", "run"] = ""
+    begins: Begins = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -204,7 +207,7 @@ def motion_of(number: str, axis: Axis, plan: Plan, place: Place) -> Motion:
         runs=plan.runs,
         targets=tuple(targets),
         stops=tuple(
-            ProgramStop(position, begins=_begins(stops, index, plan.method))
+            ProgramStop(position, begins=_begins(stops, index, plan))
             if stop.target is None
             else ProgramStop(targets[stop.target], next(readings))
             for index, (stop, position) in enumerate(zip(stops, positions, strict=True))
@@ -216,15 +219,16 @@ def motion_of(number: str, axis: Axis, plan: Plan, place: Place) -> Motion:
     )
 
 
-def _begins(stops: Sequence[Stop], index: int, method: Method) -> Literal["", "test", "run"]:
+def _begins(stops: Sequence[Stop], index: int, plan: Plan) -> Begins:
     """Return what begins from a stop at which nothing is read."""
     if not index:
         return "test"
-    is_run_by_run = method in {Method.LINEAR, Method.UNIDIRECTIONAL}
     after = stops[index + 1] if index + 1 < len(stops) else None
     before = next((stop for stop in reversed(stops[:index]) if stop.target is not None), None)
     is_new = after is not None and before is not None and after.run > before.run
-    return "run" if is_run_by_run and is_new else ""
+    if plan.method not in RUN_BY_RUN or not is_new or after is None:
+        return ""
+    return "second half" if plan.pause and after.run == plan.runs // 2 + 1 else "run"
 
 
 class ProgramOptions(Options):
@@ -239,12 +243,14 @@ class ProgramOptions(Options):
     wait: Literal["start", "runs", "never"] = Field(
         "start",
         description="Where the program stops until the operator lets it go on: at its start, for the datum "
-        "of a capture; before each run too (linear and unidirectional method); or nowhere.",
+        "of a capture, and in a pause half-way; before each run too (linear and unidirectional method); or "
+        "nowhere.",
     )
 
     def waits_at(self, stop: ProgramStop) -> bool:
         """Tell whether the program stops at a stop until the operator lets it go on."""
-        return {"start": stop.begins == "test", "runs": bool(stop.begins), "never": False}[self.wait]
+        at_start = stop.begins in {"test", "second half"}
+        return {"start": at_start, "runs": bool(stop.begins), "never": False}[self.wait]
 
 
 def axis_address(

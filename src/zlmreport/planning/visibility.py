@@ -6,42 +6,23 @@ Each change is tried, none is advised untried.
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from enum import Enum
-from functools import reduce
+
+import numpy as np
 
 from zlmreport.language import Words
 from zlmreport.measurement.axis import Axis
 from zlmreport.model.axis_model import AxisModel, ModelError, refuse_collisions
 from zlmreport.model.design import Design
 from zlmreport.model.effect import Effect, needs_linear_axis, needs_rotary_axis
-from zlmreport.model.report import listed
 from zlmreport.model.visibility import Visibility, plan_visibility
-from zlmreport.planning.methods import Method, Visit, path, planned_design, visits
+from zlmreport.planning.changes import changes
+from zlmreport.planning.methods import Visit, half_way, path, planned_design, visits
 from zlmreport.planning.plan import Expected, Plan, Proposal, expected_conditions
-from zlmreport.planning.targets import drawn_targets, periods_at_phases, usual_overrun
-from zlmreport.quantities.arrays import FloatArray
+from zlmreport.quantities.arrays import FloatArray, read_only_floats
 
-#: With more targets than these or more runs, one more is no remedy worth the time.
-_MANY_TARGETS, _MANY_RUNS = 21, 5
-
-_BOUND_TO_POSITION = Words(
-    en="in this sequence time runs along with the position",
-    de="bei dieser Abfolge läuft die Zeit mit der Position mit",
-)
-_SAME_PHASE = Words(
-    en="all targets lie at the same phase of {periods}",
-    de="alle Zielpositionen liegen bei derselben Phase {periods}",
-)
-_MEASURE_LINEARLY = Words(en="measure by the linear method", de="nach dem Linearverfahren messen")
-_RANDOM_FRACTIONS = Words(
-    en="choose targets with a random fraction", de="Zielpositionen mit zufälligem Anteil wählen"
-)
-_MORE_TARGETS = Words(
-    en="take {count} targets with random fractions", de="{count} Zielpositionen mit zufälligem Anteil nehmen"
-)
-_MORE_RUNS = Words(en="measure {runs} runs", de="{runs} Durchläufe messen")
 _LIVELIER = Words(
     en="measure while there are larger changes of {logs}",
     de="messen, während sich {logs} stärker ändern",
@@ -92,8 +73,13 @@ def planned_visits(plan: Plan) -> tuple[Visit, ...]:
 
 def expected_design(axis: Axis, plan: Plan, expected: Expected) -> Design:
     """Return a planned test with the conditions that are expected, all of them logged."""
-    design = planned_design(axis, plan.targets, planned_visits(plan), plan.feed, plan.dwell)
-    return replace(design, conditions=expected_conditions(expected.temperature_change, design.time))
+    listed, pause = planned_visits(plan), plan.pause
+    design, second_half = planned_design(axis, plan.targets, listed, plan.feed, plan.dwell), half_way(listed)
+    if pause:
+        late = pause.duration * (np.arange(len(listed)) >= second_half)
+        design = replace(design, time=read_only_floats(design.time + late))
+    course = expected_conditions(expected.temperature_change, design.time, pause, second_half)
+    return replace(design, conditions=course)
 
 
 def determined(model: AxisModel, design: Design) -> AxisModel:
@@ -199,13 +185,6 @@ class Remedy:
     share: float | None
 
 
-@dataclass(frozen=True, slots=True)
-class _Change:
-    reason: Words | None
-    advice: Words
-    changed: Callable[[Plan], Plan]
-
-
 def remedies(
     seen_effects: Sequence[SeenEffect], model: AxisModel, axis: Axis, proposal: Proposal
 ) -> dict[str, Remedy]:
@@ -225,7 +204,7 @@ def remedies(
     plan, expected = proposal.plan, proposal.expected
     blurred = [each for each in seen_effects if each.sight in {Sight.HIDDEN, Sight.TOO_SMALL}]
     found: dict[str, Remedy] = {}
-    for change in _changes(axis, plan, proposal.seed):
+    for change in changes(axis, plan, proposal.seed):
         left = [each.effect for each in blurred if each.effect.identifier not in found]
         if not left:
             break
@@ -248,46 +227,3 @@ def _another_measurement(seen: SeenEffect, model: AxisModel) -> Remedy | None:
         if confusion.effect in model.identifiers:
             return Remedy(_IMITATED.given(effect=confusion.effect), confusion.told_apart_by, None)
     return None
-
-
-def _changes(axis: Axis, plan: Plan, seed: int) -> Iterator[_Change]:
-    """Yield changes of a plan, each alone, and in the end all together."""
-    of_targets, of_sequence = list(_of_targets(axis, plan, seed)), list(_of_sequence(plan))
-    yield from (*of_targets, *of_sequence)
-    together = [*of_targets[-1:], *of_sequence]
-    if len(together) > 1:
-        yield _together(together)
-
-
-def _together(changes: Sequence[_Change]) -> _Change:
-    return _Change(
-        None,
-        listed([change.advice for change in changes]),
-        lambda plan: reduce(lambda changed, change: change.changed(changed), changes, plan),
-    )
-
-
-def _of_sequence(plan: Plan) -> Iterator[_Change]:
-    if plan.method is not Method.LINEAR:
-        reason = None if plan.method is Method.UNIDIRECTIONAL else _BOUND_TO_POSITION
-        yield _Change(reason, _MEASURE_LINEARLY, lambda each: replace(each, method=Method.LINEAR))
-    if plan.runs < _MANY_RUNS:
-        advice = _MORE_RUNS.given(runs=_MANY_RUNS)
-        yield _Change(None, advice, lambda each: replace(each, runs=_MANY_RUNS))
-
-
-def _of_targets(axis: Axis, plan: Plan, seed: int) -> Iterator[_Change]:
-    """Yield other targets; the last change has all that those before it have."""
-    spread_over = axis if axis.travel else replace(axis, travel=(plan.targets[0], plan.targets[-1]))
-    overrun = min(plan.overrun, usual_overrun(spread_over))
-
-    def drawn(each: Plan, count: int) -> Plan:
-        return replace(each, targets=drawn_targets(spread_over, count, overrun, None, seed))
-
-    blind = periods_at_phases(axis, plan.targets, 1)
-    if blind:
-        reason = _SAME_PHASE.given(periods=listed(blind))
-        yield _Change(reason, _RANDOM_FRACTIONS, lambda each: drawn(each, len(each.targets)))
-    if len(plan.targets) < _MANY_TARGETS:
-        advice = _MORE_TARGETS.given(count=_MANY_TARGETS)
-        yield _Change(None, advice, lambda each: drawn(each, _MANY_TARGETS))
