@@ -52,7 +52,7 @@ PARAMETERS: tuple[Quantity, ...] = (
     Quantity(
         "S2",
         "2S",
-        Words("Repeatability", "Wiederholbarkeit"),
+        Words("Repeatability", "Wiederholpräzision"),
         QuantityGroup.RANDOM,
         "max(2SF_{i}; 2SB_{i})",
         _REPEATABILITY.given(condition=_NOTHING),
@@ -60,7 +60,7 @@ PARAMETERS: tuple[Quantity, ...] = (
     Quantity(
         "S2_fwd",
         "2S↑",
-        Words("Repeatability, forward", "Wiederholbarkeit, vorwärts"),
+        Words("Repeatability, forward", "Wiederholpräzision, vorwärts"),
         QuantityGroup.RANDOM,
         "max(2SF_{i})",
         _REPEATABILITY.given(condition=_FORWARD),
@@ -68,7 +68,7 @@ PARAMETERS: tuple[Quantity, ...] = (
     Quantity(
         "S2_bwd",
         "2S↓",
-        Words("Repeatability, backward", "Wiederholbarkeit, rückwärts"),
+        Words("Repeatability, backward", "Wiederholpräzision, rückwärts"),
         QuantityGroup.RANDOM,
         "max(2SB_{i})",
         _REPEATABILITY.given(condition=_BACKWARD),
@@ -141,7 +141,7 @@ NOTES: tuple[Words, ...] = (
         "machine tools using a compensated step gauge, Eq. 1 to 13. Bandwidth and repeatability are defined "
         "there by example only: the definitions above are those of this program.",
         "Formeln nach H. Pahk und J. Kim, Development of computer aided calibration module for CMMs and "
-        "machine tools using a compensated step gauge, Gl. 1 bis 13. Bandbreite und Wiederholbarkeit sind "
+        "machine tools using a compensated step gauge, Gl. 1 bis 13. Bandbreite und Wiederholpräzision sind "
         "dort nur am Beispiel erklärt: die Definitionen oben sind die dieses Programms.",
     ),
     Words(

@@ -48,6 +48,7 @@ class StepGaugeEvaluation:
 
     identifier = "step-gauge"
     designation = "Pahk & Kim 4.1, 4.2"
+    is_method = True
     position_index = "i"
     title = Words(
         "Linear displacement accuracy by step gauge", "Längenabweichung nach Messung eines Stufenendmaßes"

@@ -48,7 +48,7 @@ _RADIUS_SOURCE = Words(
 )
 _REFERENCE = Words(en="Reference face", de="Bezugsfläche")
 _REFERENCE_SOURCE = Words(en="its calibration and its touches", de="ihre Kalibrierung und ihre Antastungen")
-_TOUCH = Words(en="Repeatability of the probe", de="Wiederholbarkeit des Tasters")
+_TOUCH = Words(en="Repeatability of the probe", de="Wiederholpräzision des Tasters")
 _STANDARD = Words(en="u = {value} {unit}", de="u = {value} {unit}")
 _DIRECTION_SOURCE = Words(
     en="cosine error L·θ²/2 of the direction C1C2, from the initial points",

@@ -26,7 +26,7 @@ from zlmreport.certificate.document import (
     Symbol,
     Table,
 )
-from zlmreport.certificate.values import limit
+from zlmreport.certificate.values import limit, told_apart
 from zlmreport.evaluation.evaluation import Evaluation, Parameter
 from zlmreport.figures.prescribed import comparison_graph
 from zlmreport.language import Words
@@ -256,7 +256,8 @@ def changes(pairs: Sequence[Pair], writer: Writer) -> Table:
         for pair in pairs
     )
     caption = _CHANGES_WITH_U.given(changes=_CHANGES) if known else _CHANGES
-    return Table(writer.say(caption), columns, groups)
+    quantities = (_either(*each).quantity for pair in pairs for each in _parameters(*pair))
+    return Table(told_apart(caption, quantities, has_uncertainty=known, writer=writer), columns, groups)
 
 
 def _change(

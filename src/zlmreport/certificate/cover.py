@@ -14,7 +14,7 @@ from zlmreport.certificate.document import Block, Column, Facts, Notice, RowGrou
 from zlmreport.certificate.readings import missing_readings
 from zlmreport.certificate.results import Evaluated, section_key
 from zlmreport.certificate.statements import amendment_notice, in_a_line
-from zlmreport.certificate.values import Values
+from zlmreport.certificate.values import Values, told_apart
 from zlmreport.evaluation.quantity import Group
 from zlmreport.job.document_keys import Location
 from zlmreport.language import Words, same
@@ -101,7 +101,9 @@ def _results(pages: Sequence[tuple[Evaluated, ...]], writer: Writer, *, dense: b
         for page in pages
     )
     caption = Words(en="Results in brief", de="Ergebnisse im Überblick")
-    return Table(writer.say(caption), columns, groups, dense)
+    shown = (each.quantity for page in pages for each in _in_brief(page[0].evaluation))
+    told = told_apart(caption, shown, has_uncertainty=values.has_uncertainty, writer=writer)
+    return Table(told, columns, groups, dense)
 
 
 def _in_brief(evaluation: Evaluation) -> tuple[Parameter, ...]:
@@ -129,8 +131,7 @@ def _shortfalls(evaluations: tuple[Evaluation, ...], writer: Writer, *, in_a_lin
         items = (writer.say(words.given(designations=", ".join(named))),)
     if items:
         heading = Words(
-            en="Requirements of the standards that the test does not meet",
-            de="Anforderungen der Normen, die die Messung nicht erfüllt",
+            en="Requirements that the test does not meet", de="Anforderungen, die die Messung nicht erfüllt"
         )
         yield Notice(writer.say(heading), items)
 

@@ -26,7 +26,7 @@ from zlmreport.certificate.document import (
     Table,
     Verdict,
 )
-from zlmreport.certificate.values import Values
+from zlmreport.certificate.values import Values, told_apart
 from zlmreport.evaluation.quantity import Group
 from zlmreport.evaluation.requirements import Basis, Finding
 from zlmreport.language import Words
@@ -78,9 +78,19 @@ _GROUPS = {
 _NO_PARAMETER = Words(
     en="This test defines none of the parameters.", de="Diese Messung bestimmt keine der Kenngrößen."
 )
+_BY_STANDARD = Words(en="Results by {designations}", de="Ergebnisse nach {designations}")
+_BY_METHOD = Words(
+    en="Results by the method of {designations}", de="Ergebnisse nach dem Verfahren von {designations}"
+)
 _MET = Words(en="met", de="erfüllt")
 _NOT_MET = Words(en="not met", de="nicht erfüllt")
 _OPEN = Words(en="open", de="offen")
+
+
+def title_of(evaluations: Sequence[Evaluation], writer: Writer) -> str:
+    """Return the title of the results by one standard or method, or by several that give the same numbers."""
+    title = _BY_METHOD if evaluations[0].is_method else _BY_STANDARD
+    return writer.say(title.given(designations=", ".join(each.designation for each in evaluations)))
 
 
 def section_key(evaluation: Evaluation) -> str:
@@ -91,7 +101,6 @@ def section_key(evaluation: Evaluation) -> str:
 def section(evaluated: Evaluated, writer: Writer) -> Section:
     """Return the section on the results by one standard."""
     evaluation = evaluated.evaluation
-    title = Words(en="Results by {designation}", de="Ergebnisse nach {designation}")
     blocks: list[Block] = [
         Paragraph(writer.say(evaluation.title)),
         *([shortfall(evaluation.designation, items, writer)] if (items := unmet(evaluation, writer)) else []),
@@ -106,7 +115,7 @@ def section(evaluated: Evaluated, writer: Writer) -> Section:
     ]
     return Section(
         key=section_key(evaluation),
-        title=writer.say(title.given(designation=evaluation.designation)),
+        title=title_of([evaluation], writer),
         blocks=tuple(blocks),
     )
 
@@ -147,9 +156,13 @@ def _parameters(evaluation: Evaluation, writer: Writer) -> Table:
         )
         if rows:
             groups.append(RowGroup(rows, writer.say(heading), writer.say(note)))
-    return Table(
-        writer.say(Words(en="Parameters of the axis", de="Kenngrößen der Achse")), columns, tuple(groups)
+    caption = told_apart(
+        Words(en="Parameters of the axis", de="Kenngrößen der Achse"),
+        (each.quantity for each in evaluation.parameters),
+        has_uncertainty=values.has_uncertainty,
+        writer=writer,
     )
+    return Table(caption, columns, tuple(groups))
 
 
 def raised(evaluation: Evaluation, writer: Writer) -> Iterator[Paragraph]:
@@ -197,9 +210,13 @@ def positions(evaluation: Evaluation, writer: Writer) -> Table:
         if any(value == value for value in column.values.tolist()):  # noqa: PLR0124 - NaN is what differs from itself
             add(column.quantity.notation, column.values)
     caption = Words(en="Results by target position", de="Ergebnisse nach Sollposition")
-    return Table(
-        writer.say(caption), tuple(columns), (RowGroup(tuple(zip(*cells, strict=True))),), dense=True
+    told = told_apart(
+        caption,
+        (column.quantity for column in evaluation.columns),
+        has_uncertainty=evaluation.mean_uncertainty is not None,
+        writer=writer,
     )
+    return Table(told, tuple(columns), (RowGroup(tuple(zip(*cells, strict=True))),), dense=True)
 
 
 def _mean_uncertainties(evaluation: Evaluation) -> Iterator[tuple[str, FloatArray]]:

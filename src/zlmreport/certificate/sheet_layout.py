@@ -24,7 +24,6 @@ from zlmreport.certificate.standard_layout import (
     together,
 )
 from zlmreport.errors import InputError, Problem
-from zlmreport.language import Words
 
 if TYPE_CHECKING:
     from zlmreport.figures.figure import Figure
@@ -33,8 +32,6 @@ if TYPE_CHECKING:
 _LEAST_GRAPH, _LARGEST_GRAPH = 38.0, 92.0
 #: Of its caption and of the space around it, mm.
 _BESIDE_GRAPH = 8.0
-
-_TITLE = Words(en="Results by {designations}", de="Ergebnisse nach {designations}")
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,7 +104,7 @@ def _sheet(of: Material, page: tuple[Evaluated, ...], above: float) -> tuple[Sec
     """Return a page, and what of it does not fit below what stands `above` (points)."""
     writer = of.writer
     evaluation = page[0].evaluation
-    title = writer.say(_TITLE.given(designations=designations(page)))
+    title = results.title_of([each.evaluation for each in page], writer)
     before, after = _before_graph(of, page), _after_graph(of, page)
     main = main_graph(page[0].figures)
     free = room.PAGES[of.job.keys.certificate.paper] - above - room.heading(title)

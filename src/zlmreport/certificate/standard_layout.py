@@ -30,7 +30,7 @@ from zlmreport.certificate.material import (
     uncertainty_sections,
 )
 from zlmreport.certificate.results import Evaluated, section_key
-from zlmreport.certificate.values import Values
+from zlmreport.certificate.values import Values, told_apart
 from zlmreport.evaluation.evaluation import Evaluation
 from zlmreport.evaluation.quantity import Group
 from zlmreport.figures.figure import Figure, Panel
@@ -49,7 +49,6 @@ _MOST_BESIDE = 2
 #: Evaluations that share a page, page by page.
 Pages: TypeAlias = list[tuple[Evaluated, ...]]
 
-_TITLE = Words(en="Results by {designations}", de="Ergebnisse nach {designations}")
 _SHARED = Words(
     en="These readings give the same numbers by {others}; the names are those of {first}.",
     de="Diese Messwerte ergeben nach {others} dieselben Zahlen; die Benennungen sind die von {first}.",
@@ -183,8 +182,7 @@ def page(shared: Sequence[Evaluated], writer: Writer) -> Section:
         blocks += (parameters(first, writer), *results.raised(first, writer))
     blocks += map(Graph, in_less_room(shared[0].figures))
     blocks.append(results.positions(first, writer))
-    title = _TITLE.given(designations=designations(shared))
-    return Section(section_key(first), writer.say(title), tuple(blocks))
+    return Section(section_key(first), results.title_of((first, *others), writer), tuple(blocks))
 
 
 def said_of_all(evaluations: Sequence[Evaluation], writer: Writer) -> Iterator[Block]:
@@ -305,4 +303,10 @@ def parameters(evaluation: Evaluation, writer: Writer) -> Table:
         de="Kenngrößen der Achse: systematische, zufällige und Gesamtabweichungen",
     )
     rows = tuple(RowGroup(each) for each in groups if each)
-    return Table(writer.say(caption), columns, rows, dense=True)
+    told = told_apart(
+        caption,
+        (each.quantity for each in evaluation.parameters),
+        has_uncertainty=values.has_uncertainty,
+        writer=writer,
+    )
+    return Table(told, columns, rows, dense=True)

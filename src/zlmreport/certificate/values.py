@@ -12,15 +12,21 @@ from zlmreport.language import Words
 from zlmreport.presenting.amounts import with_uncertainty, written
 from zlmreport.presenting.writer import NOTHING, Writer
 from zlmreport.quantities.formatting import fixed_number
+from zlmreport.quantities.notation import plain
 
 if TYPE_CHECKING:
     from zlmreport.evaluation.evaluation import Evaluation, Parameter
+    from zlmreport.evaluation.quantity import PositionQuantity, Quantity
 
 _VALUE = Words(en="Value", de="Wert")
 _AXIS = Words(en="Axis, 95 %", de="Achse, 95 %")
 _LIMIT = Words(en="Limit", de="Grenzwert")
 _CONFORMITY = Words(en="Conformity", de="Konformität")
 _DECIMALS_OF_K = 2
+_TOLD_APART = Words(
+    en="{caption}. U is the expanded uncertainty of measurement; {others}",
+    de="{caption}. U ist die erweiterte Messunsicherheit; {others}",
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,6 +90,22 @@ class Values:
         if self.has_limits:
             yield limit(parameter, self.writer)
             yield conformity.verdict(parameter, self.writer)
+
+
+def told_apart(
+    caption: Words,
+    quantities: Iterable[Quantity | PositionQuantity],
+    *,
+    has_uncertainty: bool,
+    writer: Writer,
+) -> str:
+    """Write a table's caption; where U heads a column, it tells U from the quantities that begin with U."""
+    others = [
+        f"{plain(each.notation)}: {writer.say(each.name)}" for each in quantities if each.notation[:1] == "U"
+    ]
+    if not (has_uncertainty and others):
+        return writer.say(caption)
+    return writer.say(_TOLD_APART.given(caption=caption, others=", ".join(dict.fromkeys(others))))
 
 
 def coverage_factor(parameter: Parameter, writer: Writer) -> str:

@@ -88,6 +88,7 @@ def evaluate(
             *doubts(((each.quantity, each.value) for each in parameters), statistics, measurements.axis),
         ),
         notes=standard.notes,
+        is_method=getattr(standard, "is_method", False),
     )
 
 

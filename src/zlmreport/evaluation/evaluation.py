@@ -146,6 +146,8 @@ class Evaluation:
     uncertainty_is_complete
         Whether every usual contributor is in U, or declared negligible; a rule that uses U decides nothing
         from an incomplete one.
+    is_method
+        Whether it is a published method and nobody's standard: a heading says so.
     """
 
     standard: str
@@ -160,6 +162,7 @@ class Evaluation:
     notes: tuple[Words, ...]
     mean_uncertainty: MeanUncertainty | None = None
     uncertainty_is_complete: bool = True
+    is_method: bool = False
 
     def parameter(self, symbol: str) -> Parameter | None:
         """Return a parameter of the axis; None where the test does not define it."""

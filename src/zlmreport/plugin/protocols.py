@@ -36,8 +36,8 @@ if TYPE_CHECKING:
 class Standard(Protocol):
     """One edition of a standard, complete on its own page.
 
-    One more attribute may stand beside these: ``information``, the `Information` that it wants reported of a
-    test, which is held against the job.
+    Two more attributes may stand beside these: ``information``, the `Information` that it wants reported of a
+    test, which is held against the job; and ``is_method``, true of a published method and nobody's standard.
 
     Attributes
     ----------

@@ -50,6 +50,10 @@ _RESULTS = Words(
     en="Positioning accuracy of axis {axis} by {designation}",
     de="Positioniergenauigkeit der Achse {axis} nach {designation}",
 )
+_RESULTS_BY_METHOD = Words(
+    en="Positioning accuracy of axis {axis} by the method of {designation}",
+    de="Positioniergenauigkeit der Achse {axis} nach dem Verfahren von {designation}",
+)
 _PARAMETERS = Words(en="Parameters of the axis", de="Kenngrößen der Achse")
 _POSITIONS = Words(en="Results by target position", de="Ergebnisse nach Sollposition")
 _TARGET = Words(en="Target position", de="Sollposition")
@@ -144,13 +148,14 @@ def _measurement_result(  # noqa: PLR0913 - what a result is of, and how it is w
 
     Readings stay out where the customer agreed to a document without them.
     """
-    name = _RESULTS.given(axis=job.axis.name, designation=evaluation.designation)
+    by, kind = (_RESULTS_BY_METHOD, "reference") if evaluation.is_method else (_RESULTS, "norm")
+    name = by.given(axis=job.axis.name, designation=evaluation.designation)
     return dcc(
         "measurementResult",
         writer.named("name", name),
         dcc(
             "usedMethods",
-            dcc("usedMethod", writer.named("name", evaluation.title), dcc("norm", evaluation.designation)),
+            dcc("usedMethod", writer.named("name", evaluation.title), dcc(kind, evaluation.designation)),
         ),
         dcc("usedSoftware", software(certificate, writer)),
         group("measuringEquipments", equipment(job, writer)),

@@ -73,7 +73,7 @@ class _Graphs:
             "Axis {axis}: mean deviations, limits at {k} standard deviations, largest reversal and "
             "repeatability",
             "Achse {axis}: mittlere Abweichungen, Grenzen bei {k} Standardabweichungen, größte Umkehrspanne "
-            "und Wiederholgenauigkeit",
+            "und Wiederholpräzision",
         )
         return self._figure("means", title.given(k=self.k), shown)
 

@@ -30,14 +30,16 @@ _SINCE_1988 = {
         "Range of the mean bidirectional positional deviation",
         "Spannweite der mittleren zweiseitigen Positionsabweichung",
     ),
-    "R": Words("Bidirectional repeatability of positioning", "Zweiseitige Wiederholgenauigkeit"),
+    "R": Words(
+        "Bidirectional repeatability of positioning", "Zweiseitige Wiederholpräzision der Positionierung"
+    ),
     "R_fwd": Words(
         "Unidirectional repeatability of positioning, positive direction",
-        "Einseitige Wiederholgenauigkeit, positive Richtung",
+        "Einseitige Wiederholpräzision der Positionierung, positive Richtung",
     ),
     "R_bwd": Words(
         "Unidirectional repeatability of positioning, negative direction",
-        "Einseitige Wiederholgenauigkeit, negative Richtung",
+        "Einseitige Wiederholpräzision der Positionierung, negative Richtung",
     ),
     "B": Words("Reversal value", "Umkehrspanne"),
     "B_mean": Words("Mean reversal value", "Mittlere Umkehrspanne"),
@@ -72,14 +74,16 @@ _SINCE_2014 = _SINCE_2006 | {
         "Einseitige systematische Positionierabweichung, negative Richtung",
     ),
     "M": Words("Mean bidirectional positioning error", "Mittlere zweiseitige Positionierabweichung"),
-    "R": Words("Bidirectional positioning repeatability", "Zweiseitige Positionier-Wiederholgenauigkeit"),
+    "R": Words(
+        "Bidirectional positioning repeatability", "Zweiseitige Wiederholpräzision der Positionierung"
+    ),
     "R_fwd": Words(
         "Unidirectional positioning repeatability, positive direction",
-        "Einseitige Positionier-Wiederholgenauigkeit, positive Richtung",
+        "Einseitige Wiederholpräzision der Positionierung, positive Richtung",
     ),
     "R_bwd": Words(
         "Unidirectional positioning repeatability, negative direction",
-        "Einseitige Positionier-Wiederholgenauigkeit, negative Richtung",
+        "Einseitige Wiederholpräzision der Positionierung, negative Richtung",
     ),
 }
 
@@ -203,7 +207,7 @@ def by_position(edition: Edition) -> tuple[PositionQuantity, ...]:
             f"R{i}↑",
             Words(
                 "Unidirectional repeatability at a position, positive direction",
-                "Einseitige Wiederholgenauigkeit an einer Position, positive Richtung",
+                "Einseitige Wiederholpräzision an einer Position, positive Richtung",
             ),
         ),
         PositionQuantity(
@@ -211,7 +215,7 @@ def by_position(edition: Edition) -> tuple[PositionQuantity, ...]:
             f"R{i}↓",
             Words(
                 "Unidirectional repeatability at a position, negative direction",
-                "Einseitige Wiederholgenauigkeit an einer Position, negative Richtung",
+                "Einseitige Wiederholpräzision an einer Position, negative Richtung",
             ),
         ),
         PositionQuantity(
@@ -219,7 +223,7 @@ def by_position(edition: Edition) -> tuple[PositionQuantity, ...]:
             f"R{i}",
             Words(
                 "Bidirectional repeatability at a position",
-                "Zweiseitige Wiederholgenauigkeit an einer Position",
+                "Zweiseitige Wiederholpräzision an einer Position",
             ),
         ),
     )

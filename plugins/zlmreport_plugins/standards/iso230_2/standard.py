@@ -27,7 +27,7 @@ _FULL_WIDTHS = Words(
 _REPEATABILITY = Words(
     "R is the largest bidirectional repeatability of a position; it contains the reversal there and can "
     "exceed both R↑ and R↓.",
-    "R ist die größte zweiseitige Wiederholgenauigkeit einer Position; sie enthält die dortige Umkehrspanne "
+    "R ist die größte zweiseitige Wiederholpräzision einer Position; sie enthält die dortige Umkehrspanne "
     "und kann R↑ und R↓ übersteigen.",
 )
 _REVERSAL = Words(
@@ -76,7 +76,7 @@ class Iso230Part2:
 
     title = Words(
         "Accuracy and repeatability of positioning of numerically controlled axes",
-        "Genauigkeit und Wiederholgenauigkeit der Positionierung numerisch gesteuerter Achsen",
+        "Genauigkeit und Wiederholpräzision der Positionierung numerisch gesteuerter Achsen",
     )
     options = Options
     information = tuple(Information)
