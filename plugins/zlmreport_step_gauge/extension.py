@@ -2,27 +2,43 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+
+import numpy as np
 
 from zlmreport.plugin import (
+    MICROMETRE,
+    MICRORADIAN,
+    MILLIMETRE,
     AxisKind,
+    Band,
     Contribution,
+    Curve,
     DataSource,
     Described,
     Extension,
     ExtensionPlan,
+    Fact,
+    Figure,
+    Graph,
     Job,
     JobKeys,
     KeyStep,
     LiveRun,
     MeasurementSet,
+    Panel,
+    Role,
     Standard,
+    Words,
     Writer,
+    fixed_number,
     hookimpl,
+    read_only_floats,
 )
 from zlmreport_step_gauge.calibration import FORMAT, with_gauge_as_instrument
-from zlmreport_step_gauge.certificate import TITLE, described
+from zlmreport_step_gauge.gauge import Side, StepGauge
 from zlmreport_step_gauge.keys import StepGaugeKeys, contradictions
+from zlmreport_step_gauge.location import Located
 from zlmreport_step_gauge.machines.live import EMULATE, live_run
 from zlmreport_step_gauge.machines.run import live_probing
 from zlmreport_step_gauge.paths.foretold import foretold
@@ -31,6 +47,109 @@ from zlmreport_step_gauge.set_up import GaugeSetUp, gauge_set_up
 from zlmreport_step_gauge.source import StepGaugeSource
 from zlmreport_step_gauge.standard import StepGaugeEvaluation
 from zlmreport_step_gauge.uncertainty import gauge_contributions
+
+#: Heads what a certificate says of a gauge.
+TITLE = Words(en="Step gauge", de="Stufenendmaß")
+_SECTION = Words(en="blocks {first} to {last}", de="Blöcke {first} bis {last}")
+
+
+def described(set_up: GaugeSetUp, writer: Writer) -> Described:
+    """Return which section of the gauge was used, where it lay, and the graph of its calibration."""
+    facts = tuple(_facts(set_up, writer))
+    return Described(TITLE, facts, (Graph(gauge_calibration(set_up.gauge)),))
+
+
+def _facts(set_up: GaugeSetUp, writer: Writer) -> Iterator[Fact]:
+    numbers = set_up.gauge.blocks
+    yield Fact(
+        Words(en="Section used", de="Benutzter Abschnitt"),
+        writer.say(_SECTION.given(first=numbers[0], last=numbers[-1])),
+        ("step_gauge.first_block", "step_gauge.last_block"),
+    )
+    if set_up.located:
+        yield from _location(set_up.located, writer)
+
+
+def _location(located: Located, writer: Writer) -> Iterator[Fact]:
+    key = ("step_gauge.initial_points",)
+    location = located.location
+    yield Fact(Words(en="Begins at C1", de="Beginnt bei C1"), _point(location.begin, writer), key)
+    yield Fact(Words(en="Ends at C2", de="Endet bei C2"), _point(location.end, writer), key)
+    yield Fact(
+        Words(en="Direction C1C2", de="Richtung C1C2"),
+        f"u = {_two_digits(MICRORADIAN.from_si(location.direction_uncertainty), writer)} µrad",
+        key,
+    )
+
+
+def _point(coordinates: tuple[float, float, float], writer: Writer) -> str:
+    """Write coordinates to a micrometre: x / y / z."""
+    sign = writer.language.decimal_sign
+    return " / ".join(fixed_number(MILLIMETRE.from_si(each), 3, sign) for each in coordinates) + " mm"
+
+
+def _two_digits(value: float, writer: Writer) -> str:
+    return writer.number(float(f"{value:.2g}"))
+
+
+_TITLE = Words(
+    en="Calibration of the step gauge: calibrated minus nominal distance of the faces of the blocks {first} "
+    "to {last} from the reference face, with U (k = 2)",
+    de="Kalibrierung des Stufenendmaßes: kalibrierter minus Nennabstand der Flächen der Blöcke {first} bis "
+    "{last} von der Bezugsfläche, mit U (k = 2)",
+)
+_SENTENCE = Words(
+    en="Graph over the nominal distance, {low} mm to {high} mm. {front} {back}",
+    de="Diagramm über dem Nennabstand, {low} mm bis {high} mm. {front} {back}",
+)
+_RANGE = Words(en="{side} from {low} µm to {high} µm.", de="{side} von {low} µm bis {high} µm.")
+_SIDES = {
+    Side.FRONT: Words(en="Front faces", de="Vorderflächen"),
+    Side.BACK: Words(en="Back faces", de="Rückflächen"),
+}
+_X_TITLE = Words(en="Nominal distance from the reference face", de="Nennabstand von der Bezugsfläche")
+_Y_TITLE = Words(en="Calibrated − nominal", de="Kalibriert − Nennwert")
+_LOOKS = {
+    Side.FRONT: ("S↑", "S↑ ± U", Role.MEAN_POSITIVE, Role.LIMIT_POSITIVE),
+    Side.BACK: ("S↓", "S↓ ± U", Role.MEAN_NEGATIVE, Role.LIMIT_NEGATIVE),
+}
+
+
+def gauge_calibration(gauge: StepGauge) -> Figure:
+    """Return the graph of a gauge, or of a section of it: front faces, touched in ↑, and back faces, in ↓."""
+    curves, bands = zip(*(_of_side(gauge, side) for side in Side), strict=True)
+    nominal = [MILLIMETRE.from_si(face.nominal) for face in gauge.faces]
+    front, back = (_range(curve, side) for curve, side in zip(curves, Side, strict=True))
+    return Figure(
+        key="gauge-calibration",
+        title=_TITLE.given(first=gauge.blocks[0], last=gauge.blocks[-1]),
+        alternative=_SENTENCE.given(low=nominal[0], high=nominal[-1], front=front, back=back),
+        x_title=_X_TITLE,
+        y_title=_Y_TITLE,
+        x_unit=MILLIMETRE.symbol,
+        y_unit=MICROMETRE.symbol,
+        panels=(Panel(curves=curves, bands=bands),),
+    )
+
+
+def _of_side(gauge: StepGauge, side: Side) -> tuple[Curve, Band]:
+    faces = [face for face in gauge.faces if face.side is side]
+    x = read_only_floats([MILLIMETRE.from_si(face.nominal) for face in faces])
+    y = np.array([MICROMETRE.from_si(face.distance - face.nominal) for face in faces])
+    expanded = np.array([MICROMETRE.from_si(face.expanded_uncertainty) for face in faces])
+    symbol, limits, mean, limit = _LOOKS[side]
+    return (
+        Curve(symbol, mean, x, read_only_floats(y)),
+        Band(limits, limit, x, read_only_floats(y - expanded), read_only_floats(y + expanded)),
+    )
+
+
+def _range(curve: Curve, side: Side) -> Words:
+    return _RANGE.given(
+        side=_SIDES[side],
+        low=float(round(float(curve.y.min()), 3)),
+        high=float(round(float(curve.y.max()), 3)),
+    )
 
 
 class StepGaugeExtension(Extension):

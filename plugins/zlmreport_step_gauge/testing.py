@@ -18,7 +18,7 @@ from zlmreport.plugin import (
     Place,
 )
 from zlmreport.testing.expectations import check, expect, run_all
-from zlmreport.testing.program_expectations import (
+from zlmreport.testing.part_programs import (
     expect_defaults,
     expect_named,
     expect_plain_text,

@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from zlmreport.evaluation.ranges import average, largest, smallest, span, width
+from zlmreport.evaluation.statistics import average, largest, smallest, span, width
 
 NAN = math.nan
 STACK = np.array([[1.0, NAN, -4.0], [NAN, NAN, 5.0]])

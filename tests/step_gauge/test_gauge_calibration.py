@@ -6,7 +6,7 @@ import pytest
 
 from step_gauge.gauges import DEPARTURES, gauge
 from zlmreport.language import Language
-from zlmreport_step_gauge.certificate import gauge_calibration
+from zlmreport_step_gauge.extension import gauge_calibration
 
 FIGURE = gauge_calibration(gauge())
 

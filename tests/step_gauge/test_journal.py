@@ -8,7 +8,7 @@ import pytest
 
 from step_gauge.emulated import small_path
 from zlmreport.errors import AccessError, InputError
-from zlmreport_step_gauge.machines.journal import Journal
+from zlmreport_step_gauge.machines.run import Journal
 
 PATH = small_path().path
 FIRST, SECOND, *_ = PATH.probings

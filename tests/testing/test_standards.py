@@ -14,9 +14,8 @@ from pydantic import Field
 from testing.exemplary import ExemplaryOptions, ExemplaryStandard
 from zlmreport.evaluation.evaluation import Arithmetic, Evaluation
 from zlmreport.evaluation.quantity import PositionQuantity
-from zlmreport.evaluation.ranges import largest
 from zlmreport.evaluation.requirements import Finding
-from zlmreport.evaluation.statistics import PositionStatistics
+from zlmreport.evaluation.statistics import PositionStatistics, largest
 from zlmreport.figures.figure import Arrow, Figure, Level, Role
 from zlmreport.job.types import Options
 from zlmreport.language import Words, same

@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Generic, TypeVar
+
+from pydantic import BaseModel
 
 from zlmreport.errors import InputError, Place, Problem, did_you_mean, quoted
 from zlmreport.job.choices import (
@@ -15,7 +18,7 @@ from zlmreport.job.choices import (
     program_choices,
 )
 from zlmreport.job.contradictions import contradictions
-from zlmreport.job.extends import JOB, Defaults, compose, refuse_other_format
+from zlmreport.job.extends import JOB, Defaults, FileFormat, compose, refuse_other_format
 from zlmreport.job.extensions import extension_choices
 from zlmreport.job.installed import Installed, InstalledStandard
 from zlmreport.job.job import Job, SourceChoice, StandardChoice
@@ -25,6 +28,7 @@ from zlmreport.job.tree import Entry, Items, Keys, Node, Scalar, found_at, keys_
 from zlmreport.job.validate import validate
 from zlmreport.measurement.axis import Axis, position_units
 from zlmreport.measurement.position_table import TableColumn, read_position_table
+from zlmreport.measurement.provenance import SourceFile
 from zlmreport.quantities.notation import plain
 from zlmreport.quantities.units import ANGLE_UNITS, MICRORADIAN, MILLIMETRE
 
@@ -333,3 +337,48 @@ def axis_in_si(keys: AxisKeys) -> Axis:
 def tolerances_in_si(tolerances: Mapping[str, float], axis: Axis) -> dict[str, float]:
     """Return tolerances, given in µm or ″, in metres or radians."""
     return {symbol: axis.deviation_unit.to_si(limit) for symbol, limit in tolerances.items()}
+
+
+Model = TypeVar("Model", bound=BaseModel)
+
+
+@dataclass(frozen=True, slots=True)
+class KeysFile(Generic[Model]):
+    """A checked file of keys.
+
+    Attributes
+    ----------
+    keys
+        What it says, in users' units.
+    file
+        Its name, digest and bytes.
+    tree
+        What it says, value by value, with the places.
+    """
+
+    keys: Model
+    file: SourceFile
+    tree: Keys
+
+    def place_of(self, *steps: str | int) -> Place:
+        """Return where a key stands; of one that is missing, its nearest parent's place."""
+        return place_of(self.tree, steps)
+
+
+def read_keys_file(path: Path, model: type[Model], file_format: FileFormat) -> KeysFile[Model]:
+    """Read a file of keys; it may extend others, as a job does.
+
+    Raises
+    ------
+    InputError
+        With every mistake, in the order of their places; with one for a file of another format.
+    AccessError
+        If it cannot be read.
+    """
+    composition = compose(path)
+    refuse_other_format(composition.keys, file_format)
+    problems: list[Problem] = []
+    keys = validate(model, composition.keys, problems)
+    if problems or keys is None:
+        raise InputError(sorted(set(problems)))
+    return KeysFile(keys, composition.files[0], composition.keys)

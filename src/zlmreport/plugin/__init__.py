@@ -77,10 +77,12 @@ if TYPE_CHECKING:
     from zlmreport.evaluation.checks.readings import (
         both_directions,
         fewest_runs,
+        mean_interval,
         no_missing_readings,
         number_of_runs,
+        random_fractions,
+        spacing_against_periods,
     )
-    from zlmreport.evaluation.checks.spacing import mean_interval, random_fractions, spacing_against_periods
     from zlmreport.evaluation.conformity import Conformity, Decision
     from zlmreport.evaluation.decision import decided, decision_rule
     from zlmreport.evaluation.evaluate import evaluate
@@ -92,14 +94,14 @@ if TYPE_CHECKING:
     from zlmreport.evaluation.printed import runs as runs_in_words
     from zlmreport.evaluation.quantity import Group as QuantityGroup
     from zlmreport.evaluation.quantity import PositionQuantity, Quantity
-    from zlmreport.evaluation.ranges import average as mean_over_positions
-    from zlmreport.evaluation.ranges import largest as largest_over_positions
-    from zlmreport.evaluation.ranges import smallest as smallest_over_positions
-    from zlmreport.evaluation.ranges import span as span_over_positions
-    from zlmreport.evaluation.ranges import width as range_over_positions
     from zlmreport.evaluation.report import report_evaluation
     from zlmreport.evaluation.requirements import Basis, Finding
     from zlmreport.evaluation.statistics import PositionStatistics, position_statistics
+    from zlmreport.evaluation.statistics import average as mean_over_positions
+    from zlmreport.evaluation.statistics import largest as largest_over_positions
+    from zlmreport.evaluation.statistics import smallest as smallest_over_positions
+    from zlmreport.evaluation.statistics import span as span_over_positions
+    from zlmreport.evaluation.statistics import width as range_over_positions
     from zlmreport.figures.alternatives import graph_of as graph_in_words
     from zlmreport.figures.alternatives import marks as marks_in_words
     from zlmreport.figures.alternatives import range_of as range_in_words
@@ -132,7 +134,7 @@ if TYPE_CHECKING:
     from zlmreport.job.extends import FileFormat
     from zlmreport.job.job import Job
     from zlmreport.job.keys import JobKeys
-    from zlmreport.job.keys_file import KeysFile, read_keys_file
+    from zlmreport.job.loading import KeysFile, read_keys_file
     from zlmreport.job.measurement_keys import Instrument as JobInstrument
     from zlmreport.job.plan_keys import ProgramKeys
     from zlmreport.job.tree import Step as KeyStep
@@ -563,7 +565,7 @@ _ROOMS = {
     "zlmreport.job.plan_keys": "ProgramKeys",
     "zlmreport.job.keys": "JobKeys",
     "zlmreport.job.measurement_keys": "JobInstrument=Instrument",
-    "zlmreport.job.keys_file": "KeysFile read_keys_file",
+    "zlmreport.job.loading": "KeysFile read_keys_file",
     "zlmreport.job.extends": "FileFormat",
     "zlmreport.files": "Appended take_names unwritable",
     "zlmreport.figures.style": "INK_COLOUR=INK GRAPH_TEXT_SIZE=TEXT_SIZE ROLE_STYLES=ROLES",
@@ -601,8 +603,10 @@ _ROOMS = {
         "exceeds measured_length positions_by_angle positions_in_all positions_over_travel "
         "positions_per_metre positions_per_scale_element principal_angles"
     ),
-    "zlmreport.evaluation.checks.readings": "both_directions fewest_runs no_missing_readings number_of_runs",
-    "zlmreport.evaluation.checks.spacing": "mean_interval random_fractions spacing_against_periods",
+    "zlmreport.evaluation.checks.readings": (
+        "both_directions fewest_runs mean_interval no_missing_readings number_of_runs random_fractions "
+        "spacing_against_periods"
+    ),
     "zlmreport.evaluation.conformity": "Conformity Decision",
     "zlmreport.evaluation.decision": "decided decision_rule",
     "zlmreport.evaluation.evaluate": "evaluate",
@@ -612,13 +616,13 @@ _ROOMS = {
         "runs_in_words=runs"
     ),
     "zlmreport.evaluation.quantity": "PositionQuantity Quantity QuantityGroup=Group",
-    "zlmreport.evaluation.ranges": (
+    "zlmreport.evaluation.report": "report_evaluation",
+    "zlmreport.evaluation.requirements": "Basis Finding",
+    "zlmreport.evaluation.statistics": (
+        "PositionStatistics position_statistics "
         "largest_over_positions=largest mean_over_positions=average range_over_positions=width "
         "smallest_over_positions=smallest span_over_positions=span"
     ),
-    "zlmreport.evaluation.report": "report_evaluation",
-    "zlmreport.evaluation.requirements": "Basis Finding",
-    "zlmreport.evaluation.statistics": "PositionStatistics position_statistics",
     "zlmreport.figures.alternatives": (
         "alternative_text=text graph_in_words=graph_of marks_in_words=marks range_in_words=range_of"
     ),

@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
-from typing import TYPE_CHECKING, Any, TypeVar, cast
+from typing import TYPE_CHECKING, Any, Self, TypeVar, cast
 
+from zlmreport.boundary.guard import Guarded
 from zlmreport.errors import InputError, Place, Problem, ZlmreportError, did_you_mean
+from zlmreport.language import Words
 from zlmreport.plugin import kinds
 from zlmreport.plugin.kinds import KINDS, Kind
 from zlmreport.plugins.candidate import Candidate
@@ -25,6 +27,27 @@ if TYPE_CHECKING:
         Renderer,
         Standard,
     )
+
+
+_WHY = Words(en="two plugins provide it", de="zwei Plug-ins stellen ihn bereit")
+
+
+class _Doubtful(Guarded):
+    """An effect of which nobody knows which is meant."""
+
+    def untestable(self, _design: object) -> Words:
+        """Return why no test of it is made."""
+        return _WHY
+
+    def forms(self) -> tuple[Self, ...]:
+        """Return itself: no form of it is tried."""
+        return (self,)
+
+
+def doubtful(effect: Any) -> Any:
+    """Return an effect as one that cannot be tested."""
+    return effect.doubted(_Doubtful)
+
 
 Wanted = TypeVar("Wanted")
 
@@ -110,8 +133,6 @@ class Registry:
             if len(offering) == 1:
                 found.extend(offered)
             elif kind is kinds.EFFECT and offered:
-                from zlmreport.boundary.doubtful import doubtful  # noqa: PLC0415 - brings phrases
-
                 found.append(cast("Wanted", doubtful(offered[0])))
         return tuple(found)
 

@@ -25,9 +25,8 @@ from zlmreport.testing.effects import EFFECT_CHECKS, check_effect
 from zlmreport.testing.extensions import EXTENSION_CHECKS, check_extension
 from zlmreport.testing.instruments import INSTRUMENT_CHECKS, check_instrument
 from zlmreport.testing.measurements import bidirectional_test, simulated_test
-from zlmreport.testing.motions import sample_motion
 from zlmreport.testing.notifiers import NOTIFIER_CHECKS, NotifierTrial, check_notifier
-from zlmreport.testing.part_programs import PART_PROGRAM_CHECKS, check_part_program
+from zlmreport.testing.part_programs import PART_PROGRAM_CHECKS, check_part_program, sample_motion
 from zlmreport.testing.renderers import RENDERER_CHECKS, check_renderer
 from zlmreport.testing.sources import SOURCE_CHECKS, FileContents, check_source
 from zlmreport.testing.standards import STANDARD_CHECKS, check_standard

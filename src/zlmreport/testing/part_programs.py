@@ -6,23 +6,136 @@ that runs it. So every reading is seen to be approached from its stated side, wh
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any, TypeAlias
 
-from zlmreport.errors import InputError
+from zlmreport.errors import InputError, Place
 from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.planning.methods import Method
-from zlmreport.planning.programs import Motion
+from zlmreport.planning.plan import Plan
+from zlmreport.planning.programs import Motion, motion_of
 from zlmreport.plugin.protocols import PartProgram
-from zlmreport.testing.expectations import check, expect, expect_members, run_all
-from zlmreport.testing.motions import NUMBER, PLACE, sample_motion
-from zlmreport.testing.program_expectations import (
-    expect_defaults,
-    expect_named,
-    expect_plain_text,
-    expect_same_deeds,
+from zlmreport.quantities.arrays import read_only_floats
+from zlmreport.testing.expectations import (
+    check,
+    expect,
+    expect_identifier,
+    expect_members,
+    expect_options,
+    expect_own_keys,
+    expect_words,
+    run_all,
 )
+
+_SUFFIX = re.compile(r"\.[a-z0-9]+(\.[a-z0-9]+)*")
+_CORE_KEYS = frozenset({"program"})
+_LONGEST_LINE = 200
+
+
+def expect_named(program: Any, protocol: type, suffix: str) -> None:
+    """Expect an identifier that can be typed, a title in every language, and a suffix like the given one."""
+    expect_members(program, protocol)
+    expect_identifier(program.identifier, repr(program))
+    expect_words(program.title, f"{program.identifier}: title")
+    expect(
+        _SUFFIX.fullmatch(program.suffix),
+        f"{program.identifier}: suffix {program.suffix!r} must be like {suffix!r}",
+    )
+
+
+def expect_defaults(program: Any) -> None:
+    """Expect job keys that are described, none of them a key of the core, and all with a default."""
+    expect_options(program.options, program.identifier)
+    expect_own_keys(program.options, _CORE_KEYS, program.identifier)
+    required = [key for key, field in program.options.model_fields.items() if field.is_required()]
+    expect(
+        not required,
+        f"{program.identifier}: job keys {', '.join(required)} need a default: --program has no keys",
+    )
+
+
+def expect_plain_text(text: str, where: str) -> None:
+    """Expect ASCII in lines that a machine can hold, the last of them with an end."""
+    expect(isinstance(text, str) and text, f"{where}: write must return the text of a program")
+    expect(text.isascii(), f"{where}: the program holds characters beyond ASCII")
+    expect(
+        all(line.isprintable() for line in text.splitlines()),
+        f"{where}: the program holds control characters",
+    )
+    expect(text.endswith("\n"), f"{where}: the last line has no end")
+    longest = max(len(line) for line in text.splitlines())
+    expect(longest <= _LONGEST_LINE, f"{where}: a line has {longest} characters; {_LONGEST_LINE} at most")
+
+
+def expect_same_deeds(
+    text: str, understand: Callable[[str], Sequence[Any]], plain: Sequence[Any], where: str, verb: str
+) -> None:
+    """Expect that a program with a hostile name does what the one with a plain name does.
+
+    Parameters
+    ----------
+    text
+        The program.
+    understand
+        From a text of its language to what a machine does of it.
+    plain
+        What it does with a plain name.
+    where
+        Of which program and name, for the message.
+    verb
+        What `understand` does with a text: ``run``, ``read``.
+    """
+    expect(text.isascii(), f"{where}, the program holds characters beyond ASCII")
+    try:
+        deeds = list(understand(text))
+    except Exception as error:
+        message = f"{where}, the program cannot be {verb}: {error!r}"
+        raise AssertionError(message) from error
+    expect(deeds == plain, f"{where}, the program does something else")
+
+
+#: Of the job, as it must stand in every program.
+NUMBER = "KIT-7"
+#: Where the kit asks for a program.
+PLACE = Place("job.yaml", 12, 15)
+_TARGETS = (-20.5, 3.125, 30.002, 58.25)
+
+
+def sample_motion(
+    method: Method = Method.LINEAR,
+    *,
+    axis: Axis | None = None,
+    targets: tuple[float, ...] = _TARGETS,
+    runs: int = 2,
+    overrun: float = 5.0,
+) -> Motion:
+    """Return the motion of a test at 1500 mm/min (°/min) with 3.5 s at rest.
+
+    Parameters
+    ----------
+    method
+        The positioning method.
+    axis
+        A linear one, X, if it is not given.
+    targets, overrun
+        mm or °.
+    runs
+        How often each target is read in each direction.
+    """
+    axis = axis or Axis("X")
+    to_si = axis.position_unit.to_si
+    plan = Plan(
+        targets=read_only_floats([to_si(target) for target in targets]),
+        method=method,
+        runs=runs,
+        overrun=to_si(overrun),
+        feed=to_si(1500.0) / 60,
+        dwell=3.5,
+    )
+    return motion_of(NUMBER, axis, plan, PLACE)
+
 
 #: From the text of a program to the stops: the position, mm or °, and the time at rest there, s.
 Interpreter: TypeAlias = Callable[[str], Sequence[tuple[float, float]]]

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from evaluation.checks.findings import said
-from zlmreport.evaluation.checks.spacing import mean_interval, random_fractions, spacing_against_periods
+from zlmreport.evaluation.checks.readings import mean_interval, random_fractions, spacing_against_periods
 from zlmreport.evaluation.requirements import Basis
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.measurement_set import MeasurementSet

@@ -14,9 +14,9 @@ from hypothesis import strategies as st
 
 from plugins.sources.reading import DATA, File
 from zlmreport.errors import InputError
-from zlmreport_plugins.sources.ecmc.source import Ecmc
-from zlmreport_plugins.sources.laser_csv.source import LaserCsv
-from zlmreport_plugins.sources.renishaw_rtl.source import RenishawRtl
+from zlmreport_plugins.sources.ecmc import Ecmc
+from zlmreport_plugins.sources.laser_csv import LaserCsv
+from zlmreport_plugins.sources.renishaw_rtl import RenishawRtl
 
 SOURCES = [LaserCsv(), RenishawRtl(), Ecmc()]
 SAMPLES = {

@@ -12,8 +12,8 @@ from plugins.sources.reading import DATA, MM, File, assert_same_readings, said
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.measurement.measurement_set import MissingReading
-from zlmreport_plugins.sources.ecmc.source import Ecmc
-from zlmreport_plugins.sources.laser_csv.source import LaserCsv
+from zlmreport_plugins.sources.ecmc import Ecmc
+from zlmreport_plugins.sources.laser_csv import LaserCsv
 
 SPECIMEN = (DATA / "sources" / "ecmc_13e6c326.dat").read_bytes()
 #: One cycle at two targets; the first line is 1, the last 8.

@@ -12,7 +12,7 @@ from plugins.sources.reading import DATA, MM, UM, File, assert_same_readings, sa
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.measurement.measurement_set import MissingReading
-from zlmreport_plugins.sources.laser_csv.source import LaserCsv
+from zlmreport_plugins.sources.laser_csv import LaserCsv
 
 HEADER = "target,direction,run,deviation\n"
 #: 2 targets, both directions.

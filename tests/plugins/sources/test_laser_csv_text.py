@@ -12,7 +12,7 @@ from pydantic import ValidationError
 from plugins.sources.reading import File, assert_same_readings
 from zlmreport.errors import AccessError, InputError
 from zlmreport.measurement.measurement_set import MeasurementSet
-from zlmreport_plugins.sources.laser_csv.source import LaserCsv
+from zlmreport_plugins.sources.laser_csv import LaserCsv
 
 HEADER = "target,direction,run,deviation\n"
 TABLE = f"{HEADER}0,+,1,1.5\n100,+,1,-2\n"

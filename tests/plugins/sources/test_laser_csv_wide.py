@@ -9,8 +9,8 @@ import pytest
 from plugins.sources.reading import File, assert_same_readings, said
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.measurement_set import MeasurementSet, MissingReading
+from zlmreport_plugins.sources.laser_csv import LaserCsv
 from zlmreport_plugins.sources.laser_csv.options import run_and_direction
-from zlmreport_plugins.sources.laser_csv.source import LaserCsv
 
 UP, DOWN = Approach.POSITIVE, Approach.NEGATIVE
 

@@ -13,8 +13,8 @@ from plugins.sources.reading import DATA, MM, File, assert_same_readings, said
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.measurement.measurement_set import MissingReading
-from zlmreport_plugins.sources.laser_csv.source import LaserCsv
-from zlmreport_plugins.sources.renishaw_rtl.source import RenishawRtl
+from zlmreport_plugins.sources.laser_csv import LaserCsv
+from zlmreport_plugins.sources.renishaw_rtl import RenishawRtl
 
 SPECIMEN = (DATA / "sources" / "bidirectional.rtl").read_bytes()
 ROTARY = Axis("C", AxisKind.ROTARY)

@@ -2,10 +2,265 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import math
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import Annotated
 
-from zlmreport.plugin import DataSource, hookimpl
-from zlmreport_plugins.sources.renishaw_rtl.source import RenishawRtl
+from pydantic import AfterValidator, Field
+
+from zlmreport.plugin import (
+    MICROMETRE,
+    MILLIRADIAN,
+    POSITION_UNITS,
+    AxisKind,
+    DataSource,
+    InputError,
+    JobPath,
+    MeasurementSet,
+    Options,
+    Place,
+    Problem,
+    Provenance,
+    Reading,
+    SourceContext,
+    TextFile,
+    Unit,
+    Words,
+    collect_readings,
+    hookimpl,
+    known_encoding,
+    parse_number,
+    position_units,
+    quoted,
+    read_text,
+    same_in_all_languages,
+    unit_named,
+)
+from zlmreport_plugins.sources.renishaw_rtl.contents import (
+    Deviation,
+    Entry,
+    Pass,
+    Section,
+    deviations,
+    passes,
+    sections,
+    stated_count,
+    target_positions,
+)
+
+#: Of a text in a file that is printed as a remark.
+_LONGEST = 200
+#: What is recorded for a sensor that is not there.
+_ABSENT = -10.0
+
+_TEMPERATURES = {None: "°C", "0": "°C"}
+_RECORDED: tuple[tuple[str, Words, Mapping[str | None, str]], ...] = (
+    ("airtemp", Words(en="Air temperature", de="Lufttemperatur"), _TEMPERATURES),
+    ("airpress", Words(en="Air pressure", de="Luftdruck"), {"1": "kPa"}),
+    ("airhumid", Words(en="Relative humidity", de="Relative Luftfeuchte"), {None: "%"}),
+    ("mattemp", Words(en="Material temperature", de="Materialtemperatur"), _TEMPERATURES),
+    ("envfactor", Words(en="Environmental factor", de="Umgebungsfaktor"), {}),
+    (
+        "expcoeff",
+        Words(en="Expansion coefficient", de="Ausdehnungskoeffizient"),
+        {None: "ppm/°C", "0": "ppm/°C"},
+    ),
+)
+#: Says nothing of the conditions.
+_NOT_SAID = frozenset({"finaldata"})
+
+#: Sections whose lines are kept as they are.
+_TEXTS = {
+    "HEADER": Words(en="Header of the file: {text}.", de="Kopf der Datei: {text}."),
+    "USER-TEXT": Words(en="User’s text in the file: {text}.", de="Text des Anwenders in der Datei: {text}."),
+    "EQUIPMENT": Words(en="Equipment named in the file: {text}.", de="In der Datei genannte Geräte: {text}."),
+}
+
+
+def remarks(sections: Mapping[str, Section], problems: list[Problem]) -> Iterator[Words]:
+    """Yield what the file says; a value that is no number is added to the problems."""
+    for name, introduction in _TEXTS.items():
+        if name in sections:
+            lines = (" ".join(line.text.split())[:_LONGEST] for line in sections[name].lines)
+            said = [line for line in lines if not line.endswith(":")]
+            if said:
+                yield introduction.given(text="; ".join(said))
+    if "ENVIRONMENT" in sections:
+        for entry in sections["ENVIRONMENT"].entries():
+            try:
+                remark = _recorded(entry)
+            except ValueError as error:
+                problems.append(Problem(entry.line.place, f"{entry.name}: {error}"))
+            else:
+                if remark:
+                    yield remark
+
+
+def _recorded(entry: Entry) -> Words | None:
+    """Return what was recorded at the start and at the end of the test; None if there was no sensor."""
+    if entry.key in _NOT_SAID:
+        return None
+    kind = entry.key.rstrip("0123456789")
+    quantity, units = next(
+        ((words, units) for key, words, units in _RECORDED if key == kind),
+        (same_in_all_languages(entry.name), None),
+    )
+    if units is None:
+        return Words(en="{quantity}: {text}.", de="{quantity}: {text}.").given(
+            quantity=quantity, text=entry.value[:_LONGEST]
+        )
+    values = [parse_number(word) for word in entry.value.split()[:2]]
+    if len(values) < 2 or values == [_ABSENT, _ABSENT]:
+        return None
+    code = next(iter(entry.value.split()[2:]), None)
+    unit = units.get(code, f"(unit {code})" if code else "")
+    return Words(
+        en="{quantity}{number}: {start}{unit} at the start, {end}{unit} at the end of the test.",
+        de="{quantity}{number}: {start}{unit} zu Beginn, {end}{unit} am Ende der Messung.",
+    ).given(
+        quantity=quantity,
+        number=f" {number}" if (number := entry.key[len(kind) :]) else "",
+        start=values[0],
+        end=values[1],
+        unit=f" {unit}" if unit else "",
+    )
+
+
+_KINDS = {"rtl": AxisKind.LINEAR, "rta": AxisKind.ROTARY}
+_UNITS = {AxisKind.LINEAR: MICROMETRE, AxisKind.ROTARY: MILLIRADIAN}
+#: With so many readings that could be to one that is, hardly any are there.
+_HARDLY_ANY = 100
+_WHY = {
+    "rta": "angular deviations of a linear axis are pitch, yaw or roll, and no positioning test",
+    "rtl": "the linear test of a rotary axis is none of its angular positions",
+}
+_TARGETS, _DEVIATIONS = "TARGET DATA", "DEVIATIONS"
+
+_UNIT_TAKEN = Words(
+    en="The file does not name the unit of its deviations; they were read as {unit}, which is usual in files "
+    "of this kind (.{kind}).",
+    de="Die Datei nennt die Einheit ihrer Abweichungen nicht; sie wurden als {unit} gelesen, wie in Dateien "
+    "dieser Art (.{kind}) üblich.",
+)
+_UNIT_STATED = Words(
+    en="The file does not name the unit of its deviations; they were read as {unit}, as the job states.",
+    de="Die Datei nennt die Einheit ihrer Abweichungen nicht; sie wurden als {unit} gelesen, wie im Auftrag "
+    "angegeben.",
+)
+
+
+def _known_unit(spelling: str) -> str:
+    unit_named(spelling, POSITION_UNITS)
+    return spelling
+
+
+class RenishawRtlOptions(Options):
+    """Where the file is, and what it does not say itself."""
+
+    file: JobPath = Field(description="The .rtl or .rta file, relative to the file that names it.")
+    deviation_unit: Annotated[str, AfterValidator(_known_unit)] | None = Field(
+        None,
+        description="Unit of the deviations, if it is not micrometres (.rtl) or mrad (.rta): arcsec, nm.",
+    )
+    encoding: Annotated[str, AfterValidator(known_encoding)] | None = Field(
+        None, description="Encoding of the file, if it is not UTF-8: cp1252, gbk, utf-16."
+    )
+
+
+class RenishawRtl:
+    """Renishaw's linear and angular test files."""
+
+    identifier = "renishaw-rtl"
+    title = Words(en="Renishaw test file (.rtl, .rta)", de="Renishaw-Messdatei (.rtl, .rta)")
+    options: type[Options] = RenishawRtlOptions
+    suffixes = (".rtl", ".rta")
+
+    def read(self, options: RenishawRtlOptions, context: SourceContext) -> MeasurementSet:
+        """Read a test file; raise `InputError` with every defect and its place."""
+        text = read_text(options.file, options.encoding)
+        parts = sections(text, (_TARGETS, _DEVIATIONS))
+        kind = _kind(text, parts, context)
+        unit = _deviation_unit(options, context)
+        targets = target_positions(parts[_TARGETS])
+        problems: list[Problem] = []
+        found = deviations(parts[_DEVIATIONS], targets, problems)
+        taken = list(passes(found, targets, problems))
+        problems.extend(_cut_off(parts, found))
+        if len(taken) * len(targets) > _HARDLY_ANY * len(found):
+            message = f"has {len(targets)} targets and {len(taken)} runs, and only {len(found)} readings"
+            raise InputError([Problem(text.place(), message), *problems])
+        said = [_unit_remark(options, unit, kind), *remarks(parts, problems)]
+        return collect_readings(
+            _readings(taken, targets, unit, context),
+            context.axis,
+            Provenance(self.identifier, (text.source,), tuple(said)),
+            place=text.place(),
+            problems=problems,
+        )
+
+
+def _kind(text: TextFile, parts: Mapping[str, Section], context: SourceContext) -> str:
+    """Return the kind of file, rtl or rta, which must be that of the axis."""
+    own = next(kind for kind, axis_kind in _KINDS.items() if axis_kind is context.axis.kind)
+    kind, place = _told_kind(text, parts) or (own, text.place())
+    if kind not in _KINDS:
+        raise InputError.at(
+            place, f"the file is of type {quoted(kind)}; linear (rtl) and angular (rta) tests are read"
+        )
+    if kind != own:
+        raise InputError.at(
+            place,
+            f"the file is of type {kind}, and the axis is {context.axis.kind} (axis.kind): {_WHY[kind]}",
+        )
+    return kind
+
+
+def _told_kind(text: TextFile, parts: Mapping[str, Section]) -> tuple[str, Place] | None:
+    """Return the kind that the file's header or else its suffix tells, and where."""
+    entry = parts["HEADER"].value("filetype") if "HEADER" in parts else None
+    if entry and entry.value:
+        return entry.value.casefold(), entry.line.place
+    suffix = text.source.name.rpartition(".")[2].casefold()
+    return (suffix, text.place()) if suffix in _KINDS else None
+
+
+def _deviation_unit(options: RenishawRtlOptions, context: SourceContext) -> Unit:
+    if options.deviation_unit is None:
+        return _UNITS[context.axis.kind]
+    try:
+        return unit_named(options.deviation_unit, position_units(context.axis.kind))
+    except ValueError as error:
+        raise InputError.at(context.place, f"deviation_unit: {error}") from error
+
+
+def _unit_remark(options: RenishawRtlOptions, unit: Unit, kind: str) -> Words:
+    return (_UNIT_STATED if options.deviation_unit else _UNIT_TAKEN).given(unit=unit.symbol, kind=kind)
+
+
+def _cut_off(parts: Mapping[str, Section], found: Sequence[Deviation]) -> Iterator[Problem]:
+    """Yield the problem that the file has not as many runs as it announces."""
+    stated = stated_count(parts["RUNS"], "runcount") if "RUNS" in parts else None
+    runs = len({deviation.run for deviation in found})
+    if stated and stated[0] != runs:
+        yield Problem(
+            stated[1].place,
+            f"the file announces {stated[0]} runs and has readings of {runs}; was it cut off?",
+        )
+
+
+def _readings(
+    taken: Sequence[Pass], targets: Sequence[float], unit: Unit, context: SourceContext
+) -> Iterator[Reading]:
+    """Yield the readings run by run; a target that a run left out is a missing reading."""
+    positions = [context.axis.position_unit.to_si(target) for target in targets]
+    numbers = sorted(range(1, len(targets) + 1), key=lambda number: positions[number - 1])
+    for run in taken:
+        for number in numbers[:: int(run.approach)]:
+            position = positions[number - 1]
+            for deviation in run.deviations.get(number, ()):
+                yield Reading(deviation.place, position, run.approach, run.cycle, unit.to_si(deviation.value))
+            if number not in run.deviations:
+                yield Reading(run.place, position, run.approach, run.cycle, math.nan)
 
 
 @hookimpl

@@ -2,13 +2,236 @@
 
 The editions are rows of one table (`editions`); their formulas differ by the coverage factor only
 (`formulas`), their words by edition (`wording`).
+
+The numbers of 1988 are those of the ZLM Position manual (G 1.1), and so published; those of the later
+editions have not been read in the standard's own text and are applied as they are in use, but for the rule
+on long axes: clause 6.2 of GOST ISO 230-2-2016, which is ISO 230-2:2014.
 """
 
 from __future__ import annotations
 
-from zlmreport.plugin import Standard, hookimpl
-from zlmreport_plugins.standards.iso230_2.editions import EDITIONS
-from zlmreport_plugins.standards.iso230_2.standard import Iso230Part2
+import math
+from collections.abc import Iterable, Iterator
+
+from zlmreport.plugin import (
+    Arithmetic,
+    Axis,
+    AxisKind,
+    Basis,
+    Evaluation,
+    Figure,
+    Finding,
+    Information,
+    MeasurementSet,
+    Options,
+    PositionStatistics,
+    Standard,
+    Words,
+    both_directions,
+    exceeds,
+    fewest_runs,
+    hookimpl,
+    mean_interval,
+    measured_length,
+    no_missing_readings,
+    number_of_runs,
+    position_in_words,
+    positions_by_angle,
+    positions_over_travel,
+    positions_per_metre,
+    positions_per_scale_element,
+    principal_angles,
+    random_fractions,
+    runs_in_words,
+    spacing_against_periods,
+)
+from zlmreport_plugins.standards.iso230_2 import figures, formulas, quantities
+from zlmreport_plugins.standards.iso230_2.editions import EDITIONS, Edition
+
+_RUNS = 5
+_LONG = {AxisKind.LINEAR: 2.0, AxisKind.ROTARY: 2 * math.pi}
+_POSITIONS_BY_ANGLE = {math.pi / 2: 3, math.pi: 5}
+_POSITIONS_ABOVE = 8
+_MEAN_INTERVAL_OF_LONG_AXIS = 0.25
+
+_ONE_DIRECTION_ONLY = Words(
+    "only the parameters of this direction exist", "nur die Kenngrößen dieser Richtung sind bestimmt"
+)
+
+
+def requirement_findings(edition: Edition, measurements: MeasurementSet) -> Iterator[Finding]:
+    """Yield the edition's requirements, held against the test."""
+    yield both_directions(measurements, _ONE_DIRECTION_ONLY, Basis.PUBLISHED)
+    if edition.long_axis is not None and _is_long_axis_test(measurements):
+        yield from _long_axis(edition.long_axis, measurements)
+    else:
+        yield from _full_test(edition, measurements)
+    yield no_missing_readings(measurements)
+    yield positions_over_travel(measurements)
+    yield from spacing_against_periods(measurements, Basis.APPLIED)
+    if edition.long_axis is None:
+        yield random_fractions(measurements, "P = N·p + r", Basis.PUBLISHED)
+    else:
+        yield random_fractions(measurements, "P = (i − 1)·p + r", Basis.APPLIED)
+
+
+def _axis_length(measurements: MeasurementSet) -> float:
+    """Return the length of the axis, m or rad: its travel, or what was measured where none is stated."""
+    travel = measurements.axis.travel
+    measured = measured_length(measurements)
+    return max(measured, abs(travel[1] - travel[0])) if travel else measured
+
+
+def _is_long(measurements: MeasurementSet, length: float) -> bool:
+    return exceeds(length, _LONG[measurements.axis.kind])
+
+
+def _is_long_axis_test(measurements: MeasurementSet) -> bool:
+    """Tell whether the test is one of a long axis, and not of a shorter zone with several runs."""
+    if _is_long(measurements, measured_length(measurements)):
+        return True
+    return _is_long(measurements, _axis_length(measurements)) and fewest_runs(measurements) == 1
+
+
+def _full_test(edition: Edition, measurements: MeasurementSet) -> Iterator[Finding]:
+    """Yield the requirements on a test with several runs."""
+    axis = measurements.axis
+    if edition.long_axis is not None and _is_long(measurements, _axis_length(measurements)):
+        yield _zone(axis, _axis_length(measurements), measured_length(measurements))
+    yield number_of_runs(measurements, _RUNS, Basis.APPLIED)
+    if axis.kind is AxisKind.ROTARY:
+        yield positions_by_angle(measurements, _POSITIONS_BY_ANGLE, _POSITIONS_ABOVE, Basis.APPLIED)
+        yield principal_angles(measurements, Basis.APPLIED)
+        return
+    basis = Basis.PUBLISHED if edition.long_axis is None else Basis.APPLIED
+    yield positions_per_metre(measurements, 5, basis, minimum=5)
+    if edition.long_axis is None:
+        yield positions_per_scale_element(measurements, 1, basis)
+
+
+def _zone(axis: Axis, length: float, measured: float) -> Finding:
+    """Return the finding on a zone of a long axis that was tested in full."""
+    requirement = Words(
+        "On an axis above {limit}, a full test of a shorter zone only as agreed",
+        "An einer Achse über {limit} eine vollständige Prüfung eines kürzeren Bereichs nur nach Vereinbarung",
+    ).given(limit=position_in_words(axis, _LONG[axis.kind]))
+    found = Words("{measured} of {length}", "{measured} von {length}").given(
+        measured=position_in_words(axis, measured), length=position_in_words(axis, length)
+    )
+    return Finding(requirement, found, met=None)
+
+
+def _long_axis(basis: Basis, measurements: MeasurementSet) -> Iterator[Finding]:
+    """Yield the requirements on an axis above 2000 mm or 360°: one run, and no s, R, A."""
+    axis, number = measurements.axis, fewest_runs(measurements)
+    requirement = Words(
+        "Above {limit} one run in each direction; s, R and A are not evaluated",
+        "Über {limit} ein Durchlauf je Richtung; s, R und A werden nicht ausgewertet",
+    ).given(limit=position_in_words(axis, _LONG[axis.kind]))
+    length = position_in_words(axis, _axis_length(measurements))
+    if number == 1:
+        found = Words(
+            "1 run on {length}; s, R and A are not evaluated",
+            "1 Durchlauf auf {length}; s, R und A werden nicht ausgewertet",
+        )
+        yield Finding(requirement, found.given(length=length), met=True, basis=basis)
+    else:
+        found = Words(
+            "{runs} on {length}; the R and A that follow from them go beyond the standard",
+            "{runs} auf {length}; die daraus folgenden R und A gehen über die Norm hinaus",
+        ).given(runs=runs_in_words(number), length=length)
+        yield Finding(requirement, found, met=False, basis=basis)
+    if axis.kind is AxisKind.LINEAR:
+        yield mean_interval(measurements, _MEAN_INTERVAL_OF_LONG_AXIS, Basis.APPLIED)
+
+
+_FULL_WIDTHS = Words(
+    "All parameters are full widths, not ± values. The limits lie {k} standard deviations (n − 1) to either "
+    "side of the mean of one direction.",
+    "Alle Kenngrößen sind volle Spannweiten, keine ±-Werte. Die Grenzen liegen {k} Standardabweichungen "
+    "(n − 1) beiderseits des Mittelwerts einer Richtung.",
+)
+_REPEATABILITY = Words(
+    "R is the largest bidirectional repeatability of a position; it contains the reversal there and can "
+    "exceed both R↑ and R↓.",
+    "R ist die größte zweiseitige Wiederholpräzision einer Position; sie enthält die dortige Umkehrspanne "
+    "und kann R↑ und R↓ übersteigen.",
+)
+_REVERSAL = Words(
+    "The reversal at a position is the mean of the positive minus the mean of the negative direction. B is "
+    "its largest amount, B̄ its mean over the positions with sign.",
+    "Die Umkehrspanne einer Position ist der Mittelwert der positiven minus dem der negativen Richtung. B "
+    "ist ihr größter Betrag, B̄ ihr Mittel über die Positionen mit Vorzeichen.",
+)
+_OPPOSITE_REVERSAL = Words(
+    "B̄ is printed with the sign of this edition: the mean of the negative minus the mean of the positive "
+    "direction. The table by position and the results file take the positive minus the negative direction.",
+    "B̄ ist mit dem Vorzeichen dieser Ausgabe gedruckt: Mittelwert der negativen minus Mittelwert der "
+    "positiven Richtung. Die Tabelle nach Sollposition und die Ergebnisdatei rechnen positive minus negative "
+    "Richtung.",
+)
+_NOT_COMPARABLE = Words(
+    "Limits at 3 standard deviations make A and R larger than by the editions since 1997, which take 2: the "
+    "values are not to be compared. This edition defines neither E nor M.",
+    "Grenzen bei 3 Standardabweichungen machen A und R größer als nach den Ausgaben seit 1997, die 2 "
+    "verwenden: die Werte sind nicht vergleichbar. Diese Ausgabe kennt weder E noch M.",
+)
+_SOURCE = Words(
+    "Formulas as in the manual of the program ZLM Position, G 1.3; corrected: bars over the means of the "
+    "mean reversal value, targets P = N·p + r.",
+    "Formeln nach dem Handbuch des Programms ZLM Position, G 1.3; berichtigt: Querstriche über den "
+    "Mittelwerten der mittleren Umkehrspanne, Sollpositionen P = N·p + r.",
+)
+
+
+def notes(edition: Edition) -> tuple[Words, ...]:
+    """Return the notes of an edition."""
+    general = (_FULL_WIDTHS.given(k=edition.coverage_factor), _REPEATABILITY)
+    if edition.prints_reversal_as_negative_minus_positive:
+        return (*general, _OPPOSITE_REVERSAL, _NOT_COMPARABLE, _SOURCE)
+    return (*general, _REVERSAL)
+
+
+class Iso230Part2:
+    """ISO 230-2 in one edition.
+
+    Parameters
+    ----------
+    edition
+        A row of the table of editions.
+    """
+
+    title = Words(
+        "Accuracy and repeatability of positioning of numerically controlled axes",
+        "Genauigkeit und Wiederholpräzision der Positionierung numerisch gesteuerter Achsen",
+    )
+    options = Options
+    information = tuple(Information)
+
+    def __init__(self, edition: Edition) -> None:
+        self.edition = edition
+        self.identifier = f"iso230-2:{edition.year}"
+        self.designation = f"ISO 230-2:{edition.year}"
+        self.position_index = edition.position_index
+        self.quantities = quantities.parameters(edition)
+        self.position_quantities = quantities.by_position(edition)
+        self.notes = notes(edition)
+
+    def requirements(self, measurements: MeasurementSet, options: Options) -> Iterable[Finding]:  # noqa: ARG002 - no keys of its own
+        """Hold the edition's test design against the test."""
+        return requirement_findings(self.edition, measurements)
+
+    def arithmetic(self, statistics: PositionStatistics, options: Options) -> Arithmetic:  # noqa: ARG002 - no keys of its own
+        """Return the edition's parameters and R_i by position."""
+        k = self.edition.coverage_factor
+        by_position = formulas.positions(statistics, k)
+        parameters = formulas.parameters(statistics, k, by_position)
+        reported = {quantity.symbol: parameters[quantity.symbol] for quantity in self.quantities}
+        return Arithmetic(reported, by_position)
+
+    def figures(self, evaluation: Evaluation, options: Options) -> Iterable[Figure]:  # noqa: ARG002 - no keys of its own
+        """Return the bidirectional graphs and the graph of both directions one by one."""
+        return figures.figures(self.edition, evaluation)
 
 
 @hookimpl

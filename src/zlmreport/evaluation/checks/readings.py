@@ -1,4 +1,7 @@
-"""Directions, runs, and readings that are missing."""
+"""Directions, runs, readings that are missing; positions against the periods of an axis.
+
+Equal spacing can hide a periodic deviation.
+"""
 
 from __future__ import annotations
 
@@ -103,3 +106,92 @@ def no_missing_readings(measurements: MeasurementSet) -> Finding:
     )
     given = found.given(missing=missing, total=total, least=int(count.min()), most=int(count.max()))
     return Finding(requirement, given, met=False)
+
+
+#: Phases that agree within this part of a period show the same point of a periodic deviation.
+_SAME_PHASE = 0.01
+#: Intervals that agree within this part are alike: their digits were rounded.
+_ALIKE = 1e-6
+
+
+def spacing_against_periods(measurements: MeasurementSet, basis: Basis) -> tuple[Finding, ...]:
+    """Ask that the spacing is no integer multiple of a period of the axis; one finding for each period.
+
+    Not met where all targets show the same phase of the period. Left open where the job states none.
+    """
+    axis = measurements.axis
+    periods = (
+        (Words("pitch", "Steigung"), axis.screw_pitch),
+        (Words("signal period", "Signalperiode"), axis.signal_period),
+    )
+    stated = tuple(
+        _spacing_against(measurements, name, period, basis) for name, period in periods if period is not None
+    )
+    if stated:
+        return stated
+    requirement = Words(
+        "Spacing no integer multiple of a period of the axis",
+        "Abstand kein ganzzahliges Vielfaches einer Periode der Achse",
+    )
+    return (Finding(requirement, Words("no period stated", "keine Periode angegeben"), None, basis),)
+
+
+def _spacing_against(measurements: MeasurementSet, name: Words, period: float, basis: Basis) -> Finding:
+    """Hold the spacing against one period: the phases of all targets, as seen from the first."""
+    requirement = Words(
+        "Spacing no integer multiple of the {name} ({period})",
+        "Abstand kein ganzzahliges Vielfaches der {name} ({period})",
+    ).given(name=name, period=printed.position(measurements.axis, period))
+    turns = (measurements.target_positions - measurements.target_positions[0]) / period
+    if len(turns) < 2:
+        return Finding(requirement, Words("a single position", "eine einzige Position"), None, basis)
+    from_first = np.abs(turns - np.rint(turns))
+    if from_first.max() > _SAME_PHASE:
+        found = Words("targets at differing phases", "Sollpositionen bei unterschiedlicher Phase")
+        return Finding(requirement, found, met=True, basis=basis)
+    found = Words(
+        "all targets at the same phase: a deviation of this period stays hidden",
+        "alle Sollpositionen bei gleicher Phase: eine Abweichung dieser Periode bleibt verborgen",
+    )
+    return Finding(requirement, found, met=False, basis=basis)
+
+
+def random_fractions(measurements: MeasurementSet, formula: str, basis: Basis) -> Finding:
+    """Ask that each target carries a random fraction; equal intervals show that none does.
+
+    Parameters
+    ----------
+    measurements
+        The test.
+    formula
+        How the standard writes its targets: ``P = N·p + r``.
+    basis
+        Where the requirement is known from.
+    """
+    axis = measurements.axis
+    requirement = Words(
+        "Targets {formula} with a random fraction r at each",
+        "Sollpositionen {formula} mit zufälligem Anteil r",
+    ).given(formula=formula)
+    intervals = np.diff(measurements.target_positions)
+    if len(intervals) < 2:
+        too_few = Words("too few positions to tell", "zu wenige Positionen für eine Aussage")
+        return Finding(requirement, too_few, met=None, basis=basis)
+    shortest, longest = float(intervals.min()), float(intervals.max())
+    if longest - shortest <= _ALIKE * longest:
+        found = Words("all intervals alike: {interval}", "alle Abstände gleich: {interval}")
+        found = found.given(interval=printed.position(axis, float(intervals.mean())))
+        return Finding(requirement, found, met=False, basis=basis)
+    found = Words("intervals from {shortest} to {longest}", "Abstände von {shortest} bis {longest}").given(
+        shortest=printed.position(axis, shortest), longest=printed.position(axis, longest)
+    )
+    return Finding(requirement, found, met=True, basis=basis)
+
+
+def mean_interval(measurements: MeasurementSet, limit: float, basis: Basis) -> Finding:
+    """Ask for a mean interval between neighbouring targets of at most `limit`, m or rad."""
+    axis, targets = measurements.axis, measurements.target_positions
+    requirement = Words("Mean interval at most {limit}", "Mittlerer Abstand höchstens {limit}")
+    requirement = requirement.given(limit=printed.position(axis, limit))
+    interval = float(targets[-1] - targets[0]) / max(1, len(targets) - 1)
+    return Finding(requirement, printed.position(axis, interval), interval <= limit * (1 + _ALIKE), basis)
