@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 import datetime as dt
-import random
-import shutil
 import threading
 from collections import Counter
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Sequence
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -20,9 +17,7 @@ from fleet.exposition import parse
 from fleet.fleets import FLEET, Fleet, Witness, without_processes
 from fleet.histories import entry, history, parameter
 from zlmreport.errors import InputError
-from zlmreport.fleet import issuing, night, telling
-from zlmreport.fleet.issuing import Happened, What
-from zlmreport.fleet.ledger import Ledger
+from zlmreport.fleet import night, telling
 from zlmreport.fleet.news import digest, news_of
 from zlmreport.fleet.night import MissingError
 from zlmreport.fleet.plan import Planned
@@ -70,8 +65,8 @@ class Post:
         )
 
 
-@pytest.fixture
-def post(monkeypatch: pytest.MonkeyPatch) -> Post:
+def post_office(monkeypatch: pytest.MonkeyPatch) -> Post:
+    """Let the only way to tell people be a post."""
     post = Post()
 
     @hookimpl
@@ -83,6 +78,11 @@ def post(monkeypatch: pytest.MonkeyPatch) -> Post:
     ]
     monkeypatch.setattr(telling, "find_plugins", lambda **_: collect(offered))
     return post
+
+
+@pytest.fixture
+def post(monkeypatch: pytest.MonkeyPatch) -> Post:
+    return post_office(monkeypatch)
 
 
 @pytest.fixture
@@ -213,105 +213,3 @@ def test_a_night_gives_signs_of_life_in_a_file(fleet: Fleet) -> None:
             "zlmreport_fleet_heartbeat_timestamp_seconds": began,
             "zlmreport_fleet_at_work": is_at_work,
         }
-
-
-AXES = 6
-#: What goes wrong, by day.
-TROUBLES = {5: "kill", 8: "mount", 11: "clock", 14: "lost", 16: "found", 19: "kill", 22: "disk"}
-#: Of which every one is told once; a night that was killed is made good, and a full disk fails each new job.
-TOLD = {"folder": 1, "clock": 1, "lost": 1, "step": 1, "drift": 1, "disk": AXES}
-
-
-class KilledError(Exception):
-    """A night ends anywhere."""
-
-
-class Deadly(Witness):
-    """Kills a night at its first job."""
-
-    def happened(self, happened: Happened) -> None:
-        Witness.happened(self, happened)
-        if happened.what is not What.UNCHANGED:
-            raise KilledError
-
-
-@dataclass(slots=True)
-class Month:
-    """A fleet with its tests and what goes wrong."""
-
-    fleet: Fleet
-    rng: random.Random
-    measured: list[int] = field(default_factory=lambda: [0] * AXES)
-
-    def measure(self, axes: Iterable[int]) -> None:
-        """Write the job of a test; axis 4 steps by half its limit, axis 5 drifts."""
-        for axis in axes:
-            self.measured[axis] += 1
-            number = self.measured[axis]
-            value = 6 + self.rng.uniform(-0.3, 0.3)
-            value += 10 if axis == 4 and number >= 7 else 1.2 * number if axis == 5 else 0
-            changes = (("name: X", f"name: A{axis}"), ("2026-11-18", f"2025-{number:02}-15"))
-            self.fleet.job(f"a{axis}t{number}", *changes, readings=f"0 1 {min(value, 19.5):.3f} 0 1 2")
-
-    def spend(self, trouble: str, monkeypatch: pytest.MonkeyPatch) -> None:
-        """Spend a night with what goes wrong in it."""
-        folder = self.fleet.folder
-        if trouble == "mount":
-            (folder / "certificates").rename(folder / "elsewhere")
-            with pytest.raises(MissingError):
-                self.fleet.spend()
-            (folder / "elsewhere").rename(folder / "certificates")
-        elif trouble == "lost":
-            shutil.move(folder / "jobs/a2t1.yaml", folder / "lost.yaml")
-        elif trouble == "found":
-            shutil.move(folder / "lost.yaml", folder / "jobs/a2t1.yaml")
-        elif trouble == "clock":
-            on_a_day(2, monkeypatch)
-        elif trouble == "disk":
-            monkeypatch.setattr(issuing, "laid", full)
-        if trouble == "kill":
-            self.measure([0, 1])
-            with pytest.raises(KilledError):
-                night.spend(self.fleet.file, night.Order(), Deadly())
-        else:
-            self.fleet.spend()
-
-
-@pytest.mark.parametrize("seed", [1, 2])
-def test_a_month_of_nights_ends_with_every_document_right_and_every_event_told_once(
-    seed: int, fleet: Fleet, post: Post, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    for stem in "xy":
-        (fleet.folder / f"jobs/{stem}.yaml").unlink()
-    month = Month(fleet, random.Random(seed))
-    written: dict[str, bytes] = {}
-    for day in range(1, 31):
-        on_a_day(day, monkeypatch)
-        month.measure(range(AXES) if day % 3 == 1 else ())
-        with monkeypatch.context() as patched:
-            month.spend(TROUBLES.get(day, ""), patched)
-        for path in (fleet.folder / "certificates").rglob("*.txt"):
-            content = path.read_bytes()
-            assert written.setdefault(path.name, content) == content
-    numbers = {f"CAL-A{axis}T{one}" for axis in range(AXES) for one in range(1, month.measured[axis] + 1)}
-    assert fleet.files() == {f"{number}.txt" for number in numbers}
-    with Ledger.open(fleet.file.ledger, "Hall North") as ledger:
-        assert set(ledger.certificates()) == numbers
-    assert set(post.lines.values()) == {1}
-    assert Counter(map(kind_of, post.lines)) == TOLD
-
-
-def full(*_: object) -> None:
-    raise OSError(28, "No space left on device")
-
-
-def kind_of(line: str) -> str:
-    words = {
-        "the folder is empty": "folder",
-        "the clock stands": "clock",
-        "the job is gone": "lost",
-        "No space": "disk",
-        " a year": "drift",
-        " since ": "step",
-    }
-    return next((kind for word, kind in words.items() if word in line), line)
