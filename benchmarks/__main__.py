@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import sys
+from importlib import import_module
 from pathlib import Path
 
 import capturing
@@ -23,39 +24,23 @@ BENCHMARKS = {
     "capture": ("Live capture", capturing.measure),
     "memory": ("Memory of a process that makes many certificates", memory.measure),
 }
+#: With words of their own: the modules that hold them, which would weigh on the others.
+OTHERS = {
+    "hidden-effects": "hidden_effects.command",
+    "coverage": "coverage_of_u",
+    "closed-loops": "closed_loops",
+    "step-gauge": "step_gauge_coverage",
+    "kills": "kills",
+    "fleet": "fleet_nights",
+    "trends": "fleet_trends",
+}
 
 
 def main() -> None:
     """Measure what the command line names, print tables, and write JSON if asked to."""
-    if sys.argv[1:2] == ["hidden-effects"]:
-        from hidden_effects.command import main as hide  # noqa: PLC0415 - it would weigh on the others
-
-        hide(sys.argv[2:])
-        return
-    if sys.argv[1:2] == ["coverage"]:
-        from coverage_of_u import main as hold  # noqa: PLC0415 - as above
-
-        hold(sys.argv[2:])
-        return
-    if sys.argv[1:2] == ["closed-loops"]:
-        from closed_loops import main as close  # noqa: PLC0415 - as above
-
-        close(sys.argv[2:])
-        return
-    if sys.argv[1:2] == ["step-gauge"]:
-        from step_gauge_coverage import main as touch  # noqa: PLC0415 - as above
-
-        touch(sys.argv[2:])
-        return
-    if sys.argv[1:2] == ["kills"]:
-        from kills import main as kill  # noqa: PLC0415 - as above
-
-        kill(sys.argv[2:])
-        return
-    if sys.argv[1:2] == ["fleet"]:
-        from fleet_nights import main as night  # noqa: PLC0415 - as above
-
-        night(sys.argv[2:])
+    module = OTHERS.get(sys.argv[1] if len(sys.argv) > 1 else "")
+    if module:
+        import_module(module).main(sys.argv[2:])
         return
     arguments = _parser().parse_args()
     sizes = Sizes(arguments.rounds, arguments.tests, arguments.certificates)

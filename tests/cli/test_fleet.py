@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections import Counter
 from collections.abc import Callable
 from io import StringIO
 from pathlib import Path
@@ -14,7 +15,8 @@ from fleet.fleets import FLEET, Fleet, without_processes
 from processes import PYTHON
 from processes import run as run_program
 from zlmreport.cli import main
-from zlmreport.cli.fleet_log import Progress, bar
+from zlmreport.cli.fleet_log import Progress, TextLog, bar
+from zlmreport.fleet.issuing import Happened, What
 
 OTHER_READINGS = "2 2 3 -1 -2 -3"
 Run = Callable[..., tuple[int, str, str]]
@@ -65,6 +67,20 @@ def test_the_log_says_what_happened_to_each_job_and_why(run: Run) -> None:
     ]
     assert lines(output)[-1].endswith(": 2 issued, 1 failed")
     assert not messages
+
+
+def test_what_is_made_again_for_a_new_release_alone_is_a_count() -> None:
+    stream = StringIO()
+    log = TextLog(stream)
+    for number in range(3):
+        log.happened(Happened(What.CONFIRMED, f"x{number}.yaml", f"CAL-{number}", is_upgrade=number > 0))
+    log.ended(Counter({What.CONFIRMED: 3}), 2.0)
+    lines = [line.partition("  ")[2] for line in stream.getvalue().splitlines()]
+    assert lines == [
+        "confirmed CAL-0  x0.yaml",
+        "programs changed: 2 made again, and none of their values changed",
+        "done in 2 s: 3 confirmed",
+    ]
 
 
 @pytest.mark.usefixtures("fleet")

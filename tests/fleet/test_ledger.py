@@ -166,7 +166,7 @@ def test_a_ledger_of_another_format_is_refused(address: str) -> None:
     with engine.begin() as connection:
         connection.execute(text("UPDATE ledger_format SET format = 7"))
     engine.dispose()
-    with pytest.raises(InputError, match="is a ledger of format 7, and this program writes format 3"):
+    with pytest.raises(InputError, match="is a ledger of format 7, and this program writes format 4"):
         Ledger.open(address, "north")
 
 
@@ -200,6 +200,7 @@ def test_a_ledger_of_the_first_format_is_brought_up_to_date(address: str) -> Non
             "entries DROP COLUMN interval",
             "nights DROP COLUMN notices",
             "entries DROP COLUMN instrument",
+            "entries DROP COLUMN type",
         ):
             connection.execute(text(f"ALTER TABLE {column}"))
         connection.execute(text("UPDATE ledger_format SET format = 1"))
@@ -214,7 +215,11 @@ def test_a_ledger_of_the_second_format_is_brought_up_to_date(address: str) -> No
         at_work.issue(ENTRY, FILES, BASIS)
     engine = create_engine(address if "://" in address else f"sqlite:///{address}")
     with engine.begin() as connection:
-        for column in ("nights DROP COLUMN notices", "entries DROP COLUMN instrument"):
+        for column in (
+            "nights DROP COLUMN notices",
+            "entries DROP COLUMN instrument",
+            "entries DROP COLUMN type",
+        ):
             connection.execute(text(f"ALTER TABLE {column}"))
         connection.execute(text("UPDATE ledger_format SET format = 2"))
     engine.dispose()

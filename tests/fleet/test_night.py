@@ -254,6 +254,7 @@ def test_a_new_release_of_a_plugin_is_named(fleet: Fleet, monkeypatch: pytest.Mo
     happened = fleet.spend().of("x")
     assert happened.why.startswith("exemplary-plugins changed from 1.2 to 1.3 since ")
     assert happened.what is What.CONFIRMED
+    assert happened.is_upgrade
 
 
 def with_another_page(monkeypatch: pytest.MonkeyPatch, factor: float = 1.0) -> None:

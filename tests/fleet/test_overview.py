@@ -18,7 +18,7 @@ import pytest
 from fleet.histories import entry, history, parameter, quarters
 from zlmreport.fleet.overview import overview
 from zlmreport.fleet.overview_cells import Names, with_unit
-from zlmreport.fleet.records import About, Entry, Notice, State
+from zlmreport.fleet.records import MODEL, About, Entry, Notice, State
 from zlmreport.fleet.state import Night, state_of
 from zlmreport.language import Language
 from zlmreport.plugins import find_plugins
@@ -206,6 +206,22 @@ def test_the_page_loads_nothing_and_runs_only_its_own_script() -> None:
         f"default-src 'none'; style-src 'unsafe-inline'; font-src data:; script-src 'sha256-{digest}'"
         in unescape(html)
     )
+
+
+def test_what_machines_of_one_type_share_is_shown_together() -> None:
+    entries = [
+        entry(
+            LATEST,
+            parameter(8.0),
+            parameter(value, standard=MODEL, symbol="backlash.lost_motion", limit=None, conforms=None),
+            machine=f"Works MC 800 EX-{value}",
+            type="Works MC 800",
+            job=f"{value}.yaml",
+        )
+        for value in (4.1, 3.8, 4.4, 4.0)
+    ]
+    said = text(section(page(*entries), "shared"))
+    assert "X Works MC 800 backlash lost motion 4.08 ± 0.40 µm 4 Works MC 800 EX-3.8," in said
 
 
 def test_the_page_is_well_formed() -> None:

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
+import random
 from statistics import NormalDist
 
 import numpy as np
 import pytest
 
 from fleet.histories import entry, history, parameter, quarters
-from zlmreport.fleet.causes import Cause, cause_of
+from zlmreport.fleet.causes import Cause, Shared, cause_of, shared
 from zlmreport.fleet.drifts import Trend, trends
 from zlmreport.fleet.records import MODEL, Entry
 from zlmreport.fleet.steps import Scatter, chances, course, digamma, learned, level_of, trigamma
@@ -123,6 +124,60 @@ def test_the_effect_and_the_instrument_that_changed_with_it_are_named() -> None:
     assert cause == Cause(
         days[4], "backlash", "lost_motion", cause.change, "um", before="Laser A", after="Laser B"
     )
+
+
+def of_type(
+    values: list[float], kind: str = "Works MC 800", symbol: str = "backlash.lost_motion"
+) -> list[Entry]:
+    """Return the latest test of machines of one type, each with a parameter of its error model."""
+    return [
+        entry(
+            quarters(1)[0],
+            parameter(8.0),
+            parameter(value, standard=MODEL, symbol=symbol, limit=None),
+            machine=f"{kind} {number}",
+            type=kind,
+            job=f"{kind}{symbol}{number}",
+        )
+        for number, value in enumerate(values)
+    ]
+
+
+def shared_in(*entries: Entry) -> tuple[Shared, ...]:
+    return shared(each for each in series_of(standing(entries)) if each.standard == MODEL)
+
+
+def test_what_machines_of_a_type_have_in_common_is_shown_with_its_mean() -> None:
+    common = of_type([4.1, 3.8, 4.4, 4.0, 3.9])
+    others = of_type([0.4, -0.3, 0.1, -0.2, 0.2], kind="Works MC 500")
+    (found,) = shared_in(*common, *others, *of_type([4.0, 4.1, 4.2], kind="Works LT 200"))
+    assert (found.type, found.axis, found.effect, found.name) == (
+        "Works MC 800",
+        "X",
+        "backlash",
+        "lost_motion",
+    )
+    assert found.mean == pytest.approx(4.04)
+    # Student's t for 4 degrees of freedom, 2.776 (ISO/IEC Guide 98-3, table G.2), over the root of five.
+    assert found.expanded_uncertainty == pytest.approx(2.776 * 0.2302 / math.sqrt(5), rel=1e-3)
+    assert len(found.machines) == 5
+
+
+def test_machines_whose_type_is_not_known_share_nothing() -> None:
+    assert shared_in(*of_type([4.1, 3.8, 4.4, 4.0, 3.9], kind="")) == ()
+
+
+def test_of_many_types_without_anything_in_common_hardly_one_is_named() -> None:
+    rng = random.Random(1)
+    named = 0
+    for _ in range(20):
+        entries = [
+            each
+            for kind in range(30)
+            for each in of_type([rng.gauss(0, 2) for _ in range(6)], kind=f"Works {kind}")
+        ]
+        named += len(shared_in(*entries))
+    assert named <= 1  # 0.2 are expected
 
 
 def test_digamma_and_trigamma_are_those_of_the_tables() -> None:

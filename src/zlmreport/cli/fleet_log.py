@@ -23,14 +23,17 @@ class TextLog:
 
     def __init__(self, stream: TextIO) -> None:
         self._stream = stream
+        self._upgraded = 0
 
     def begun(self, fleet: str, due: int, jobs: int) -> None:
         """Write what is due."""
         self._line(f"{fleet}: {due} of {jobs} jobs are due")
 
     def happened(self, happened: Happened) -> None:
-        """Write what happened to a job; nothing of one that is as it was."""
-        if happened.what is What.UNCHANGED:
+        """Write what happened to a job; nothing of one that is as it was, also after a new release."""
+        if happened.is_upgrade:
+            self._upgraded += 1
+        if happened.what is What.UNCHANGED or happened.is_upgrade:
             return
         why = f": {happened.why}" if happened.why else ""
         number = f"{happened.number}  " if happened.number else ""
@@ -46,6 +49,8 @@ class TextLog:
     def ended(self, counts: Counter[What], seconds: float, *, is_interrupted: bool = False) -> None:
         """Write what the night came to."""
         done = "interrupted after" if is_interrupted else "done in"
+        if self._upgraded:
+            self._line(f"programs changed: {self._upgraded} made again, and none of their values changed")
         self._line(f"{done} {duration(seconds)}: {', '.join(counted(counts)) or 'no jobs'}")
 
     def _line(self, text: str) -> None:

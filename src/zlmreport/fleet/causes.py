@@ -1,15 +1,17 @@
-"""What a step came with: the effect of the error model that changed most, and another instrument."""
+"""Effects of the error model over a fleet: what a step came with, and what machines of one type share."""
 
 from __future__ import annotations
 
 import math
+from collections import defaultdict
 from collections.abc import Iterable
 from dataclasses import dataclass
 from datetime import date
 from statistics import fmean, stdev
 
-from zlmreport.fleet.drifts import Trend
-from zlmreport.fleet.trend import Series
+from zlmreport.fleet.drifts import Trend, holm
+from zlmreport.fleet.trend import Calibration, Series
+from zlmreport.model.distributions import f_tail, t_quantile
 
 #: A parameter that changed by fewer of its standard deviations is not named.
 _LEAST = 3.0
@@ -79,3 +81,73 @@ def _change(series: Series, first: date, since: date) -> tuple[float, float]:
     deviation = max(math.sqrt(fmean(u**2 for u in stated)), stdev(values) if len(values) > 2 else 0.0)
     scale = deviation * math.sqrt(1 / len(before) + 1 / len(after))
     return change, abs(change) / scale if scale else 0.0
+
+
+#: So many machines of a type, at the least, show what they share; and the chance of naming one by accident.
+LEAST_MACHINES = 4
+_LEVEL = 0.01
+_COVERAGE = 0.95
+
+
+@dataclass(frozen=True, slots=True)
+class Shared:
+    """A parameter of the error model that machines of one type have in common.
+
+    Attributes
+    ----------
+    type, axis
+        Manufacturer and model; name of the axis.
+    effect, name, unit
+        The parameter, as the results file has it.
+    mean, expanded_uncertainty
+        Of the latest values of all machines, with 95 % coverage: what another machine of the type is built
+        with.
+    machines
+        By their names.
+    """
+
+    type: str
+    axis: str
+    effect: str
+    name: str
+    unit: str
+    mean: float
+    expanded_uncertainty: float
+    machines: tuple[str, ...]
+
+
+def shared(effects: Iterable[Series]) -> tuple[Shared, ...]:
+    """Return what machines of one type share: where the mean of the machines differs from zero.
+
+    The machines' latest values are held against zero by Student's t; how much they scatter is told by
+    themselves. Over all parameters of all types Holm's method is used: that any of them is named by accident
+    has a chance of 1 %.
+
+    Parameters
+    ----------
+    effects
+        Parameters of the error models of all axes over time.
+    """
+    found: defaultdict[tuple[str, str, str, str], dict[str, Calibration]] = defaultdict(dict)
+    for each in effects:
+        latest = each.calibrations[-1]
+        if latest.entry.type:
+            found[latest.entry.type, each.axis, each.symbol, each.unit][each.machine] = latest
+    groups = [(key, of_type) for key, of_type in sorted(found.items()) if len(of_type) >= LEAST_MACHINES]
+    p_values = holm({index: _p_value(of_type.values()) for index, (_, of_type) in enumerate(groups)})
+    named = (groups[index] for index in sorted(p_values) if p_values[index] < _LEVEL)
+    return tuple(_shared(key, of_type) for key, of_type in named)
+
+
+def _p_value(calibrations: Iterable[Calibration]) -> float:
+    values = [each.parameter.value for each in calibrations]
+    mean, deviation = fmean(values), stdev(values) / math.sqrt(len(values))
+    return f_tail((mean / deviation) ** 2, 1, len(values) - 1) if deviation else float(not mean)
+
+
+def _shared(key: tuple[str, str, str, str], of_type: dict[str, Calibration]) -> Shared:
+    values = [each.parameter.value for each in of_type.values()]
+    number = len(values)
+    expanded = t_quantile(_COVERAGE, number - 1) * stdev(values) / math.sqrt(number)
+    effect, _, name = key[2].partition(".")
+    return Shared(key[0], key[1], effect, name, key[3], fmean(values), expanded, tuple(sorted(of_type)))

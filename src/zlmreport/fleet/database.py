@@ -43,7 +43,7 @@ from sqlalchemy.pool import StaticPool
 from zlmreport.errors import AccessError, InputError, Place, ZlmreportError
 
 #: Of these tables; a program that knows another refuses the ledger.
-FORMAT = 3
+FORMAT = 4
 
 METADATA = MetaData()
 
@@ -83,6 +83,7 @@ ENTRIES = Table(
     Column("seconds", Double),
     Column("interval", Integer),
     Column("instrument", String),
+    Column("type", String),
     Index("entries_of_jobs", "fleet", "job", "id"),
 )
 
@@ -278,6 +279,7 @@ _SINCE = {
         "ALTER TABLE nights ADD COLUMN notices JSON",
         "ALTER TABLE entries ADD COLUMN instrument VARCHAR",
     ),
+    3: ("ALTER TABLE entries ADD COLUMN type VARCHAR",),
 }
 
 

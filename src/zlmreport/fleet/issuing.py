@@ -149,6 +149,9 @@ class Happened:
         Why it failed.
     conforms
         Whether every stated limit is met; None without limits, where one is not decided, or not looked at.
+    is_upgrade
+        Whether it was made again for new programs alone, and states the same values: that is counted, and no
+        news.
     """
 
     what: What
@@ -158,6 +161,7 @@ class Happened:
     files: tuple[str, ...] = ()
     problems: tuple[Problem, ...] = ()
     conforms: bool | None = None
+    is_upgrade: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -270,6 +274,7 @@ class Desk:
             seconds=made.seconds if made else None,
             interval=subject.interval,
             instrument=subject.instrument,
+            type=subject.type,
         )
 
 

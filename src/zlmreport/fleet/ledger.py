@@ -210,6 +210,7 @@ class Night:
                 seconds=entry.seconds,
                 interval=entry.interval,
                 instrument=entry.instrument,
+                type=entry.type,
             ),
         )
         if entry.parameters:
@@ -401,7 +402,13 @@ class Ledger:
                     Basis.from_json(row.basis) if row.basis else None,
                     row.digest,
                     Subject(
-                        row.number, row.machine, row.axis, row.measured, row.interval, row.instrument or ""
+                        row.number,
+                        row.machine,
+                        row.axis,
+                        row.measured,
+                        row.interval,
+                        row.instrument or "",
+                        row.type or "",
                     ),
                 )
                 for row in connection.execute(query)
@@ -534,6 +541,7 @@ def _entry(row: Row[Any], parameters: tuple[RecordedParameter, ...]) -> Entry:
         seconds=row.seconds,
         interval=row.interval,
         instrument=row.instrument or "",
+        type=row.type or "",
     )
 
 

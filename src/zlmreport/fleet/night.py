@@ -262,7 +262,9 @@ def _spend(known: Evening, order: Order, watch: Watch, work: _Work) -> None:
 
         if executor:
             for task, result in executor.results(waiting()):
-                watch.happened(desk.kept(tasks[task.job.absolute()], result))
+                happened = desk.kept(tasks[task.job.absolute()], result)
+                is_upgrade = task.stated is not None and happened.what is What.CONFIRMED
+                watch.happened(replace(happened, is_upgrade=is_upgrade))
         for each, _ in reversed(left):
             watch.happened(Happened(What.LEFT, each.job, each.number, each.why))
 

@@ -12,7 +12,7 @@ from datetime import date, timedelta
 from itertools import groupby
 
 from zlmreport.fleet import overview_words as words
-from zlmreport.fleet.causes import cause_of
+from zlmreport.fleet.causes import LEAST_MACHINES, Shared, cause_of, shared
 from zlmreport.fleet.drifts import FALSE_SHARE, LEAST_DATES, Trend
 from zlmreport.fleet.overview_cells import Cells, Names, Period, small_graph
 from zlmreport.fleet.records import Entry, Notice, RecordedParameter, State
@@ -125,6 +125,10 @@ def _sections(state: FleetState, cells: Cells) -> Iterator[OverviewSectionContex
         nothing = "" if state.soon else cells.say(words.NOTHING_DUE.given(days=SOON.days))
         tables = (render(soon),) if state.soon else ()
         yield OverviewSectionContext("due", cells.say(words.DUE_SOON), nothing, "calm", tables)
+    common = shared(state.effects)
+    if common:
+        tables = (render(_common(common, cells)),)
+        yield OverviewSectionContext("shared", cells.say(words.SHARED), "", "", tables)
     shown = (render(tools(state, cells)), render(machines(state, cells))) if state.trends else ()
     yield OverviewSectionContext("machines", cells.say(words.MACHINES), "", "", shown)
     reading = (render(legend(cells)),)
@@ -169,6 +173,12 @@ _DRIFTING = _Kind(
 )
 _OVERDUE = _Kind(
     "overdue", words.OVERDUE, words.OVERDUE_CAPTION, (words.CERTIFICATE, words.MEASURED_ON, words.DUE)
+)
+_SHARED = _Kind(
+    "shared-by-type",
+    words.SHARED,
+    words.SHARED_CAPTION.given(least=LEAST_MACHINES),
+    (words.TYPE, words.EFFECT, words.MEAN, words.MACHINES_OF_TYPE),
 )
 _DUE = _Kind("due-soon", words.DUE_SOON, words.DUE_CAPTION.given(days=SOON.days), _OVERDUE.columns)
 _DRAFTS = _Kind(
@@ -308,6 +318,23 @@ def _terms(kind: _Kind, terms: Sequence[Term], cells: Cells) -> OverviewTableCon
         for term in terms
     ]
     return _table(kind, groups, cells)
+
+
+def _common(common: Sequence[Shared], cells: Cells) -> OverviewTableContext:
+    groups = [
+        OverviewGroupContext(
+            OverviewCellContext(each.axis, note=each.type),
+            (
+                (
+                    OverviewCellContext(each.effect, note=each.name.replace("_", " ")),
+                    cells.mean(each.mean, each.expanded_uncertainty, each.unit),
+                    OverviewCellContext(str(len(each.machines)), note=", ".join(each.machines)),
+                ),
+            ),
+        )
+        for each in common
+    ]
+    return _table(_SHARED, groups, cells)
 
 
 def _drafts(drafts: Sequence[Entry], cells: Cells) -> OverviewTableContext:

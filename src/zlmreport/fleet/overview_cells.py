@@ -354,6 +354,11 @@ class Cells:
         note = self.say(instrument) if instrument else ""
         return OverviewCellContext(effect or ("" if note else "–"), note=note)
 
+    def mean(self, value: float, expanded_uncertainty: float, unit: str) -> OverviewCellContext:
+        """Return a mean of several machines with its uncertainty."""
+        number, stated = rounded_pair(value, expanded_uncertainty, self.language.decimal_sign)
+        return OverviewCellContext(with_unit(f"{number} ± {stated}", unit), style="number")
+
     def _signed(self, value: float, unit: str) -> str:
         sign = "+" if value > 0 else "−"
         return with_unit(f"{sign} {fixed_number(abs(value), 1, self.language.decimal_sign)}", unit)

@@ -71,6 +71,17 @@ NOTHING_DUE = Words(
     en="Nothing is due within {days} days of the last run.",
     de="Innerhalb von {days} Tagen nach dem letzten Lauf wird nichts fällig.",
 )
+SHARED = Words(en="Shared by machines of one type", de="Maschinen eines Typs gemeinsam")
+SHARED_CAPTION = Words(
+    en="Parameters of the error model whose mean over {least} or more machines of a type is not zero: the "
+    "cause is in their construction or common set-up rather than in one machine",
+    de="Parameter des Fehlermodells, deren Mittel über {least} oder mehr Maschinen eines Typs nicht null "
+    "ist: Die Ursache liegt eher in Konstruktion oder gemeinsamer Einrichtung als in einer Maschine",
+)
+TYPE = Words(en="Axis and type", de="Achse und Typ")
+EFFECT = Words(en="Effect", de="Effekt")
+MEAN = Words(en="Mean ± U", de="Mittel ± U")
+MACHINES_OF_TYPE = Words(en="Machines", de="Maschinen")
 MEASURED_ON = Words(en="Measured", de="Gemessen")
 DUE = Words(en="Due", de="Fällig")
 NOT_MET = Words(en="Limit not met", de="Grenzwert nicht eingehalten")

@@ -117,6 +117,7 @@ def _take(job: Path, files: list[Path], fleet: FleetFile, registry: Registry, ni
         parameters=tuple(_parameters(_results(files))),
         interval=subject.interval,
         instrument=subject.instrument,
+        type=subject.type,
     )
     night.issue(entry, known, None)
 

@@ -169,6 +169,8 @@ class Entry:
         Days after which the job itself says that the axis is to be measured again.
     instrument
         With which it was measured; empty if not known.
+    type
+        The machine's manufacturer and model; empty if not known.
     """
 
     job: str
@@ -185,6 +187,7 @@ class Entry:
     seconds: float | None = None
     interval: int | None = None
     instrument: str = ""
+    type: str = ""
 
 
 def due_date(measured: str, interval: int | None) -> str:
@@ -242,6 +245,7 @@ class Subject:
     measured: str = ""
     interval: int | None = None
     instrument: str = ""
+    type: str = ""
 
     @classmethod
     def of(cls, job: Job) -> Self:
@@ -251,7 +255,8 @@ class Subject:
         measured = day.isoformat() if day else ""
         machine, instrument = designation(keys.machine), _instrument(keys.instrument)
         number, interval = keys.certificate.number, keys.fleet.interval
-        return cls(number, machine, keys.axis.name, measured, interval, instrument)
+        kind = " ".join(part for part in (keys.machine.manufacturer, keys.machine.model) if part)
+        return cls(number, machine, keys.axis.name, measured, interval, instrument, kind)
 
 
 def _instrument(instrument: Instrument | None) -> str:

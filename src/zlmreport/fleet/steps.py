@@ -36,6 +36,8 @@ _EXPECTED = 5.0
 _FOLLOWING = 3
 #: No scatter is taken for smaller, in parts of the limit.
 _LEAST_SCATTER = 1e-3
+#: An axis that scatters more than the fleet lets expect with this chance is no longer judged by the fleet.
+_WILD = 0.1
 #: Tests whose scatter is held against that of all before them, and the chance of a false alarm.
 _WINDOW, _SCATTER_LEVEL = 4, 1 / 4000
 
@@ -49,9 +51,16 @@ class Scatter:
 
     def moderated(self, squares: float, degrees: int) -> Scatter:
         """Return this with a sum of squares of an axis itself, of so many degrees of freedom."""
-        total = self.degrees + degrees
-        variance = (self.degrees * self.variance + squares) / total if total else 0.0
+        trusted = self.degrees * self._trust(squares, degrees)
+        total = trusted + degrees
+        variance = (trusted * self.variance + squares) / total if total else 0.0
         return Scatter(max(variance, _LEAST_SCATTER**2), total)
+
+    def _trust(self, squares: float, degrees: int) -> float:
+        """Return how far the fleet may speak for an axis: the less, the plainer it scatters more."""
+        if not degrees or not self.degrees or not self.variance:
+            return 1.0
+        return min(1.0, f_tail(squares / degrees / self.variance, degrees, self.degrees) / _WILD)
 
 
 @dataclass(frozen=True, slots=True)
