@@ -11,7 +11,7 @@ import pytest
 from environments import ROOT
 from fleet.exposition import Family, parse
 from fleet.histories import entry, history, parameter, quarters
-from zlmreport.fleet.prometheus import metrics
+from zlmreport.fleet.prometheus import heartbeat, metrics
 from zlmreport.fleet.records import About, Entry, Notice, State
 from zlmreport.fleet.state import Night, Rules, state_of
 
@@ -153,4 +153,5 @@ def test_the_documentation_lists_every_metric() -> None:
     page = (ROOT / "docs" / "how-to" / "watch-a-fleet.md").read_text(encoding="utf-8")
     listed = set(re.findall(r"^\| `(zlmreport_\w+)`", page, re.MULTILINE))
     families = told([*DRIFT, entry(DAY, parameter(1.0), axis="Y", job="y")])
-    assert listed == set(families)
+    of_night = parse(heartbeat("Hall North", datetime(2026, 11, 21, tzinfo=UTC), is_at_work=True))
+    assert listed == {*families, *of_night}
