@@ -7,7 +7,7 @@ own content security policy lets this script run and no other. Everything can be
 from __future__ import annotations
 
 from base64 import b64encode
-from functools import cache
+from functools import lru_cache
 
 from zlmreport.plugin import Certificate, Words, hookimpl
 
@@ -41,7 +41,7 @@ class HtmlRenderer:
         logo = letterhead.logo if letterhead else None
         script = _script() if certificate.linked else ""
         setting = HtmlSetting(
-            style=_style(certificate.paper, with_linked=bool(script)),
+            style=_style(certificate.paper, certificate.look.accent, with_linked=bool(script)),
             drawings=tuple(figure_to_svg(figure, certificate.language) for figure in certificate.figures),
             logo=_data_address(logo, letterhead.logo_type) if letterhead and logo else "",
             policy=_policy(script),
@@ -50,8 +50,8 @@ class HtmlRenderer:
         return compose_html(certificate, setting).encode()
 
 
-@cache
-def _style(paper: str, *, with_linked: bool) -> str:
+@lru_cache(maxsize=8)
+def _style(paper: str, accent: str, *, with_linked: bool) -> str:
     from zlmreport.plugin import (  # noqa: PLC0415 (brings Jinja)
         font_face_rules,
         font_file,
@@ -60,7 +60,7 @@ def _style(paper: str, *, with_linked: bool) -> str:
     )
 
     faces = font_face_rules(lambda face: _data_address(font_file(f"{face.stem}.woff2"), "font/woff2"))
-    sheets = f"{faces}\n{style_sheet('certificate', 'screen', paper)}"
+    sheets = f"{faces}\n{style_sheet('certificate', 'screen', paper, accent=accent)}"
     return f"{sheets}\n{linked_style()}" if with_linked else sheets
 
 

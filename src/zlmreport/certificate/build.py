@@ -11,9 +11,10 @@ import numpy as np
 from zlmreport.certificate.attachments import sources
 from zlmreport.certificate.conditions import Described
 from zlmreport.certificate.cover import lines
-from zlmreport.certificate.document import Certificate, Letterhead, PageWords, Party
+from zlmreport.certificate.document import Certificate, Letterhead, Look, PageWords, Party
 from zlmreport.certificate.logo import Logo, read_logo
-from zlmreport.certificate.material import LaidOut, Material
+from zlmreport.certificate.material import LaidOut, Material, in_full
+from zlmreport.certificate.own_words import arranged, filled
 from zlmreport.certificate.statements import document_title, running_title
 from zlmreport.evaluation.likely_units import doubts
 from zlmreport.language import Words
@@ -93,7 +94,9 @@ def build(  # noqa: PLR0913, PLR0917 - what a document is made of
         title,
         writer,
     )
-    laid_out = _laid_out(material)
+    laid_out, style = _laid_out(material), certificate.style
+    sections = arranged(laid_out.sections, job)
+    linked = _linked(job, modelled, writer)
     return Certificate(
         number=certificate.number,
         title=title,
@@ -103,7 +106,7 @@ def build(  # noqa: PLR0913, PLR0917 - what a document is made of
         paper=certificate.paper,
         letterhead=letterhead,
         cover=laid_out.cover,
-        sections=laid_out.sections,
+        sections=sections,
         page_words=PageWords(
             number=writer.say(running_title(certificate)),
             page=writer.say(Words(en="page", de="Seite")),
@@ -111,6 +114,8 @@ def build(  # noqa: PLR0913, PLR0917 - what a document is made of
             end=writer.say(Words(en="End of document", de="Ende des Dokuments")),
             figure=writer.say(Words(en="Figure", de="Bild")),
             table=writer.say(Words(en="Table", de="Tabelle")),
+            head=filled(style.header or "", job, "certificate.style.header"),
+            foot=filled(style.footer or "", job, "certificate.style.footer"),
         ),
         description=writer.say(_DESCRIPTION.given(axis=job.axis.name, standards=", ".join(designations))),
         measurements=measurements,
@@ -120,11 +125,12 @@ def build(  # noqa: PLR0913, PLR0917 - what a document is made of
         keywords=designations,
         plugins=plugins,
         diagnosis=modelled.diagnosis if modelled else None,
-        linked=_linked(job, modelled, writer),
+        linked=linked if linked and linked.section in {each.key for each in sections} else None,
         budget=evaluated[0].budget,
         job=job,
         sources=made_from,
         is_compact=laid_out.is_compact,
+        look=Look(style.accent, style.logo),
         doubts=doubtful,
     )
 
@@ -150,7 +156,7 @@ def _laid_out(material: Material) -> LaidOut:
         case "standard":
             from zlmreport.certificate.standard_layout import lay_out  # noqa: PLC0415
         case _:
-            from zlmreport.certificate.full_layout import lay_out  # noqa: PLC0415
+            lay_out = in_full
     return lay_out(material)
 
 

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from zlmreport.certificate.cover import place_of_work
+from zlmreport.certificate.own_words import left_out
 from zlmreport.errors import InputError, Problem
 
 if TYPE_CHECKING:
@@ -118,6 +119,7 @@ def missing_items(job: Job) -> Iterator[Problem]:
     """Yield what a calibration certificate must state and does not; a measuring report may leave it out."""
     if job.keys.certificate.kind != "certificate":
         return
+    yield from left_out(job)
     for item in MANDATORY_ITEMS:
         if not item.stated(job.keys):
             yield Problem(

@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from datetime import date
 from enum import Enum
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, Literal, TypeAlias
 
 if TYPE_CHECKING:
     from zlmreport.certificate.attachments import Attachment, Source
@@ -177,7 +177,9 @@ class Letterhead:
 class PageWords:
     """The words of page margins and captions: ``page {page} of {pages}`` is split around its numbers.
 
-    `figure` and `table` stand before the numbers that captions are given: ``Figure 1``, ``Table 2``.
+    `figure` and `table` stand before the numbers that captions are given: ``Figure 1``, ``Table 2``. `head`
+    stands above every page but the first in place of laboratory and subject, `foot` below the number; empty
+    for none.
     """
 
     number: str
@@ -186,6 +188,16 @@ class PageWords:
     end: str
     figure: str = ""
     table: str = ""
+    head: str = ""
+    foot: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Look:
+    """Colour of headings and lines, as ``#0d4a63``; on which side of the letterhead the logo stands."""
+
+    accent: str = "#0d4a63"
+    logo: Literal["left", "right"] = "right"
 
 
 @dataclass(frozen=True, slots=True)
@@ -236,6 +248,8 @@ class Certificate:
         The files that it was made from, the job first.
     attachments
         What a document that can carry files carries.
+    look
+        Colour, and the place of the logo.
     doubts
         Values that seem to be in another unit, in sentences; the first page has them, too.
     """
@@ -264,7 +278,14 @@ class Certificate:
     sources: tuple[Source, ...] = ()
     attachments: tuple[Attachment, ...] = ()
     is_compact: bool = False
+    look: Look = Look()
     doubts: tuple[Words, ...] = ()
+
+    @property
+    def running_head(self) -> str:
+        """What stands above every page but the first: words of its own, or laboratory and subject."""
+        laboratory = self.letterhead.laboratory.name if self.letterhead else ""
+        return self.page_words.head or " · ".join(filter(None, (laboratory, self.subtitle)))
 
     @property
     def figures(self) -> tuple[Figure, ...]:

@@ -1,4 +1,4 @@
-"""What a document is made of, and the sections that no layout makes its own way."""
+"""What a document is made of, the sections that no layout makes its own way, and the layout ``full``."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from zlmreport.certificate import origin, readings, uncertainty
+from zlmreport.certificate import conditions, cover, origin, readings, results, uncertainty
 from zlmreport.certificate.statements import opinion_sections
 
 if TYPE_CHECKING:
@@ -117,3 +117,29 @@ def opinions_and_model(of: Material) -> Iterator[Section]:
         from zlmreport.certificate.model_annex import section  # noqa: PLC0415 - brings the error model
 
         yield section(of.modelled, of.writer)
+
+
+def in_full(of: Material) -> LaidOut:
+    """Return the layout ``full``: a chapter for each standard, with all that is to be said of it."""
+    return LaidOut(
+        cover.blocks(of),
+        (
+            conditions.section(of.job, of.measurements, of.described, of.writer),
+            *_results(of),
+            *uncertainty_sections(of),
+            *readings_sections(of),
+            origin_section(of),
+            *opinions_and_model(of),
+        ),
+    )
+
+
+def _results(of: Material) -> Iterator[Section]:
+    """Yield the results by each standard; of an axis that was adjusted, those before, after, and compared."""
+    sections = (results.section(each, of.writer) for each in of.evaluated)
+    keys = of.job.keys.as_found
+    if keys is None:
+        return sections
+    from zlmreport.certificate.as_found import beside_as_found  # noqa: PLC0415 - of the few that need it
+
+    return beside_as_found(keys, sections, of.as_found, of.evaluated, of.writer)

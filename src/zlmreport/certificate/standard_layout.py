@@ -69,7 +69,7 @@ def lay_out(of: Material) -> LaidOut:
 
     Each standard begins a page where the first page holds all that stands before the results, and is not
     left empty by it; where it does not, parts follow each other without a break. What holds of every
-    certificate goes over to its end where only that makes the first page too long.
+    certificate goes over to the uncertainty where only that makes the first page too long.
     """
     pages = together(of.evaluated, of.writer)
     page = room.PAGES[of.job.keys.certificate.paper]
@@ -77,16 +77,19 @@ def lay_out(of: Material) -> LaidOut:
     free = page - room.head(of.letterhead, of.title) - room.height(on_cover)
     is_said_at_end = room.height(said) > free >= 0
     breaks = 0 <= free <= (1 - _FULL_ENOUGH) * page
-    origin = _in_less_room(origin_section(of))
+    *others, last = map(_without_graphs, uncertainty_sections(of))
+    if is_said_at_end:
+        last = replace(last, blocks=(*last.blocks, *said))
     return LaidOut(
         on_cover if is_said_at_end else (*on_cover, *said),
         (
             *_results(of, pages, page if breaks else None),
             *map(_in_less_room, _besides_conditions(of)),
             *in_common(pages, of.writer),
-            *map(_without_graphs, uncertainty_sections(of)),
+            *others,
+            last,
             *readings_sections(of),
-            replace(origin, blocks=(*origin.blocks, *said)) if is_said_at_end else origin,
+            _in_less_room(origin_section(of)),
             *map(_in_less_room, opinions_and_model(of)),
         ),
         is_compact=True,

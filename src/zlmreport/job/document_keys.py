@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+import operator
+import re
+from typing import Annotated, Literal, TypeAlias
 
-from pydantic import AfterValidator, Field, model_validator
+from pydantic import AfterValidator, Field, field_validator, model_validator
 
+from zlmreport.errors import quoted
 from zlmreport.job.types import Date, JobPart, JobPath, Lines, NotNegative, Text, file_stem
 from zlmreport.language import Language
 
@@ -121,6 +124,65 @@ Number = Annotated[
 ]
 
 
+class OwnText(JobPart):
+    """A section with words of the laboratory's own; ``{certificate.number}`` stands for that key's value."""
+
+    title: Text = Field(description="Its heading.", examples=["About this laboratory"])
+    text: Lines = Field(
+        description="Its text, a paragraph a line; a key of the job in braces stands for its value.",
+        examples=["Certificate {certificate.number} was made for {customer.name}."],
+    )
+
+
+#: Sections of a document by what stands in them; a layout has those that it needs.
+SectionName = Literal[
+    "results", "conditions", "definitions", "uncertainty", "readings", "origin", "opinions", "model"
+]
+#: What a document has after its first page.
+Sections: TypeAlias = list[SectionName | OwnText] | None
+_COLOUR = re.compile(r"#[0-9a-fA-F]{6}")
+#: Of text on white (WCAG 2.2, 1.4.3).
+_LEAST_CONTRAST = 4.5
+
+
+def _readable(colour: str) -> str:
+    if not _COLOUR.fullmatch(colour):
+        raise ValueError(f"{quoted(colour)} is no colour; write red, green and blue as in #0d4a63")
+    parts = (int(colour[at : at + 2], 16) / 255 for at in (1, 3, 5))
+    linear = (each / 12.92 if each <= 0.04045 else ((each + 0.055) / 1.055) ** 2.4 for each in parts)
+    luminance = sum(map(operator.mul, (0.2126, 0.7152, 0.0722), linear))
+    contrast = 1.05 / (luminance + 0.05)
+    if contrast < _LEAST_CONTRAST:
+        raise ValueError(
+            f"{colour} is too light for headings on white: its contrast is {contrast:.1f}, "
+            f"and {_LEAST_CONTRAST} is the least"
+        )
+    return colour.lower()
+
+
+class Style(JobPart):
+    """The look of the document."""
+
+    accent: Annotated[str, AfterValidator(_readable)] = Field(
+        "#0d4a63", description="Colour of headings and of the lines that part them.", examples=["#5c1a33"]
+    )
+    logo: Literal["left", "right"] = Field(
+        "right", description="Side of the letterhead on which the logo stands."
+    )
+    header: Text | None = Field(
+        None,
+        description="What stands at the head of every page but the first, in place of laboratory and "
+        "subject; a key of the job in braces stands for its value.",
+        examples=["{laboratory.name} · {machine.serial}"],
+    )
+    footer: Text | None = Field(
+        None,
+        description="A line below the number at the foot of every page; a key of the job in braces stands "
+        "for its value.",
+        examples=["Order 4711 · {customer.name}"],
+    )
+
+
 class CertificateKeys(JobPart):
     """The document."""
 
@@ -151,6 +213,34 @@ class CertificateKeys(JobPart):
     readings_on_graphs: bool = Field(
         default=True, description="Whether the graphs show all single readings behind the means."
     )
+    style: Style = Field(default_factory=Style, description="The look of the document.")
+    sections: Sections = Field(
+        None,
+        description="What the document has after its first page, in this order: names of sections, and texts "
+        "of one's own; all in the usual order without it. `results` must be there.",
+        examples=[
+            ["results", "uncertainty", "conditions", {"title": "Note", "text": "Valid with its annex."}]
+        ],
+    )
+
+    @field_validator("sections")
+    @classmethod
+    def _has_each_section_once(cls, sections: Sections) -> Sections:
+        named = [each for each in sections or () if isinstance(each, str)]
+        twice = sorted({each for each in named if named.count(each) > 1})
+        if twice:
+            raise ValueError(f"sections stand more than once: {', '.join(twice)}")
+        if sections is not None and "results" not in named:
+            raise ValueError("a document has its results; add results to the list")
+        return sections
+
+    @model_validator(mode="after")
+    def _arranges_what_has_sections(self) -> CertificateKeys:
+        if self.layout == "sheet" and self.sections is not None:
+            raise ValueError(
+                "a sheet has a page for each standard and no sections; choose layout: standard, or full"
+            )
+        return self
 
 
 class Capability(JobPart):

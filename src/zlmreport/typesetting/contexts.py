@@ -202,6 +202,10 @@ class DocumentContext:
         As printed on the cover.
     author, description, keywords, generator, issued
         Metadata of the file; `issued` as ISO 8601, empty where not stated.
+    logo
+        On which side of the letterhead the logo stands: ``left`` or ``right``.
+    head, foot
+        What stands above every page but the first, and below the number at its foot.
     running_number, page, of, end
         Words of the page margins, and of the mark at the end.
     style
@@ -223,6 +227,9 @@ class DocumentContext:
     keywords: str
     generator: str
     issued: str
+    logo: str
+    head: str
+    foot: str
     running_number: str
     page: str
     of: str

@@ -36,9 +36,14 @@ def font(name: str) -> bytes:
     return (files(PACKAGE) / "fonts" / name).read_bytes()
 
 
-def style_sheet(*names: str) -> str:
-    """Return the style sheets of these names, one after the other."""
-    return "\n".join((files(PACKAGE) / "styles" / f"{name}.css").read_text("utf-8") for name in names)
+#: Colour of headings as the style sheets have it.
+_ACCENT = "#0d4a63"
+
+
+def style_sheet(*names: str, accent: str = _ACCENT) -> str:
+    """Return the style sheets of these names, one after the other, with headings and lines in a colour."""
+    sheets = ((files(PACKAGE) / "styles" / f"{name}.css").read_text("utf-8") for name in names)
+    return "\n".join(sheets).replace(_ACCENT, accent)
 
 
 def font_faces(address: Callable[[Face], str]) -> str:

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from datetime import date, datetime, time
-from functools import cache, partial
+from functools import cache, lru_cache, partial
 from importlib.resources import files
 from threading import Lock
 from typing import Any, TypeAlias
@@ -73,7 +73,10 @@ class Press:
                 for face in FONT_FACES
             }
         )
-        self._style = self._parsed(f"{faces}\n{style_sheet('certificate', 'paged')}", supply)
+        self._faces = self._parsed(faces, supply)
+        self._style = lru_cache(maxsize=4)(
+            lambda accent: self._parsed(style_sheet("certificate", "paged", accent=accent), supply)
+        )
         self._papers = {paper: self._parsed(style_sheet(paper), supply) for paper in ("A4", "Letter")}
 
     def print(self, certificate: Certificate) -> bytes:
@@ -81,7 +84,11 @@ class Press:
         document = _Document(ET.fromstring(compose_html(certificate)), Supply(_contents(certificate)))  # noqa: S314 (set here)
         with self._lock:
             pdf: bytes = document.write_pdf(
-                stylesheets=[self._style, self._papers[certificate.paper]],
+                stylesheets=[
+                    self._faces,
+                    self._style(certificate.look.accent),
+                    self._papers[certificate.paper],
+                ],
                 font_config=self._fonts,
                 color_profiles=self._profiles,
                 output_intent=_PROFILE,

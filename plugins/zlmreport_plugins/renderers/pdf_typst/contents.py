@@ -43,6 +43,7 @@ _SUBTITLE = 40.0
 _SECTION = 34.0
 _LETTERHEAD = 34.0
 _RUNNING_NUMBER = 47.0
+_RUNNING_HEAD = 34.0
 #: Of the names and the values of facts, by the number of columns.
 _FACTS = {1: (15.0, 36.0), 2: (10.0, 13.5)}
 #: Characters of facts, or of a notice, that stay on one page for certain.
@@ -67,7 +68,12 @@ def contents(certificate: Certificate) -> Data:
         "subtitle": fitted(certificate.subtitle, _SUBTITLE),
         "number": fitted(certificate.number, _SUBTITLE, FontFace.SEMIBOLD),
         "letterhead": _letterhead(letterhead) if letterhead else None,
-        "words": _words(certificate.page_words),
+        "accent": certificate.look.accent,
+        "logo": certificate.look.logo,
+        "words": {
+            **_words(certificate.page_words),
+            "head": fitted(certificate.running_head, _RUNNING_HEAD),
+        },
         "cover": compositor.blocks(certificate.cover),
         "sections": [
             compositor.section(number, section)
@@ -177,6 +183,7 @@ def _letterhead(letterhead: Letterhead) -> Data:
 def _words(words: PageWords) -> Data:
     return {
         "number": fitted(words.number, _RUNNING_NUMBER),
+        "foot": fitted(words.foot, _RUNNING_NUMBER),
         "page": words.page,
         "of": words.of,
         "end": words.end,
