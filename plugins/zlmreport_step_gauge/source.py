@@ -22,7 +22,6 @@ from zlmreport.plugin import (
     SourceContext,
     TextFile,
     Words,
-    parse_number,
     quoted,
     read_text,
     unit_named,
@@ -34,7 +33,7 @@ from zlmreport_step_gauge.measurements import Sign, Targets, measurement_set
 from zlmreport_step_gauge.points import Direction, Points, Unnumbered, by_order, numbered, wrong_side
 from zlmreport_step_gauge.probed import ProbedPoint, face_of, gridded
 from zlmreport_step_gauge.set_up import GaugeSetUp
-from zlmreport_step_gauge.tables import Row, read_named_columns
+from zlmreport_step_gauge.tables import Row, measured, read_named_columns
 
 _TABLE = ("face", "cycle", "x", "y", "z")
 _NORMAL = ("i", "j", "k")
@@ -89,7 +88,7 @@ def read_sequence(path: Path) -> tuple[TextFile, list[Unnumbered]]:
             problems.append(Problem(place, f"three numbers are expected, x y z: {quoted(written)}"))
             continue
         try:
-            x, y, z = (MILLIMETRE.to_si(parse_number(cell)) for cell in cells)
+            x, y, z = (MILLIMETRE.to_si(measured(cell)) for cell in cells)
         except ValueError as error:
             problems.append(Problem(place, str(error)))
             continue
@@ -150,7 +149,7 @@ def _characteristic(  # noqa: PLR0913, PLR0917 - a row with what it is read by
     part, name, actual, unit = (cells[indices[each]].strip() for each in _CALYPSO)
     try:
         face = face_of(name, mapping, text.place(line, column("id")))
-        value = unit_named(unit, LENGTH_UNITS).to_si(parse_number(actual))
+        value = unit_named(unit, LENGTH_UNITS).to_si(measured(actual))
     except InputError as error:
         problems.extend(error.problems)
         return None
@@ -201,10 +200,10 @@ def _measured(data: str, place: Place, problems: list[Problem]) -> Unnumbered | 
         problems.append(Problem(place, "a measured point has X, Y and Z; ask for them by OnPtMeasReport"))
         return None
     try:
-        x, y, z = (MILLIMETRE.to_si(parse_number(written[name])) for name in "XYZ")
+        x, y, z = (MILLIMETRE.to_si(measured(written[name])) for name in "XYZ")
         if normal is None:
             return Unnumbered(place, (x, y, z))
-        i, j, k = (parse_number(each) for each in normal.groups())
+        i, j, k = (measured(each) for each in normal.groups())
     except ValueError as error:
         problems.append(Problem(place, str(error)))
         return None

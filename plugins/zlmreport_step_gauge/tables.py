@@ -29,6 +29,18 @@ class Cell:
     place: Place
 
 
+#: In any unit of length: no machine is as long.
+_LARGEST = 1e9
+
+
+def measured(text: str) -> float:
+    """Return a number as a machine writes it; raise ValueError for what is none, or beyond all machines."""
+    value = parse_number(text)
+    if abs(value) > _LARGEST:
+        raise ValueError(f"{quoted(text)} is too large for any machine")
+    return value
+
+
 @dataclass(frozen=True, slots=True)
 class Row:
     """A row: its cells by the names of their columns; a column that the table lacks has no cell."""
@@ -44,7 +56,7 @@ class Row:
         """Return the number in a cell; None, and a problem, where it holds none."""
         cell = self.cells[column]
         try:
-            return parse_number(cell.text)
+            return measured(cell.text)
         except ValueError as error:
             message = str(error) if cell.text else "a number is missing"
             problems.append(Problem(cell.place, f"column {column}: {message}"))

@@ -110,3 +110,9 @@ def test_a_source_without_its_gauge(folder: Path, capsys: pytest.CaptureFixture[
     text = job.read_text(encoding="utf-8").replace("number: STEP", "kind: report, number: STEP")
     job.write_text(re.sub(r"step_gauge:\n(  .*\n)+", "", text), encoding="utf-8")
     assert "this source needs the gauge; state step_gauge" in refused(folder, capsys)
+
+
+def test_a_point_beyond_all_machines(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Its square is no number, and a library would say so."""
+    changed(folder / "probed.csv", "319.6028,202.4096,209.0917", "319.6028,202.4096,1e308")
+    assert "column z: '1e308' is too large for any machine" in refused(folder, capsys)

@@ -173,7 +173,9 @@ class Measurement(JobPart):
     method: Literal["linear", "unidirectional", "pendulum", "quasi-pilgrim"] | None = Field(
         None, description="Positioning method."
     )
-    feed: Positive | None = Field(None, description="Feed, mm/min or degrees/min.", examples=[2000])
+    feed: float | None = Field(
+        None, ge=1e-3, le=1e9, description="Feed, mm/min or degrees/min.", examples=[2000]
+    )
     dwell: Positive | None = Field(None, description="Time at rest at each target, s.", examples=[5])
     warm_up: Lines | None = Field(None, description="Warm-up before the test, in words.")
     compensation: Lines | None = Field(None, description="State of the machine's compensation, in words.")

@@ -1,0 +1,68 @@
+"""A seeded adversary: spoiled files and requests, and what must hold whatever they are.
+
+Every command ends with an exit code from 0 to 5 and without a traceback or a warning of a library, within
+bounds of time and memory, and leaves nothing behind when it refuses. What breaks that is shrunk to the fewest
+edits, and shown with the seed that makes it again. The same seed gives the same inputs.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import shutil
+import sys
+import tempfile
+import time
+from collections import Counter
+from collections.abc import Sequence
+from pathlib import Path
+
+sys.dont_write_bytecode = True  # of plugins in the folders that are watched
+os.environ["OPENBLAS_NUM_THREADS"] = "1"  # before any library is loaded: threads do not outlive a fork
+sys.path.insert(0, str(Path(__file__).parents[1]))  # for its neighbours, as pytest has them
+
+from attack.adversary import Input, answers, inputs, shown, shrunk
+from attack.targets import targets
+
+#: Inputs of a process.
+_BATCH = 40
+
+
+def attacked(seed: int, wanted: int, until: float, only: str) -> int:
+    """Attack until the time or the number is over, tell what was found, and return the number of findings."""
+    done: Counter[str] = Counter()
+    found: dict[str, Input] = {}
+    with tempfile.TemporaryDirectory(prefix="zlmreport-attack-") as folder:
+        known = [each for each in targets(Path(folder)) if only in each.name]
+        drawn = inputs(seed, known)
+        while sum(done.values()) < wanted and time.monotonic() < until:
+            batch = [next(drawn) for _ in range(min(_BATCH, wanted - sum(done.values())))]
+            for each, complained in answers(batch, known):
+                done[known[each.target].name] += 1
+                if complained:
+                    found.setdefault(f"{known[each.target].name}: {complained[:80]}", each)
+        for each in found.values():
+            least, complained = shrunk(each, known)
+            print(f"\n{known[least.target].name}: {complained}\nedits {least.seeds}, attack {least.attack}")
+            print(shown(least, known), flush=True)
+    print(f"{sum(done.values())} inputs, seed {seed}: {len(found)} findings ({dict(done)})")
+    return len(found)
+
+
+def _options(arguments: Sequence[str]) -> argparse.Namespace:
+    parser = argparse.ArgumentParser(prog="./run attack", description=__doc__)
+    parser.add_argument("--minutes", type=float, default=5.0, help="how long; 5 without it")
+    parser.add_argument("--inputs", type=int, default=sys.maxsize, help="how many at most")
+    parser.add_argument("--seed", type=int, default=1, help="of all inputs; 1 without it")
+    parser.add_argument("--only", default="", help="targets whose name holds this")
+    return parser.parse_args(arguments)
+
+
+if __name__ == "__main__":
+    chosen = _options(sys.argv[1:])
+    os.environ["XDG_CACHE_HOME"] = tempfile.mkdtemp(prefix="zlmreport-attack-cache-")
+    try:
+        ends = time.monotonic() + 60 * chosen.minutes
+        sys.exit(1 if attacked(chosen.seed, chosen.inputs, ends, chosen.only) else 0)
+    finally:
+        shutil.rmtree(os.environ["XDG_CACHE_HOME"], ignore_errors=True)

@@ -1,0 +1,286 @@
+"""What is attacked: sound files, the one that is spoiled, and the commands that get it."""
+
+from __future__ import annotations
+
+import json
+import os
+import random
+import re
+import shutil
+import subprocess
+import sys
+import warnings
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from attack.edits import BINARY, TEXT, Edit
+from environments import ROOT
+from verification.issued import READINGS, content_of, with_attachment
+from zlmreport.cli import main
+from zlmreport.plugins import find_plugins
+
+_CONFIGS = ROOT / "configs"
+_SOURCES = ROOT / "tests" / "data" / "sources"
+_GAUGE = ("job.yaml", "gauge.yaml", "probed.csv", "initial-points.csv")
+
+#: Does something in a folder and returns an exit code.
+Attack = Callable[[Path], int]
+
+
+@dataclass(frozen=True, slots=True)
+class Target:
+    """Something that is attacked.
+
+    Attributes
+    ----------
+    name
+        Of it.
+    lay_out
+        Writes sound files into a folder.
+    spoilt
+        The file that is spoiled, by its path there.
+    attacks
+        One of them is made.
+    edits
+        How the file may be spoiled.
+    """
+
+    name: str
+    lay_out: Callable[[Path], object]
+    spoilt: str
+    attacks: tuple[Attack, ...]
+    edits: Sequence[Edit] = TEXT
+
+
+def _command(*words: str) -> Attack:
+    """Return a command; what begins with ``@`` is a file or folder in the attacked one."""
+    return lambda folder: main([str(folder / word[1:]) if word.startswith("@") else word for word in words])
+
+
+def _examples(*names: str) -> Callable[[Path], None]:
+    def lay(folder: Path) -> None:
+        for name in names:
+            to = folder / "c" / name  # the examples write into a folder beside theirs
+            to.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(_CONFIGS / name, to)
+
+    return lay
+
+
+def _job(plugin: str, key: str, file: str) -> str:
+    return (
+        "schema: zlmreport/job/1\ncertificate: {number: A-1, kind: report}\naxis: {name: X}\n"
+        f"measurement: {{source: {{plugin: {plugin}, {key}: {file}}}}}\nevaluate: [nmtba]\n"
+    )
+
+
+def _measured(plugin: str, file: str, key: str = "file") -> Callable[[Path], None]:
+    def lay(folder: Path) -> None:
+        shutil.copy(_SOURCES / file, folder / file)
+        (folder / "job.yaml").write_text(_job(plugin, key, file), encoding="utf-8")
+
+    return lay
+
+
+def _certificate(folder: Path) -> bytes:
+    """Return a certificate; a process of its own makes it, for threads of a library do not outlive a fork."""
+    program = (
+        "import sys; from pathlib import Path; from verification.issued import issue, lay_out; "
+        "sys.stdout.buffer.write(issue(lay_out(Path(sys.argv[1])), 'pdf-typst'))"
+    )
+    environment = {**os.environ, "PYTHONPATH": str(ROOT / "tests")}
+    done = subprocess.run(
+        [sys.executable, "-c", program, folder], env=environment, stdout=subprocess.PIPE, check=True
+    )
+    return done.stdout
+
+
+_ANSWERS = (
+    *(
+        "None",
+        "()",
+        "[None] * 3",
+        "{}",
+        "'x' * 10**6",
+        "float('nan')",
+        "object()",
+        "iter(())",
+        "b'x'",
+        "type",
+    ),
+    *("Arithmetic({})", "Arithmetic({'D': 1.0, 'S': float('inf')})", "Arithmetic({'D': 'x', 'S': None})"),
+    *("Arithmetic({'D': np.zeros((7, 7)), 'S': np.array(['x'])})", "Arithmetic(5)", "1 / 0", "[][1]", "self"),
+    *("(yield)", "exit(7)", "self.arithmetic(statistics, options)", "Arithmetic({'D': 1j, 'S': 10**400})"),
+    *(
+        "[Finding]",
+        "[Figure]",
+        "[Finding(*'abcdef'[:3])]",
+        "statistics.mean_positive.fill(0)",
+        "open('/nowhere')",
+    ),
+)
+
+
+def _answering(draw: random.Random, content: bytes) -> bytes:
+    """Let a plugin answer something else."""
+    found = list(re.finditer(rb"(?m)^( {8,12})return (?:.|\n)*?(?=\n\n|\Z)", content))
+    one = draw.choice(found)
+    return (
+        content[: one.start(1)] + one[1] + b"return " + draw.choice(_ANSWERS).encode() + content[one.end() :]
+    )
+
+
+def _of_plugin(folder: Path) -> None:
+    text = (ROOT / "src/zlmreport/skeletons/standard.py.txt").read_text(encoding="utf-8")
+    for name, value in {"identifier": "drawn", "words": "Drawn", "Class": "Drawn"}.items():
+        text = text.replace(f"{{{{{name}}}}}", value)
+    (folder / "drawn.py").write_text(text, encoding="utf-8")
+    (folder / "x.csv").write_text(READINGS, encoding="utf-8")
+    job = _job("laser-csv", "file", "x.csv").replace("[nmtba]", "[drawn]")
+    (folder / "job.yaml").write_text(job, encoding="utf-8")
+
+
+_CHANGE = {"based_on": "0", "action": "add", "effect": "backlash", "parameter": "lost_motion", "value": 1.5}
+_MADE = {"name": "certificate", "controller": "linuxcnc", "format": "pdf"}
+_REQUESTS = "\n".join(
+    [
+        *("GET / x", "GET /effects/backlash x", "GET /files/job.yaml x", "GET /documents/x/1.png x"),
+        *("GET /api/job x", "GET /api/results?x=1 x", "GET /api/effects/backlash x", "GET /api/tests?of=0 x"),
+        *(f"POST /api/change {json.dumps(_CHANGE)}", f"POST /api/made/check {json.dumps(_MADE)}"),
+    ]
+)
+
+
+def _of_page(folder: Path) -> None:
+    _examples("hidden-effect/job.yaml", "hidden-effect/x-axis.csv")(folder)
+    (folder / "requests").write_text(_REQUESTS, encoding="utf-8")
+
+
+def _asked(folder: Path) -> int:
+    """Send requests to the workbench; an answer above 499 is a mistake of its own."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        from starlette.testclient import TestClient
+    from zlmreport.web.app import Workbench
+    from zlmreport.web.guard import Door
+
+    door, bench = Door.at(8420), Workbench.of([folder / "c/hidden-effect/job.yaml"], find_plugins({}))
+    client = TestClient(bench.app(door), base_url="http://127.0.0.1:8420", follow_redirects=False)
+    client.get(door.address)
+    client.headers["Origin"] = "http://127.0.0.1:8420"
+    try:
+        for line in (folder / "requests").read_bytes().splitlines():
+            method, _, rest = line.decode("latin-1").partition(" ")
+            path, _, body = rest.partition(" ")
+            if method.isalpha() and path.startswith("/") and path.isprintable():
+                answer = client.request(method, path, content=body.encode("latin-1"))
+                assert answer.status_code < 500, f"{line!r}: {answer.status_code}"
+    finally:
+        bench.diagnoses.end()
+        bench.commands.end()
+    return 0
+
+
+def targets(folder: Path) -> tuple[Target, ...]:
+    """Return all targets; `folder` is for what they need once."""
+    pdf = _certificate(folder)
+    linear = _examples("laboratory.yaml", "linear-axis/certificate.yaml", "linear-axis/y-axis.csv")
+    gauge = _examples("laboratory.yaml", *(f"step-gauge/{name}" for name in _GAUGE))
+    hidden = _examples("hidden-effect/job.yaml", "hidden-effect/x-axis.csv", "hidden-effect/simulation.yaml")
+    fleet = _examples(
+        "laboratory.yaml",
+        "fleet/fleet.yaml",
+        *(f"fleet/bz-630/{name}" for name in ("machine.yaml", "x-2026-10.yaml", "x-2026-10.csv")),
+    )
+    checked, model = _command("check", "@c/linear-axis/certificate.yaml"), "@c/hidden-effect/job.yaml"
+    results = ("--format", "json,csv", "--output", "@out", "--quiet")
+
+    def issued(folder: Path) -> None:
+        (folder / "x.pdf").write_bytes(pdf)
+
+    def attached(name: str) -> Target:
+        def lay(folder: Path) -> None:
+            issued(folder)
+            (folder / "attached").write_bytes(content_of(pdf, name))
+
+        def attack(folder: Path) -> int:
+            (folder / "x.pdf").write_bytes(with_attachment(pdf, name, (folder / "attached").read_bytes()))
+            return main(["verify", str(folder / "x.pdf"), "--json"])
+
+        return Target(f"attached {name}", lay, "attached", (attack,))
+
+    return (
+        Target(
+            "job",
+            linear,
+            "c/linear-axis/certificate.yaml",
+            (checked, _command("@c/linear-axis/certificate.yaml", *results)),
+        ),
+        Target("laboratory", linear, "c/laboratory.yaml", (checked,)),
+        Target(
+            "table",
+            linear,
+            "c/linear-axis/y-axis.csv",
+            (checked, _command("look", "@c/linear-axis/y-axis.csv")),
+        ),
+        Target(
+            "model",
+            hidden,
+            "c/hidden-effect/job.yaml",
+            (
+                _command("model", "fit", model),
+                _command("plan", model),
+                _command("compensate", model, "--controller", "linuxcnc", "--output", "@out"),
+            ),
+        ),
+        Target(
+            "simulation",
+            hidden,
+            "c/hidden-effect/simulation.yaml",
+            (_command("simulate", "@c/hidden-effect/simulation.yaml", "--output", "@out"),),
+        ),
+        *(
+            Target(
+                plugin,
+                _measured(plugin, file, key),
+                file,
+                (_command("check", "@job.yaml"), _command("look", f"@{file}")),
+            )
+            for plugin, file, key in (
+                ("renishaw-rtl", "bidirectional.rtl", "file"),
+                ("ecmc", "ecmc_13e6c326.dat", "file"),
+                ("serial-interferometer", "linear.journal", "journal"),
+            )
+        ),
+        *(
+            Target(
+                f"gauge {name}", gauge, f"c/step-gauge/{name}", (_command("check", "@c/step-gauge/job.yaml"),)
+            )
+            for name in _GAUGE
+        ),
+        Target(
+            "fleet",
+            fleet,
+            "c/fleet/fleet.yaml",
+            (
+                _command("fleet", "@c/fleet/fleet.yaml", "--dry-run"),
+                _command("fleet", "report", "@c/fleet/fleet.yaml"),
+            ),
+        ),
+        Target("pdf", issued, "x.pdf", (_command("verify", "@x.pdf", "--json"),), BINARY),
+        attached("VERIFY-1.json"),
+        attached("job.yaml"),
+        attached("x-axis.csv"),
+        Target(
+            "plugin",
+            _of_plugin,
+            "drawn.py",
+            (
+                _command("check", "@job.yaml", "--plugin", "@drawn.py"),
+                _command("@job.yaml", "--plugin", "@drawn.py", *results),
+            ),
+            (_answering,),
+        ),
+        Target("page", _of_page, "requests", (_asked,)),
+    )
