@@ -87,7 +87,7 @@ def test_the_error_falls_to_the_noise_when_the_hidden_effect_is_added(tmp_path: 
 def test_an_effect_that_cannot_be_fitted_is_refused_where_the_job_names_it(tmp_path: Path) -> None:
     path = written(tmp_path, (LAST, f"{LAST}    - abbe\n"))
     assert problem(path) == (
-        21,
+        26,
         7,
         "abbe cannot be fitted to these readings: the job does not state axis.angular_errors",
     )
@@ -98,7 +98,7 @@ def test_effects_that_collide_are_named(tmp_path: Path) -> None:
     with pytest.raises(InputError) as caught:
         study(path).fitted()
     messages = [each.message for each in caught.value.problems]
-    assert [each.place.line for each in caught.value.problems] == [21, 21]
+    assert [each.place.line for each in caught.value.problems] == [26, 26]
     assert "polynomial contains offset" in messages[0]
     assert "polynomial contains scale-error" in messages[1]
 

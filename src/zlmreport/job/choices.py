@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
-from typing import Any, TypeAlias
+from dataclasses import dataclass, field, replace
+from typing import Any, Self, TypeAlias
 
-from pydantic import Field, create_model
+from pydantic import Field, create_model, model_validator
 
 from zlmreport.errors import InputError, Place, Problem
 from zlmreport.job.fields import keys_in, model_in
-from zlmreport.job.formula_keys import FormulaKeys
+from zlmreport.job.formula_keys import FormulaKeys, ParameterName
 from zlmreport.job.installed import Installed, InstalledEffect, InstalledProgram
 from zlmreport.job.sentences import shown
 from zlmreport.job.tree import Entry, Items, Keys, Node, Scalar, keys_of
-from zlmreport.job.types import Finite, LiveInstrumentKeys, Options
+from zlmreport.job.types import Finite, JobPart, LiveInstrumentKeys, Options
 from zlmreport.job.validate import validate
 
 
@@ -72,6 +72,27 @@ _SHAPE = (
 )
 
 
+class ParameterLimits(JobPart):
+    """What is known of a parameter that is estimated."""
+
+    min: Finite | None = Field(None, description="The least value that it may take.")
+    max: Finite | None = Field(None, description="The largest value that it may take.")
+    equals: ParameterName | None = Field(
+        None,
+        description="The parameter of another effect that it is: both are estimated as one.",
+        examples=["screw-pitch.period"],
+    )
+
+    @model_validator(mode="after")
+    def _says_one_thing(self) -> Self:
+        bounded = self.min is not None or self.max is not None
+        if bounded == (self.equals is not None):
+            raise ValueError("either min or max or both, or equals: other-effect.parameter")
+        if self.min is not None and self.max is not None and not self.min < self.max:
+            raise ValueError("min must be less than max; to give the value, write the number alone")
+        return self
+
+
 @dataclass(frozen=True, slots=True)
 class EffectChoice:
     """An effect that a file names.
@@ -86,12 +107,15 @@ class EffectChoice:
         Parameters that are given, by name, in the users' units: of a model they are fixed.
     place
         Where the file names the effect.
+    limits
+        What else is known of parameters, by name, in the users' units.
     """
 
     identifier: str
     settings: Options
     values: Mapping[str, float]
     place: Place
+    limits: Mapping[str, ParameterLimits] = field(default_factory=dict)
 
     @property
     def is_formula(self) -> bool:
@@ -163,7 +187,9 @@ def _formula(item: Keys, registry: Installed, problems: list[Problem], within: s
         problems.append(Problem(item.entries["name"].value.place, sentence))
         return None
     values = {name: each.value for name, each in keys.parameters.items() if each.value is not None}
-    return EffectChoice(keys.name, keys, values, item.place)
+    equal = {name: each.equals for name, each in keys.parameters.items() if each.equals is not None}
+    limits = {name: ParameterLimits(equals=other) for name, other in equal.items()}
+    return EffectChoice(keys.name, keys, values, item.place, limits)
 
 
 def candidate_choices(
@@ -193,8 +219,8 @@ def _named_effect(item: Node) -> tuple[str, Keys] | None:
 
 def _effect(effect: InstalledEffect, keys: Keys, problems: list[Problem], within: str) -> EffectChoice | None:
     own = keys_in(effect.options)
-    given = keys.without(*(key for key in keys.entries if key not in own))
-    settings = validate(effect.options, given, problems, within=within)
+    settings_keys = keys.without(*(key for key in keys.entries if key not in own))
+    settings = validate(effect.options, settings_keys, problems, within=within)
     if settings is None:
         return None
     form = effect.with_settings(settings)
@@ -202,14 +228,17 @@ def _effect(effect: InstalledEffect, keys: Keys, problems: list[Problem], within
     values = validate(model, keys.without(*own), problems, within=within, also_known=own)
     if values is None:
         return None
-    stated = values.model_dump(exclude_none=True)
-    return EffectChoice(effect.identifier, settings, stated, keys.place)
+    stated = {name: value for name, value in values if value is not None}
+    limits = {name: value for name, value in stated.items() if isinstance(value, ParameterLimits)}
+    given = {name: value for name, value in stated.items() if name not in limits}
+    return EffectChoice(effect.identifier, settings, given, keys.place, limits)
 
 
 def _model_of_parameters(names: Sequence[str]) -> type[Options]:
     """Return the model of a group of keys that may give each parameter a value."""
     fields: dict[str, Any] = {
-        name: (Finite | None, Field(None, description="The value of the parameter.")) for name in names
+        name: (Finite | ParameterLimits | None, Field(None, description="The value of the parameter."))
+        for name in names
     }
     return create_model("Parameters", __base__=Options, **fields)
 

@@ -212,7 +212,8 @@ class Model(JobPart):
 
     effects: list[str | dict[str, Any]] = Field(
         default_factory=list,
-        description="Effects in the model; a mapping fixes parameters, or writes an effect as a formula.",
+        description="Effects in the model; a mapping fixes parameters, bounds or links them ({min, max} or "
+        "{equals: other-effect.parameter}), or writes an effect as a formula.",
         examples=[["offset", "scale-error", "backlash"]],
     )
     candidates: list[dict[str, Any]] = Field(

@@ -6,7 +6,7 @@ import re
 from collections.abc import Mapping
 from fractions import Fraction
 from types import MappingProxyType
-from typing import Annotated, TypeGuard
+from typing import Annotated, TypeAlias, TypeGuard
 
 import numpy as np
 from pydantic import Field, model_validator
@@ -63,6 +63,10 @@ _SPELLINGS = (("µ", "u"), ("μ", "u"), ("″", "arcsec"), ("°", "deg"), ("*", 
 _SAMPLES, _STEP, _DEPENDENT, _SEED = 60, 1e-4, 1e-7, 20_261_122
 
 
+#: A parameter of an effect of the model.
+ParameterName: TypeAlias = Annotated[str, Field(pattern=r"^[a-z][a-z0-9-]*\.\w+$")]
+
+
 class FormulaParameter(JobPart):
     """A parameter of a formula."""
 
@@ -78,6 +82,11 @@ class FormulaParameter(JobPart):
         "must have them, and is searched between them.",
     )
     value: Finite | None = Field(None, description="The value, where it is known and not estimated.")
+    equals: ParameterName | None = Field(
+        None,
+        description="The parameter of another effect that it is: both are estimated as one.",
+        examples=["screw-pitch.period"],
+    )
 
     @property
     def spelled(self) -> str:

@@ -179,6 +179,23 @@ def _standard(standard: InstalledStandard, definitions: Schema) -> Schema:
     return _with_keys(_own_keys(standard.options, standard.identifier, definitions), keys)
 
 
+#: `zlmreport.job.choices.ParameterLimits`
+_LIMITS: Schema = {
+    "type": "object",
+    "properties": {
+        "min": {"type": "number", "description": "The least value that it may take."},
+        "max": {"type": "number", "description": "The largest value that it may take."},
+        "equals": {
+            "type": "string",
+            "pattern": r"^[a-z][a-z0-9-]*\.\w+$",
+            "description": "The parameter of another effect that it is.",
+        },
+    },
+    "additionalProperties": False,
+    "minProperties": 1,
+}
+
+
 def _effect(effect: InstalledEffect, definitions: Schema) -> Schema:
     """Return the schema of an effect with keys: its own, and its parameters in any of its forms.
 
@@ -187,14 +204,15 @@ def _effect(effect: InstalledEffect, definitions: Schema) -> Schema:
     keys = _own_keys(effect.options, effect.identifier, definitions)
     parameters = {
         parameter.name: {
-            "type": "number",
-            "description": f"Fixes the parameter: {parameter.description.in_language(Language.ENGLISH)}.",
+            "anyOf": [{"type": "number"}, _LIMITS],
+            "description": f"Fixes the parameter, or limits it: "
+            f"{parameter.description.in_language(Language.ENGLISH)}.",
         }
         for parameter in (*effect.linear, *effect.searched)
     }
     known = {**keys, "properties": {**parameters, **keys.get("properties", {})}}
     if effect.options.model_fields:
-        known["additionalProperties"] = {"type": "number"}
+        known["additionalProperties"] = {"anyOf": [{"type": "number"}, _LIMITS]}
     return {
         "type": "object",
         "properties": {

@@ -13,7 +13,7 @@ from zlmreport.job.formula_keys import FormulaKeys
 from zlmreport.language import Language
 from zlmreport.measurement.axis import AxisKind
 from zlmreport.model.design import Design
-from zlmreport.model.effect import Effect, Parameter, unit_of
+from zlmreport.model.effect import Dimension, Effect, Parameter, unit_of
 from zlmreport.model.formula import FormulaEffect
 from zlmreport.quantities.arrays import BoolArray, FloatArray
 from zlmreport.quantities.formula import FormulaError
@@ -51,10 +51,16 @@ class Term:
         The effect, in the form that the job asks for.
     fixed
         Values of parameters that are given and not estimated, SI, by name.
+    bounds
+        Between which parameters are estimated, SI, by name.
+    links
+        Parameters that equal one of another effect: its identifier and the name of its parameter, by name.
     """
 
     effect: Effect
     fixed: Mapping[str, float] = field(default_factory=dict)
+    bounds: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    links: Mapping[str, tuple[str, str]] = field(default_factory=dict)
 
     @property
     def parameters(self) -> tuple[Parameter, ...]:
@@ -63,8 +69,8 @@ class Term:
 
     @property
     def is_solved(self) -> BoolArray:
-        """Which of its columns have a coefficient that is estimated, shape (k,)."""
-        return np.array([each.name not in self.fixed for each in self.effect.linear], dtype=np.bool_)
+        """Which of its columns have a coefficient that is estimated for itself, shape (k,)."""
+        return np.array([self._is_free(each) for each in self.effect.linear], dtype=np.bool_)
 
     def grid(self, design: Design) -> FloatArray:
         """Return the values of θ that its search begins with, given values put in their places."""
@@ -72,14 +78,21 @@ class Term:
         for column, parameter in enumerate(self.effect.searched):
             if parameter.name in self.fixed:
                 grid[:, column] = self.fixed[parameter.name]
+            elif parameter.name in self.bounds and len(grid) > 1:
+                low, high = self.bounds[parameter.name]
+                ends = np.repeat(grid[:1], 2, axis=0)
+                ends[:, column] = low, high
+                grid = np.concatenate([grid, ends[np.isfinite(ends[:, column])]])
+                grid[:, column] = np.clip(grid[:, column], low, high)
         return np.unique(grid, axis=0)
+
+    def _is_free(self, parameter: Parameter) -> bool:
+        return parameter.name not in self.fixed and parameter.name not in self.links
 
     def is_searched(self, design: Design) -> BoolArray:
         """Which values of θ are estimated, shape (s,): a grid of one row is knowledge, not a search."""
         known = len(self.effect.grid(design)) == 1
-        return np.array(
-            [not known and each.name not in self.fixed for each in self.effect.searched], dtype=np.bool_
-        )
+        return np.array([not known and self._is_free(each) for each in self.effect.searched], dtype=np.bool_)
 
     def columns(self, design: Design, theta: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the columns whose coefficients are estimated, and the deviation that is given."""
@@ -116,6 +129,61 @@ class AxisModel:
         """Return the model without an effect."""
         return AxisModel(tuple(term for term in self.terms if term.effect.identifier != identifier))
 
+    def linked(self, thetas: Sequence[FloatArray]) -> tuple[FloatArray, ...]:
+        """Return θ of all terms with those that equal another in their places."""
+        found = [np.array(theta) for theta in thetas]
+        for index, column, other, place in self._links(lambda effect: effect.searched):
+            found[index][column] = thetas[other][place]
+        return tuple(found)
+
+    def columns(self, design: Design, thetas: Sequence[FloatArray]) -> list[tuple[FloatArray, FloatArray]]:
+        """Return of each term the columns that are solved, and the deviation that is given.
+
+        A column whose coefficient equals another is added to that.
+        """
+        found = [term.columns(design, theta) for term, theta in zip(self.terms, thetas, strict=True)]
+        for index, column, other, place in self._links(lambda effect: effect.linear):
+            own = self.terms[index].effect.columns(design, thetas[index])[:, column]
+            target, (solved, given) = self.terms[other], found[other]
+            if target.is_solved[place]:
+                solved = solved.copy()
+                solved[:, int(np.count_nonzero(target.is_solved[:place]))] += own
+            else:
+                given = given + own * target.fixed[target.effect.linear[place].name]
+            found[other] = solved, given
+        return found
+
+    def coefficients(self, solved: FloatArray) -> tuple[FloatArray, ...]:
+        """Return γ of every term from those that were solved, side by side; given and linked ones besides."""
+        found: list[FloatArray] = []
+        first = 0
+        for term in self.terms:
+            gamma = np.array([term.fixed.get(each.name, 0.0) for each in term.effect.linear])
+            count = int(np.count_nonzero(term.is_solved))
+            gamma[term.is_solved] = solved[first : first + count]
+            first += count
+            found.append(gamma)
+        for index, column, other, place in self._links(lambda effect: effect.linear):
+            found[index][column] = found[other][place]
+        return tuple(found)
+
+    def followers(self, term: int, column: int) -> tuple[int, ...]:
+        """Return the terms of which a searched parameter equals that of a term in a column."""
+        searched = self._links(lambda effect: effect.searched)
+        return tuple(index for index, _, other, place in searched if (other, place) == (term, column))
+
+    def _links(
+        self, parameters: Callable[[Effect], tuple[Parameter, ...]]
+    ) -> Iterator[tuple[int, int, int, int]]:
+        """Yield each linked parameter by its term and its place, and that which it equals by both."""
+        for index, term in enumerate(self.terms):
+            names = [each.name for each in parameters(term.effect)] if term.links else []
+            for column, name in enumerate(names):
+                if name in term.links:
+                    other = self.identifiers.index(term.links[name][0])
+                    own = [each.name for each in parameters(self.terms[other].effect)]
+                    yield index, column, other, own.index(term.links[name][1])
+
     def check(self, design: Design) -> None:
         """Refuse a model that makes no sense on a design.
 
@@ -125,7 +193,8 @@ class AxisModel:
             With every mistake: an effect twice or beside one that contains it, a value given for a parameter
             that there is not, an effect that the test cannot show, too few readings.
         """
-        sentences = [*self._clashes(), *self._unknown_parameters(), *self._untestable(design)]
+        sentences = [*self._clashes(), *self._unknown_parameters(), *self._wrong_links()]
+        sentences += self._untestable(design)
         if not sentences:
             estimated = sum(
                 int(np.count_nonzero(term.is_solved) + np.count_nonzero(term.is_searched(design)))
@@ -158,6 +227,24 @@ class AxisModel:
                     advice = did_you_mean(name, known)
                     yield f"{term.effect.identifier} has no parameter {name!r}; {advice}"
 
+    def _wrong_links(self) -> Iterator[str]:
+        by_identifier = {term.effect.identifier: term for term in self.terms}
+        for term in self.terms:
+            for name, (other, parameter) in term.links.items():
+                said = f"{term.effect.identifier} cannot have {name} equal to {other}.{parameter}"
+                if other not in by_identifier or other == term.effect.identifier:
+                    yield f"{said}: {other} is no other effect of the model"
+                    continue
+                target = by_identifier[other].effect
+                known = _kinds(target)
+                own, found = _kinds(term.effect).get(name), known.get(parameter)
+                if found is None:
+                    yield f"{said}: {other} has no such parameter; {did_you_mean(parameter, list(known))}"
+                elif found != own:
+                    yield f"{said}: the two are different quantities, or only one is searched"
+                elif parameter in by_identifier[other].links:
+                    yield f"{said}, which equals another itself; link both to that"
+
     def _untestable(self, design: Design) -> Iterator[str]:
         for term in self.terms:
             why = term.effect.untestable(design)
@@ -166,6 +253,13 @@ class AxisModel:
                     f"{term.effect.identifier} cannot be fitted to these readings: "
                     f"{why.in_language(Language.ENGLISH)}"
                 )
+
+
+def _kinds(effect: Effect) -> dict[str, tuple[Dimension, bool]]:
+    """Return of each parameter what quantity it is, and whether it is searched."""
+    return {
+        each.name: (each.dimension, each in effect.searched) for each in (*effect.linear, *effect.searched)
+    }
 
 
 def refuse_collisions(model: AxisModel, columns: Sequence[FloatArray]) -> None:
@@ -241,6 +335,16 @@ def chosen_terms(
 
 
 def _term(choice: EffectChoice, find: Callable[[str], Effect], kind: AxisKind) -> Term:
-    term = Term(chosen_effect(choice, find, kind))
-    units = {parameter.name: unit_of(parameter.dimension, kind) for parameter in term.parameters}
-    return Term(term.effect, {name: value / units[name].per_si for name, value in choice.values.items()})
+    effect = chosen_effect(choice, find, kind)
+    units = {each.name: unit_of(each.dimension, kind) for each in (*effect.linear, *effect.searched)}
+    bounds, links = {}, {}
+    for name, limits in choice.limits.items():
+        if limits.equals is not None:
+            other, _, parameter = limits.equals.partition(".")
+            links[name] = other, parameter
+        else:
+            low = -np.inf if limits.min is None else limits.min / units[name].per_si
+            high = np.inf if limits.max is None else limits.max / units[name].per_si
+            bounds[name] = low, high
+    fixed = {name: value / units[name].per_si for name, value in choice.values.items()}
+    return Term(effect, fixed, bounds, links)

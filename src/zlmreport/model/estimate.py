@@ -155,6 +155,8 @@ class Estimate:
     is_scanned
         Whether it was found among the values of a grid, and nothing is known of what lies between them: its
         expanded uncertainty is then the whole half-width of the interval that holds it.
+    equals
+        The parameter of another effect that it is and that is estimated once, ``effect.parameter``.
     """
 
     effect: str
@@ -165,6 +167,12 @@ class Estimate:
     is_given: bool = False
     expected: float | None = None
     is_scanned: bool = False
+    equals: str = ""
+
+    @property
+    def is_free(self) -> bool:
+        """Whether it is estimated for itself."""
+        return not self.is_given and not self.equals
 
     @property
     def coverage_factor(self) -> float:
@@ -278,7 +286,23 @@ def estimates_of(
                     u, nu = _half_width(problem, solution, index, column, uncertainties.sigma) / sqrt(3), inf
                 estimate = Estimate(term.effect.identifier, parameter, value, u, nu, is_scanned=is_scanned)
             found.append(_expecting(estimate, term, problem.design.axis))
-    return tuple(found)
+    return tuple(_as_linked(each, found, problem) for each in found)
+
+
+def _as_linked(estimate: Estimate, found: Sequence[Estimate], problem: Problem) -> Estimate:
+    """Return the estimate of a parameter that equals another: the value and uncertainty of that."""
+    links = {term.effect.identifier: term.links for term in problem.model.terms}[estimate.effect]
+    if estimate.parameter.name not in links:
+        return estimate
+    other = links[estimate.parameter.name]
+    target = next(each for each in found if (each.effect, each.parameter.name) == other)
+    return replace(
+        target,
+        effect=estimate.effect,
+        parameter=estimate.parameter,
+        expected=estimate.expected,
+        equals=".".join(other),
+    )
 
 
 def _terms(problem: Problem, solution: Solution) -> Iterator[tuple[Term, FloatArray]]:

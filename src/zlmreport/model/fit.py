@@ -136,7 +136,7 @@ class Fit:
     @property
     def degrees(self) -> int:
         """Readings less estimated parameters."""
-        return len(self.deviation) - sum(not estimate.is_given for estimate in self.estimates)
+        return len(self.deviation) - sum(estimate.is_free for estimate in self.estimates)
 
     @property
     def rms(self) -> float:
@@ -186,9 +186,40 @@ def fit(
     ------
     ModelError
         If the model makes no sense on the design, or its columns depend on each other.
+
+    Notes
+    -----
+    A linear parameter that would lie beyond its bounds is held at the bound, one after another.
     """
+    found = _fit(model, design, deviation, assumptions or Assumptions(), start)
+    while (held := _held(found)) is not None:
+        found = _fit(held, design, deviation, assumptions or Assumptions(), found.solution.thetas)
+    return found
+
+
+def _held(found: Fit) -> AxisModel | None:
+    """Return the model with the linear parameter farthest beyond its bound held there; None if none is."""
+    farthest, held = 0.0, None
+    terms = {term.effect.identifier: (index, term) for index, term in enumerate(found.model.terms)}
+    for each in found.estimates:
+        index, term = terms[each.effect]
+        low, high = term.bounds.get(each.parameter.name, (-np.inf, np.inf))
+        value = min(max(each.value, low), high)
+        beyond = abs(each.value - value) / (each.standard_uncertainty or 1.0)
+        if each.is_free and each.parameter in term.effect.linear and beyond > farthest:
+            own = replace(term, fixed={**term.fixed, each.parameter.name: value})
+            farthest, held = beyond, (index, own)
+    if held is None:
+        return None
+    listed = list(found.model.terms)
+    listed[held[0]] = held[1]
+    return AxisModel(tuple(listed))
+
+
+def _fit(
+    model: AxisModel, design: Design, deviation: FloatArray, taken: Assumptions, start: Thetas | None
+) -> Fit:
     model.check(design)
-    taken = assumptions or Assumptions()
     parts = noise_parts(design) if taken.parts is None else taken.parts
     known = weights(design, deviation, taken.spread) if taken.weights is None else taken.weights
     noise = Noise(0.0, {}, known)
@@ -216,14 +247,14 @@ def _estimated(space: Contrasts, deviation: FloatArray, weights_: FloatArray) ->
 def _open(model: AxisModel, design: Design, deviation: FloatArray, solution: Solution) -> FloatArray:
     """Return deviations less what given parameters make of them, shape (N,)."""
     left = deviation
-    for term, theta in zip(model.terms, solution.thetas, strict=True):
-        left = left - term.columns(design, theta)[1]
+    for _, given in model.columns(design, solution.thetas):
+        left = left - given
     return left
 
 
 def _columns(model: AxisModel, design: Design, solution: Solution) -> list[FloatArray]:
     """Return term by term the columns whose coefficients are solved."""
-    return [term.columns(design, theta)[0] for term, theta in zip(model.terms, solution.thetas, strict=True)]
+    return [solved for solved, _ in model.columns(design, solution.thetas)]
 
 
 def _value(model: AxisModel, design: Design, solution: Solution) -> FloatArray:

@@ -216,6 +216,8 @@ def _estimate(estimate: Estimate, design: Design) -> dict[str, Any]:
         "given": estimate.is_given,
         "plausibility": estimate.plausibility(time_is_counted=design.time_is_counted).name.lower(),
     }
+    if estimate.equals:
+        found["equals"] = estimate.equals
     if estimate.expected is not None:
         found["expected"] = estimate.expected * unit.per_si
     return found

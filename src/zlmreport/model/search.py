@@ -13,7 +13,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from zlmreport.model.axis_model import AxisModel, Term
+from zlmreport.model.axis_model import AxisModel
 from zlmreport.model.design import Design
 from zlmreport.quantities.arrays import FloatArray
 
@@ -107,14 +107,13 @@ class Problem:
 
     def solution(self, thetas: Thetas) -> Solution:
         """Return the linear parameters for one θ."""
-        pairs = [
-            term.columns(self.design, theta) for term, theta in zip(self.model.terms, thetas, strict=True)
-        ]
+        thetas = self.model.linked(thetas)
+        pairs = self.model.columns(self.design, thetas)
         empty = np.empty((len(self.deviation), 0))
         columns = self.whiten(np.concatenate([empty, *(each for each, _ in pairs)], axis=1))
         left = self.whiten(self.deviation - np.sum([given for _, given in pairs], axis=0))
         solved = solve(columns, left)
-        return Solution(thetas, _all_coefficients(self.model.terms, solved), columns, left - columns @ solved)
+        return Solution(thetas, self.model.coefficients(solved), columns, left - columns @ solved)
 
     def places(self, thetas: Thetas) -> tuple[Place, ...]:
         """Return the searched parameters that vary continuously."""
@@ -168,12 +167,16 @@ def tangents(model: AxisModel, design: Design, solution: Solution, places: Seque
     """Return ∂(Cγ)/∂θ on a design, shape (N, places)."""
     found = np.empty((len(design.position), len(places)))
     for number, place in enumerate(places):
-        effect, gamma = model.terms[place.term].effect, solution.coefficients[place.term]
+        moving = (place.term, *model.followers(place.term, place.column))
         step = _DERIVATIVE * place.spacing
         value = float(solution.thetas[place.term][place.column])
+        shifted = [model.linked(place.at(solution.thetas, value + shift * step)) for shift in (-2, -1, 1, 2)]
         values = [
-            effect.columns(design, place.at(solution.thetas, value + shift * step)[place.term]) @ gamma
-            for shift in (-2, -1, 1, 2)
+            sum(
+                model.terms[index].effect.columns(design, thetas[index]) @ solution.coefficients[index]
+                for index in moving
+            )
+            for thetas in shifted
         ]
         found[:, number] = (values[0] - 8 * values[1] + 8 * values[2] - values[3]) / (12 * step)
     return found
@@ -210,20 +213,6 @@ def _gauss_newton(problem: Problem, best: Solution, places: Sequence[Place]) -> 
 def _squares(solution: Solution) -> float:
     squares = solution.squares
     return squares if np.isfinite(squares) else np.inf
-
-
-def _all_coefficients(terms: Sequence[Term], solved: FloatArray) -> tuple[FloatArray, ...]:
-    """Return γ of every term from those that were solved, side by side, and those that are given."""
-    found = []
-    first = 0
-    for term in terms:
-        gamma = np.array([term.fixed.get(each.name, 0.0) for each in term.effect.linear])
-        free = term.is_solved
-        count = int(np.count_nonzero(free))
-        gamma[free] = solved[first : first + count]
-        first += count
-        found.append(gamma)
-    return tuple(found)
 
 
 def _place(term: int, column: int, values: FloatArray, theta: float) -> Place:

@@ -306,7 +306,8 @@ def deciding_job(experiment: Experiment, job: Job, extends: str) -> dict[str, An
 
 def _written(choice: EffectChoice) -> Any:
     """Return an effect as a job writes it."""
-    own = {**choice.settings.model_dump(mode="json", exclude_unset=True), **choice.values}
+    limits = {name: each.model_dump(exclude_none=True) for name, each in choice.limits.items()}
+    own = {**choice.settings.model_dump(mode="json", exclude_unset=True), **choice.values, **limits}
     return own if choice.is_formula else {choice.identifier: own} if own else choice.identifier
 
 
