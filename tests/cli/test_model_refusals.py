@@ -38,7 +38,7 @@ def test_an_unknown_effect_is_answered_with_the_nearest(shop: Shop) -> None:
 
 def test_an_effect_that_is_there_already_is_refused_where_it_stands(shop: Shop) -> None:
     assert refused(shop, "add", "job.yaml", "backlash") == (
-        "job.yaml:20:7: backlash stands in the model already"
+        "job.yaml:25:7: backlash stands in the model already"
     )
 
 
@@ -47,7 +47,7 @@ def test_an_effect_without_its_condition_is_refused_with_the_column(shop: Shop) 
     text = table.read_text(encoding="utf-8")
     table.write_text(text.replace("screw_temperature", "nut_temperature"), encoding="utf-8")
     assert refused(shop, "add", "job.yaml", "screw-expansion") == (
-        "job.yaml:17:3: screw-expansion cannot be fitted to these readings: no column screw_temperature was "
+        "job.yaml:22:3: screw-expansion cannot be fitted to these readings: no column screw_temperature was "
         "logged beside the readings"
     )
 
@@ -63,7 +63,7 @@ def test_an_effect_that_stands_within_another_is_refused(shop: Shop) -> None:
 
 def test_an_effect_that_explains_nothing_is_refused(shop: Shop) -> None:
     message = refused(shop, "add", "job.yaml", "screw-pitch: {sine: -2.0, cosine: 2.0}")
-    assert message.startswith("job.yaml:17:3: screw-pitch explains nothing here: the error would be ")
+    assert message.startswith("job.yaml:22:3: screw-pitch explains nothing here: the error would be ")
     assert message.endswith("the job was left as it is")
 
 
@@ -71,7 +71,7 @@ def test_too_few_readings_are_refused(shop: Shop) -> None:
     change(shop, (LAST, ""))
     keep(shop, readings=2)
     assert refused(shop, "diagnose", "job.yaml") == (
-        "job.yaml:17:3: the model has 2 parameters to estimate and the test 2 readings; measure more, or "
+        "job.yaml:22:3: the model has 2 parameters to estimate and the test 2 readings; measure more, or "
         "take effects out"
     )
 
@@ -79,7 +79,7 @@ def test_too_few_readings_are_refused(shop: Shop) -> None:
 def test_an_effect_that_is_not_in_the_model_cannot_be_taken_out(shop: Shop) -> None:
     message = refused(shop, "remove", "job.yaml", "backlas")
     assert message.startswith(
-        "job.yaml:17:3: 'backlas' does not stand in the model; did you mean 'backlash'?"
+        "job.yaml:22:3: 'backlas' does not stand in the model; did you mean 'backlash'?"
     )
 
 
