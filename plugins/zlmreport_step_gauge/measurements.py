@@ -1,27 +1,224 @@
-"""From the deviations at the faces of a gauge to a measurement set that any standard evaluates."""
+"""From the deviations at the faces of a gauge to a measurement set, and what it says of itself."""
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterator
 from dataclasses import replace
 from enum import Enum
 
 import numpy as np
 
 from zlmreport.plugin import (
+    MICROMETRE,
+    MICROMETRE_PER_METRE_KELVIN,
+    MICRORADIAN,
+    MILLIMETRE,
     Approach,
     Axis,
+    Correction,
     MeasurementSet,
     Place,
     Provenance,
     Reading,
     SourceFile,
+    Words,
     collect_readings,
 )
-from zlmreport_step_gauge import remarks
-from zlmreport_step_gauge.deviations import Deviations, RadiusSource
+from zlmreport_step_gauge.deviations import Deviations, EffectiveRadius, RadiusSource
 from zlmreport_step_gauge.gauge import Face, Side
+from zlmreport_step_gauge.location import Misalignment
 from zlmreport_step_gauge.probed import Probed
-from zlmreport_step_gauge.set_up import GaugeSetUp
+from zlmreport_step_gauge.set_up import Expansion, GaugeSetUp
+
+INDICATION = Words(
+    en="Sign: deviation = indicated − calibrated position, by how much the machine reads too much (error of "
+    "indication; Pahk and Kim, Eq. 2 and 3). By how much the axis stands too far has the opposite sign.",
+    de="Vorzeichen: Abweichung = angezeigte − kalibrierte Position: um wie viel die Maschine zu viel anzeigt "
+    "(Anzeigeabweichung; Pahk und Kim, Gl. 2 und 3). Um wie viel die Achse zu weit steht, hat das "
+    "entgegengesetzte Vorzeichen.",
+)
+POSITION = Words(
+    en="Sign: deviation = calibrated − indicated position, by how much the axis stands too far when it reads "
+    "a position (actual − target), as the job states. The errors of Pahk and Kim have the opposite sign.",
+    de="Vorzeichen: Abweichung = kalibrierte − angezeigte Position: um wie viel die Achse zu weit steht, "
+    "wenn sie eine Position anzeigt (Ist − Soll), wie im Auftrag angegeben. Die Abweichungen von Pahk und "
+    "Kim haben das entgegengesetzte Vorzeichen.",
+)
+_DIRECTION = Words(
+    en="Direction: ↑ is a front face, touched by a probe that moves from the beginning of the gauge to its "
+    "end; ↓ is a back face, touched the other way. It is the direction of probing, and not that in which the "
+    "axis came to the position.",
+    de="Richtung: ↑ ist eine Vorderfläche, angetastet in der Bewegung vom Anfang des Stufenendmaßes zum "
+    "Ende; ↓ ist eine Rückfläche, angetastet in der Gegenrichtung. Gemeint ist die Antastrichtung und nicht "
+    "die Richtung, aus der die Achse die Position angefahren hat.",
+)
+_LINE = Words(
+    en="Measuring line: C1C2, through the centres of the first and the last block (Pahk and Kim); all points "
+    "were projected on it.",
+    de="Messlinie: C1C2 durch die Mittelpunkte des ersten und des letzten Blocks (Pahk und Kim); alle Punkte "
+    "sind auf sie projiziert.",
+)
+_NO_LOCATION = Words(
+    en="Measuring line: the line through the probed points of one side, for no initial points are stated; "
+    "direction ({direction}).",
+    de="Messlinie: die Gerade durch die angetasteten Punkte einer Seite, da keine Anfangspunkte angegeben "
+    "sind; Richtung ({direction}).",
+)
+_DISTANCES = Words(
+    en="The file gives distances from the reference face: in which direction they were projected, and which "
+    "radius was taken off, it does not tell.",
+    de="Die Datei nennt Abstände von der Bezugsfläche: in welche Richtung projiziert und welcher Radius "
+    "abgezogen wurde, sagt sie nicht.",
+)
+_ASKEW = Words(
+    en="Misalignment: the normal of the face touched at the {which} of the gauge is {angle} µrad off the "
+    "measuring line (standard uncertainty {uncertainty} µrad); {verdict}.",
+    de="Schiefstellung: die Normale der Fläche am {which} des Stufenendmaßes weicht um {angle} µrad von der "
+    "Messlinie ab (Standardunsicherheit {uncertainty} µrad); {verdict}.",
+)
+_BEGIN = Words(en="beginning", de="Anfang")
+_END = Words(en="end", de="Ende")
+_SIGNIFICANT = Words(
+    en="the scatter of the points does not explain it", de="die Streuung der Punkte erklärt das nicht"
+)
+_INSIGNIFICANT = Words(en="the scatter of the points explains it", de="die Streuung der Punkte erklärt das")
+_DETERMINED = Words(
+    en="Effective radius of the probe R_eff = {radius} mm, the mean of {number} blocks (Pahk and Kim, "
+    "Eq. 1), which scatter by {scatter} µm; standard uncertainty of the mean {uncertainty} µm. It holds the "
+    "mean error of the machine within a block and its mean reversal: reversal values are relative to it.",
+    de="Wirksamer Tastkugelradius R_eff = {radius} mm, Mittel über {number} Blöcke (Pahk und Kim, Gl. 1), "
+    "die um {scatter} µm streuen; Standardunsicherheit des Mittels {uncertainty} µm. Er enthält die mittlere "
+    "Abweichung der Maschine innerhalb eines Blocks und ihre mittlere Umkehrspanne: Umkehrspannen sind "
+    "relativ dazu.",
+)
+_STATED = Words(
+    en="Effective radius of the probe R_eff = {radius} mm, as stated; standard uncertainty {uncertainty} µm.",
+    de="Wirksamer Tastkugelradius R_eff = {radius} mm wie angegeben; Standardunsicherheit {uncertainty} µm.",
+)
+_OF_MACHINE = Words(
+    en="Radius of the probe: corrected by the machine.",
+    de="Tastkugelradius: von der Maschine korrigiert.",
+)
+_CANCELS = Words(
+    en="Radius of the probe: all faces are touched from the same side, so that it cancels.",
+    de="Tastkugelradius: alle Flächen werden von derselben Seite angetastet; er hebt sich auf.",
+)
+_FACES = Words(
+    en="Each target position is a face of the gauge and is reached from one side only; what needs both "
+    "directions at one position is not reported by standards that ask for it.",
+    de="Jede Sollposition ist eine Fläche des Stufenendmaßes und nur von einer Seite erreichbar; was beide "
+    "Richtungen an einer Position braucht, wird nach Normen, die das verlangen, nicht angegeben.",
+)
+_BLOCKS = Words(
+    en="Each target position is the middle of a block: ↑ was read at its front face and ↓ at its back face, "
+    "half a block before and behind it. What the error of the axis changes over a block is in the reversal "
+    "values.",
+    de="Jede Sollposition ist die Mitte eines Blocks: ↑ wurde an seiner Vorderfläche und ↓ an seiner "
+    "Rückfläche abgelesen, einen halben Block davor und dahinter. Was sich die Abweichung der Achse über "
+    "einen Block ändert, steckt in den Umkehrspannen.",
+)
+_NOT_COMPENSATED = Words(
+    en="Temperature: the expansion of gauge and scale was not compensated; deviations hold at the "
+    "temperatures of the test.",
+    de="Temperatur: die Ausdehnung von Stufenendmaß und Maßstab wurde nicht kompensiert; die Abweichungen "
+    "gelten bei den Temperaturen der Messung.",
+)
+_TEMPERATURE = Words(en="Thermal expansion", de="Wärmeausdehnung")
+_METHOD = Words(
+    en="lengths of the {what} at the reference temperature, L·α·ΔT",
+    de="Längen {what} bei Bezugstemperatur, L·α·ΔT",
+)
+_OF_GAUGE = Words(en="gauge", de="des Stufenendmaßes")
+_OF_BOTH = Words(en="gauge and of the scale", de="des Stufenendmaßes und des Maßstabs")
+_ONE_EXPANSION = Words(
+    en="{which}: α = {alpha} µm/(m·K), ΔT = {difference} K",
+    de="{which}: α = {alpha} µm/(m·K), ΔT = {difference} K",
+)
+_BOTH_EXPANSIONS = Words(en="{gauge}; {scale}", de="{gauge}; {scale}")
+_GAUGE = Words(en="gauge", de="Stufenendmaß")
+_SCALE = Words(en="scale", de="Maßstab")
+
+
+def remarks(deviations: Deviations, set_up: GaugeSetUp, *, targets_are_blocks: bool) -> Iterator[Words]:
+    """Yield what a reader of the readings must know."""
+    yield _DIRECTION
+    yield from _line(deviations, set_up)
+    yield _radius(deviations.radius)
+    yield _BLOCKS if targets_are_blocks else _FACES
+    if not set_up.gauge_expansion:
+        yield _NOT_COMPENSATED
+
+
+def corrections(deviations: Deviations, set_up: GaugeSetUp) -> Iterator[Correction]:
+    """Yield the compensation of temperatures, if there is one."""
+    gauge, scale = set_up.gauge_expansion, set_up.scale_expansion
+    if gauge is None:
+        return
+    inputs = _expansion(_GAUGE, gauge)
+    if scale:
+        inputs = _BOTH_EXPANSIONS.given(gauge=inputs, scale=_expansion(_SCALE, scale))
+    changed = deviations.compensated
+    yield Correction(
+        _TEMPERATURE,
+        _METHOD.given(what=_OF_BOTH if scale else _OF_GAUGE),
+        inputs,
+        float(changed[np.argmax(np.abs(changed))]),
+    )
+
+
+def _expansion(which: Words, expansion: Expansion) -> Words:
+    return _ONE_EXPANSION.given(
+        which=which,
+        alpha=expansion.coefficient / MICROMETRE_PER_METRE_KELVIN,
+        difference=float(round(expansion.difference, 4)),
+    )
+
+
+def _line(deviations: Deviations, set_up: GaugeSetUp) -> Iterator[Words]:
+    if deviations.direction is None:
+        yield _DISTANCES
+        return
+    if set_up.located is None:
+        yield _NO_LOCATION.given(direction=" / ".join(f"{each:.6f}" for each in deviations.direction))
+        return
+    yield _LINE
+    for which, found in (
+        (_BEGIN, set_up.located.begin_misalignment),
+        (_END, set_up.located.end_misalignment),
+    ):
+        yield _misalignment(which, found)
+
+
+def _misalignment(which: Words, found: Misalignment) -> Words:
+    return _ASKEW.given(
+        which=which,
+        angle=_two_digits(MICRORADIAN.from_si(found.angle)),
+        uncertainty=_two_digits(MICRORADIAN.from_si(found.uncertainty)),
+        verdict=_SIGNIFICANT if found.is_significant else _INSIGNIFICANT,
+    )
+
+
+def _radius(found: EffectiveRadius) -> Words:
+    if found.source is RadiusSource.MACHINE:
+        return _OF_MACHINE
+    if found.source is RadiusSource.NOWHERE:
+        return _CANCELS
+    radius = float(round(MILLIMETRE.from_si(found.radius), 6))
+    uncertainty = _two_digits(MICROMETRE.from_si(found.uncertainty))
+    if found.source is RadiusSource.STATED:
+        return _STATED.given(radius=radius, uncertainty=uncertainty)
+    return _DETERMINED.given(
+        radius=radius,
+        number=len(found.by_block),
+        scatter=_two_digits(MICROMETRE.from_si(found.scatter)),
+        uncertainty=uncertainty,
+    )
+
+
+def _two_digits(value: float) -> float:
+    return value if not value or math.isnan(value) else float(f"{value:.2g}")
+
 
 #: The condition that says which face was touched: +1 a front face, −1 a back face; effects of the error model
 #: know it by this name.
@@ -117,13 +314,10 @@ def measurement_set(  # noqa: PLR0913 - what a set is made of
         source,
         (*files, *set_up.files),
         (
-            remarks.INDICATION if sign is Sign.INDICATION else remarks.POSITION,
-            *remarks.remarks(deviations, set_up, targets_are_blocks=targets is Targets.BLOCKS),
+            INDICATION if sign is Sign.INDICATION else POSITION,
+            *remarks(deviations, set_up, targets_are_blocks=targets is Targets.BLOCKS),
         ),
-        tuple(
-            replace(each, largest=sign.factor * each.largest)
-            for each in remarks.corrections(deviations, set_up)
-        ),
+        tuple(replace(each, largest=sign.factor * each.largest) for each in corrections(deviations, set_up)),
     )
     found = collect_readings(readings, axis, provenance, place=place)
     return replace(

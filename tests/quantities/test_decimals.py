@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from zlmreport.quantities.decimals import decimals_of
+from zlmreport.quantities.arrays import decimals_of
 
 
 @pytest.mark.parametrize(

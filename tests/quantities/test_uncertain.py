@@ -8,8 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from zlmreport.quantities.formatting import DecimalSign
-from zlmreport.quantities.uncertain import rounded_pair
+from zlmreport.quantities.formatting import DecimalSign, rounded_pair
 
 
 @pytest.mark.parametrize(

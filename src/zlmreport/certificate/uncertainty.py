@@ -21,8 +21,7 @@ from zlmreport.certificate.document import (
 )
 from zlmreport.figures.bars import budget_bars
 from zlmreport.language import Words
-from zlmreport.quantities.formatting import percentage
-from zlmreport.quantities.uncertain import rounded_pair
+from zlmreport.quantities.formatting import percentage, rounded_pair
 from zlmreport.quantities.units import MICROMETRE
 from zlmreport.uncertainty import wording
 from zlmreport.uncertainty.budget import Budget, NoBudget

@@ -20,8 +20,7 @@ from zlmreport.model.axis_model import ModelError
 from zlmreport.plane.plane import Plane, plane_of, report
 from zlmreport.plane.surface import Surface
 from zlmreport.plugins import Registry, find_plugins
-from zlmreport.quantities.formatting import MINUS, general_number
-from zlmreport.quantities.uncertain import rounded_pair
+from zlmreport.quantities.formatting import MINUS, general_number, rounded_pair
 
 #: Points of a table where none are asked for: along the axis, and across it.
 _ALONG, _ACROSS = 5, 3

@@ -14,7 +14,7 @@ from zlmreport.job.job import Job
 from zlmreport.language import Words, same
 from zlmreport.measurement.axis import AxisKind
 from zlmreport.measurement.measurement_set import CONDITION_NAMES, CONDITIONS, ConditionKind, MeasurementSet
-from zlmreport.quantities.decimals import decimals_of
+from zlmreport.quantities.arrays import decimals_of
 from zlmreport.quantities.notation import plain
 from zlmreport.quantities.units import Scale
 

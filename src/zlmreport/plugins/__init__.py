@@ -7,8 +7,8 @@ loaded before it is needed.
 
 from __future__ import annotations
 
+from zlmreport.plugins.candidate import DISABLE, FailedPlugin, Plugin
 from zlmreport.plugins.find import FILES, find_plugins
-from zlmreport.plugins.origin import DISABLE, FailedPlugin, Plugin
 from zlmreport.plugins.registry import Offer, Registry, collect
 
 __all__ = ["DISABLE", "FILES", "FailedPlugin", "Offer", "Plugin", "Registry", "collect", "find_plugins"]

@@ -21,8 +21,7 @@ from pathlib import Path
 
 from zlmreport.errors import AccessError, InputError, Place, Problem, ZlmreportError
 from zlmreport.files import Document, cache_folder, write
-from zlmreport.plugins.candidate import Candidate, Key
-from zlmreport.plugins.origin import DISABLE, Plugin, reason_of
+from zlmreport.plugins.candidate import DISABLE, Candidate, Key, Plugin, reason_of
 from zlmreport.plugins.registry import Registry
 from zlmreport.version import __version__
 

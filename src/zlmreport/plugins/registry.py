@@ -12,8 +12,7 @@ from zlmreport.errors import InputError, Place, Problem, ZlmreportError, did_you
 from zlmreport.language import Words
 from zlmreport.plugin import kinds
 from zlmreport.plugin.kinds import KINDS, Kind
-from zlmreport.plugins.candidate import Candidate
-from zlmreport.plugins.origin import DISABLE, FailedPlugin, Plugin
+from zlmreport.plugins.candidate import DISABLE, Candidate, FailedPlugin, Plugin
 
 if TYPE_CHECKING:
     from zlmreport.job.job import ExtensionChoice, Job

@@ -6,7 +6,7 @@ import math
 
 from zlmreport.evaluation.evaluation import Parameter
 from zlmreport.presenting.writer import NOTHING, Writer
-from zlmreport.quantities.uncertain import rounded_pair
+from zlmreport.quantities.formatting import rounded_pair
 
 #: An uncertainty that is none.
 _NONE = "0"

@@ -16,8 +16,7 @@ from zlmreport.model.estimate import Estimate, Plausibility
 from zlmreport.model.fit import Fit
 from zlmreport.model.study import Wave, moves_with_time, waves
 from zlmreport.presenting.writer import NOTHING
-from zlmreport.quantities.formatting import MINUS, general_number
-from zlmreport.quantities.uncertain import rounded_pair
+from zlmreport.quantities.formatting import MINUS, general_number, rounded_pair
 from zlmreport.quantities.units import DEGREE, Unit
 
 _RMS = Words(en="Root mean square error", de="Quadratischer Mittelwert der Abweichungen")

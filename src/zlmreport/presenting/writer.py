@@ -11,8 +11,7 @@ import numpy as np
 from zlmreport.language import Language, Words
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.presenting.marks import NO_MARKS, Marks
-from zlmreport.quantities.arrays import FloatArray
-from zlmreport.quantities.decimals import decimals_of
+from zlmreport.quantities.arrays import FloatArray, decimals_of
 from zlmreport.quantities.formatting import fixed_number, general_number
 from zlmreport.quantities.units import CELSIUS, Scale, Unit
 

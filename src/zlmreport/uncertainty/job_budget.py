@@ -12,8 +12,7 @@ from zlmreport.job.types import along_the_length
 from zlmreport.language import Words, same
 from zlmreport.measurement.axis import AxisKind
 from zlmreport.measurement.measurement_set import MeasurementSet
-from zlmreport.quantities.arrays import FloatArray
-from zlmreport.quantities.decimals import decimals_of
+from zlmreport.quantities.arrays import FloatArray, decimals_of
 from zlmreport.quantities.units import MICROMETRE, MICROMETRE_PER_METRE_KELVIN, MILLIMETRE, Unit
 from zlmreport.uncertainty import terms, wording
 from zlmreport.uncertainty.air import air_contributions

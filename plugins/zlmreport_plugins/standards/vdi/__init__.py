@@ -25,8 +25,8 @@ from zlmreport.plugin import (
     positions_per_scale_element,
     spacing_against_periods,
 )
-from zlmreport_plugins.standards.vdi import figures, formulas, quantities
-from zlmreport_plugins.standards.vdi.guidelines import GUIDELINES, Guideline
+from zlmreport_plugins.standards.vdi import figures, formulas
+from zlmreport_plugins.standards.vdi.guidelines import BY_POSITION, GUIDELINES, Guideline, parameters
 
 _WIDTHS = Words(
     "All parameters are full widths, not ± values. The position spread is {k} times the sum of the standard "
@@ -69,14 +69,14 @@ class VdiGuideline:
 
     position_index = "j"
     options = Options
-    position_quantities = quantities.BY_POSITION
+    position_quantities = BY_POSITION
 
     def __init__(self, guideline: Guideline) -> None:
         self.guideline = guideline
         self.identifier = guideline.identifier
         self.designation = guideline.designation
         self.title = guideline.title
-        self.quantities = quantities.parameters(guideline)
+        self.quantities = parameters(guideline)
         self.notes = notes(guideline)
 
     def requirements(self, measurements: MeasurementSet, options: Options) -> Iterable[Finding]:  # noqa: ARG002 - no keys of its own
