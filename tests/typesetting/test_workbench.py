@@ -13,7 +13,7 @@ _URL = re.compile(r"url\(([^)]+)\)")
 
 
 def test_everything_that_a_page_loads_is_there() -> None:
-    named = {"workbench.js", "workbench.css", "graphs.css", "faces.css", "icon.svg"}
+    named = {"workbench.js", "tokens.css", "workbench.css", "graphs.css", "faces.css", "icon.svg"}
     for name, file in page_files().items():
         if name.endswith((".js", ".css")):
             named.update((_IMPORT if name.endswith(".js") else _URL).findall(file.content.decode()))

@@ -25,7 +25,7 @@ def drawing(image: str) -> Markup:
 
 def overview_style() -> Markup:
     """Return the style sheet of an overview, the typeface in it."""
-    return Markup(f"{font_faces(_embedded)}\n{style_sheet('overview')}")  # noqa: S704 (our own style sheets)
+    return Markup(f"{font_faces(_embedded)}\n{style_sheet('tokens', 'overview')}")  # noqa: S704 (our own style sheets)
 
 
 def overview_script() -> Markup:

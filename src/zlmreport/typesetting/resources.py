@@ -57,6 +57,7 @@ def font_faces(address: Callable[[Face], str]) -> str:
 
 _WORKBENCH = "workbench"
 _FACES = "faces.css"
+_TOKENS = "tokens.css"
 _MEDIA_TYPES = {".css": "text/css", ".js": "text/javascript", ".svg": "image/svg+xml", ".woff2": "font/woff2"}
 
 
@@ -82,6 +83,7 @@ def page_files() -> dict[str, PageFile]:
         if each.is_file() and _suffix(each.name) in _MEDIA_TYPES
     }
     found |= {f"{face.stem}.woff2": font(f"{face.stem}.woff2") for face in FACES}
+    found[_TOKENS] = style_sheet("tokens").encode()
     found[_FACES] = font_faces(lambda face: f"{face.stem}.woff2").encode()
     return {name: PageFile(content, _MEDIA_TYPES[_suffix(name)]) for name, content in found.items()}
 
