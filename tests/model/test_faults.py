@@ -145,3 +145,12 @@ def test_effect_of_reversed_shape_is_no_lagging_sensor() -> None:
     shape = hidden(_DESIGN, "air-index", model=_MODEL)
     found = diagnose(_MODEL, observations(_DESIGN, noise(_DESIGN, seed=0) - shape), INSTALLED)
     assert found.faults == ()
+
+
+def test_temperature_that_stands_still_lags_behind_nothing() -> None:
+    design = linear_test(11, 5)
+    warm = replace(design, conditions={"axis_temperature": np.full(len(design.time), 298.15)})
+    deviation = 14e-6 * design.position + noise(design)
+    found = diagnose(model_of("offset"), observations(warm, deviation), INSTALLED)
+    assert {each.identifier for each in found.candidates[:2]} == {"scale-error", "scale-expansion"}
+    assert found.faults == ()

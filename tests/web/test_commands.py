@@ -10,6 +10,8 @@ import pytest
 from starlette.testclient import TestClient
 
 from processes import awaited
+from web.jobs import registry
+from zlmreport.job.loading import load
 
 _DEMANDED = "which table was active during this test"
 
@@ -107,3 +109,36 @@ def test_what_no_page_sends_begins_nothing(browser: TestClient, wanted: Any) -> 
 def test_there_is_nothing_else_to_make(browser: TestClient) -> None:
     assert browser.get("/api/made/fleet").status_code == 404
     assert browser.post("/api/made/fleet", json={}).status_code == 404
+
+
+@pytest.fixture
+def tied(job: Path) -> Path:
+    """Return the job where the axis was always at 25 °C: its scale is too long, or has grown."""
+    readings = job.with_name("x-axis.csv")
+    lines = [
+        line.split(",")[:6] for line in readings.read_text(encoding="utf-8").splitlines() if line[0] != "#"
+    ]
+    table = [cells if cells[0] == "target" else [*cells[:5], "25.00"] for cells in lines]
+    readings.write_text("\n".join(map(",".join, table)), encoding="utf-8")
+    text = job.read_text(encoding="utf-8").replace("    - scale-error\n", "    - screw-pitch\n")
+    job.write_text(text, encoding="utf-8")
+    return job
+
+
+def test_the_experiment_that_decides_a_tie_is_told_with_the_diagnosis_and_its_job_written(
+    tied: Path, browser: TestClient
+) -> None:
+    found = awaited(lambda: browser.get("/api/diagnosis?lang=en").json().get("diagnosis"))
+    experiment = found["experiment"]
+    assert experiment["effects"] == ["scale-error", "scale-expansion"]
+    assert "3 K" in experiment["statement"]
+    state = made(browser, "experiment", effects=experiment["effects"])
+    assert state["files"] == ["EXAMPLE-2026-0007-decide.yaml"], state
+    written = load(tied.with_name("EXAMPLE-2026-0007-decide.yaml"), registry())
+    assert written.keys.plan is not None
+    assert made(browser, "experiment", effects=experiment["effects"])["state"] == "failed"  # it is there
+
+
+def test_no_experiment_is_made_of_what_is_no_effect(browser: TestClient) -> None:
+    answer = browser.post("/api/made/experiment", json={"effects": ["--output", "/"]})
+    assert answer.status_code == 422

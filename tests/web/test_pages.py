@@ -17,6 +17,8 @@ from web.jobs import EXAMPLE, registry
 from zlmreport import pipeline
 from zlmreport.job.loading import load
 from zlmreport.language import Language, same
+from zlmreport.measurement.approach import Approach
+from zlmreport.model.design import at_positions
 from zlmreport.model.faults import Fault, FaultKind
 from zlmreport.model.residuals import Failure, ResidualTest
 from zlmreport.model.study import Study
@@ -70,6 +72,25 @@ def test_the_model_is_drawn_with_its_uncertainty_in_both_directions(page: dict[s
     for curve in page["graphs"]["model"]:
         assert np.all(np.less(curve["low"], curve["y"]))
         assert np.all(np.less(curve["y"], curve["high"]))
+
+
+def test_a_part_of_the_model_is_drawn_as_finely_as_the_whole(browser: TestClient, study: Study) -> None:
+    fitted = study.fitted().fit
+    found = browser.get("/api/closer", params={"low": 200, "high": 201.5}).json()
+    assert len(found["model"]) == len(Approach)
+    for curve in found["model"]:
+        x = np.array(curve["x"])
+        assert (x[0], x[-1]) == (200, 201.5)
+        assert len(x) >= 480
+        at = at_positions(fitted.design, 1e-3 * x, Approach(curve["direction"]))
+        assert curve["y"] == pytest.approx(1e6 * fitted.value_at(at), abs=2e-6)
+
+
+@pytest.mark.parametrize(
+    "ends", [{"low": 3, "high": 3}, {"low": -9, "high": -8}, {"low": "a", "high": 2}, {}]
+)
+def test_a_part_that_there_is_not_is_said(browser: TestClient, ends: dict[str, Any]) -> None:
+    assert browser.get("/api/closer", params=ends).status_code == 422
 
 
 def test_standards_say_what_is_and_what_would_be(page: dict[str, Any]) -> None:

@@ -10,11 +10,15 @@ const SERIES = [["up", "upwards"], ["down", "downwards"], ["model-up", "modelUp"
 const MODES = [["zoom", "modeZoom"], ["move", "modeMove"], ["select", "modeSelect"]];
 const SHADES = 6;
 const ROWS = 500;
+const REST = 150;
 
 export class Graphs {
-  /** `texts` are the words of the page, `number` writes numbers, `exclude` sets readings aside for a reason. */
-  constructor(texts, number, exclude) {
-    Object.assign(this, { texts, number, exclude });
+  /**
+   * `texts` are the words of the page, `number` writes numbers, `exclude` sets readings aside for a reason, and
+   * `closer` returns the model's curves on a part of the axis, drawn for that part; either may be missing.
+   */
+  constructor(texts, number, exclude, closer) {
+    Object.assign(this, { texts, number, exclude, closer });
     this.over = "position";
     this.shade = "direction";
     this.ranges = new Map();
@@ -26,6 +30,7 @@ export class Graphs {
     this.shown = [];
     this.step = null;
     this.others = [];
+    this.near = null;
     this.above = this.#plot("above", texts.measured);
     this.below = this.#plot("below", texts.residuals);
     this.choice = h("select", { id: "over", change: () => this.#switch(this.choice.value) });
@@ -59,6 +64,7 @@ export class Graphs {
     this.marked = null;
     this.boxed = [];
     this.step = null;
+    this.near = null;
     delete this.reading.dataset.form;
     this.graphs = graphs;
     this.axes = new Map(graphs.axes.map((axis) => [axis.key, axis]));
@@ -93,6 +99,7 @@ export class Graphs {
     this.ranges.clear();
     this.spans.clear();
     if (this.axes.has(axis)) this.#switch(axis);
+    this.near = null;
     this.shown = this.#indices(places);
     this.#draw();
     this.element.scrollIntoView({ block: "nearest", behavior: "smooth" });
@@ -156,7 +163,7 @@ export class Graphs {
     const position = this.axes.get("position");
     const alike = { direction: readings.direction, fitted: readings.fitted, alternative: graphs.alternative, hidden: this.hidden, shades: this.#shades() };
     this.above.show({
-      ...alike, x: position.values, y: readings.deviation, curves: step ? step.after.model : graphs.model, others: this.others, noise: null,
+      ...alike, x: position.values, y: readings.deviation, curves: step ? step.after.model : this.near?.model ?? graphs.model, others: this.others, noise: null,
       ghost: step && { curves: step.before.model, y: readings.deviation },
       range: this.ranges.get("position") ?? null, span: this.spans.get("above") ?? null,
       xTitle: titled(position), yTitle: `${graphs.deviation} (${graphs.unit})`,
@@ -209,7 +216,23 @@ export class Graphs {
       if (look.y) this.spans.set(name, look.y);
       else this.spans.clear();
     }
+    this.near = null;
     this.#draw();
+    this.#look();
+  }
+
+  /** Have the model drawn anew for the part of the axis that is in sight, once nothing moves any more. */
+  #look() {
+    clearTimeout(this.waiting);
+    const range = this.ranges.get("position");
+    if (!range || !this.closer) return;
+    const { graphs } = this;
+    this.waiting = setTimeout(async () => {
+      const near = await this.closer(range);
+      if (near === null || this.graphs !== graphs || this.ranges.get("position") !== range) return;
+      this.near = near;
+      this.#draw();
+    }, REST);
   }
 
   #mark(index) {

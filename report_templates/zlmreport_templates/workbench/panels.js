@@ -79,10 +79,20 @@ export function candidates(texts, found, actions) {
     h("ol", { class: "candidates" }, grouped(serious).map((group) => h("li", { class: look(group) },
       group.map((each) => candidate(texts, each, actions)),
       group[0].equals.length > 0 && h("p", { class: "equals" }, group.length > 1 ? texts.alike : `${texts.equals}: ${group[0].equals.join(", ")}.`),
-      group[0].tell && h("p", { class: "tell" }, h("strong", {}, `${texts.tell}: `), group[0].tell)))),
+      !found.experiment && group[0].tell && h("p", { class: "tell" }, h("strong", {}, `${texts.tell}: `), group[0].tell)))),
     rest.length > 0 && h("ul", { class: "others" }, rest.map((each) => h("li", {},
       about(each.effect), h("span", { class: "quiet" }, ` ${each.probability} · ${each.rmsAfter}`), add(texts, each, actions)))),
     found.notExcluded.length > 0 && h("p", { class: "quiet" }, `${texts.notExcluded}: ${found.notExcluded.join(", ")}`),
+  ];
+}
+
+/** The experiment that would decide the first tie, with the button that writes its job. */
+export function experiment(texts, found, made, number, actions) {
+  if (!found) return [];
+  return [
+    h("h2", {}, texts.experiment), h("p", {}, found.statement),
+    found.job && made?.state !== "making" && h("button", { type: "button", "data-key": "experiment", click: () => actions.make("experiment", { effects: found.effects }) }, texts.writeJob),
+    ...progress(texts, made, number, texts.simulating),
   ];
 }
 

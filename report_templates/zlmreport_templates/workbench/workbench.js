@@ -10,6 +10,7 @@ import { Refusal, Silence, get, post } from "./server.js";
 
 const LOOK = 1500;
 const ASK = 250;
+const PLACES = { certificate: "certificate", table: "compensation", confirmation: "compensation", experiment: "experiment" };
 const NESTED = new Set(["lacking", "certificate"]);
 
 class Page {
@@ -31,16 +32,16 @@ class Page {
       make: (name, wanted) => { this.wanted[name] = wanted; this.#make(name, wanted); },
       noTable: () => this.#change({ action: "state", stated: { "axis.compensation_table": "none" } }),
     };
-    this.graphs = new Graphs(texts, this.number, (readings, reason) => this.#change({ action: "exclude", readings, reason }));
+    this.graphs = new Graphs(texts, this.number, (readings, reason) => this.#change({ action: "exclude", readings, reason }), (range) => this.#closer(range));
     this.comparison = new Comparison(texts, this.number, (curves) => this.graphs.overlay(curves));
     this.notice = h("div", { class: "notice", role: "alert", hidden: true });
     this.header = h("header", {}, h("p", { role: "status" }, texts.working));
-    this.parts = Object.fromEntries(["verdict", "fall", "faults", "failures", "candidates", "hidden", "compensation", "lacking", "certificate", "effects", "standards", "excluded", "steps"]
+    this.parts = Object.fromEntries(["verdict", "fall", "faults", "failures", "candidates", "experiment", "hidden", "compensation", "lacking", "certificate", "effects", "standards", "excluded", "steps"]
       .map((name) => [name, h("section", { class: NESTED.has(name) ? false : "panel", id: `part-${name}` })]));
-    const { verdict, fall, faults, failures, candidates, hidden, compensation, lacking, certificate, effects, standards, excluded, steps } = this.parts;
+    const { verdict, fall, faults, failures, candidates, experiment, hidden, compensation, lacking, certificate, effects, standards, excluded, steps } = this.parts;
     document.body.replaceChildren(this.header, this.notice, h("main", {},
       h("div", { class: "bench" }, h("div", { class: "always" }, verdict, fall), h("div", { class: "seen" }, this.graphs.element, this.comparison.element, effects, standards),
-      h("div", { class: "findings" }, faults, failures, candidates, hidden, compensation, h("div", { class: "panel", id: "part-document" }, certificate, lacking), excluded, steps))));
+      h("div", { class: "findings" }, faults, failures, candidates, experiment, hidden, compensation, h("div", { class: "panel", id: "part-document" }, certificate, lacking), excluded, steps))));
   }
 
   /** Show the job as it is, and go on looking whether it still is. */
@@ -93,6 +94,17 @@ class Page {
     }
   }
 
+  /** Return the model's curves on a part of the axis; null where it is another model now. */
+  async #closer([low, high]) {
+    try {
+      const near = await get("/api/closer", { low, high });
+      return near.stamp === this.stamp ? near : null;
+    } catch (error) {
+      if (error instanceof Refusal || error instanceof Silence) return null; // what is wrong is said already
+      throw error;
+    }
+  }
+
   /** Show other tests of the axis beside that of the job. */
   async #compare(stamp) {
     try {
@@ -126,12 +138,20 @@ class Page {
     if (found?.faults.length) this.graphs.ring(found.faults.flatMap((each) => each.readings));
     fill(parts.failures, found ? panels.failures(texts, found, (axis, places) => this.graphs.point(axis, places)) : []);
     fill(parts.candidates, found ? panels.candidates(texts, found, this.actions) : []);
+    this.#showExperiment();
     fill(parts.hidden, found ? panels.hidden(texts, found) : []);
     document.body.dataset.state = found ? found.verdict : "working";
   }
 
+  #showExperiment() {
+    const made = this.made.get("experiment");
+    const current = made && { ...made, current: made.stamp === this.stamp };
+    fill(this.parts.experiment, panels.experiment(this.texts, this.diagnosis?.diagnosis?.experiment, current, this.number, this.actions));
+  }
+
   #showMade() {
     const { texts, parts, job, actions } = this;
+    this.#showExperiment();
     const made = Object.fromEntries([...this.made].map(([name, each]) => [name, { ...each, current: each.stamp === this.stamp }]));
     fill(parts.certificate, panels.certificate(texts, job, made.certificate, this.wanted, this.number, actions));
     fill(parts.compensation, panels.compensation(texts, job, made, this.wanted, this.number, actions));
@@ -155,7 +175,7 @@ class Page {
   #keep(name, found) {
     const before = this.made.get(name)?.state;
     this.made.set(name, found);
-    const waits = this.parts[name === "certificate" ? "certificate" : "compensation"].querySelector(".progress span");
+    const waits = this.parts[PLACES[name]].querySelector(".progress span");
     if (before === "making" && found.state === "making" && waits) waits.textContent = said(this.texts.seconds, { seconds: this.number(found.seconds) });
     else this.#showMade();
   }

@@ -180,25 +180,27 @@ def graphs(study: Study, whole: Fitted, language: Language) -> dict[str, Any]:
             "residual": _values(unit.from_si(left)),
             "fitted": fitted.tolist(),
         },
-        "model": list(_model(diagram)),
+        "model": model_curves(diagram),
         "noise": unit.from_si(SPREAD * diagram.noise),
         "alternative": over_position(diagram).alternative.in_language(language),
     }
 
 
-def _model(diagram: ModelDiagram) -> Iterator[dict[str, Any]]:
-    """Yield the model with its expanded uncertainty, for each direction; nothing for a model of no effect."""
+def model_curves(diagram: ModelDiagram) -> list[dict[str, Any]]:
+    """Return the model with its U for each direction; nothing for a model of no effect."""
     if not diagram.fit.model.terms:
-        return
+        return []
     (panel,) = estimate(diagram).panels
-    for approach, curve, band in zip(diagram.approaches, panel.curves, panel.bands, strict=True):
-        yield {
+    return [
+        {
             "direction": int(approach),
             "x": _values(curve.x),
             "y": _values(curve.y),
             "low": _values(band.lower),
             "high": _values(band.upper),
         }
+        for approach, curve, band in zip(diagram.approaches, panel.curves, panel.bands, strict=True)
+    ]
 
 
 def _axes(study: Study, language: Language) -> Iterator[dict[str, Any]]:

@@ -97,7 +97,8 @@ def _decide(options: Namespace, job: Job, registry: Registry) -> int:
     if options.json:
         values = experiment_values(experiment, job, Language.ENGLISH)
         print_json({"schema": DECISION, **values, "files": [str(path) for path in written]})
-    elif experiment.plan and not options.output:
+        return 0
+    if experiment.plan and not options.output:
         print(text, end="")
     else:
         print(*wrapped(said(experiment.statement), ""), sep="\n")

@@ -50,10 +50,13 @@ class ModelDiagram:
         The model with the readings.
     error
         How far they are apart.
+    span
+        The part of the travel over which the model is drawn, m or rad; without it all that was measured.
     """
 
     fit: Fit
     error: ErrorNumbers
+    span: tuple[float, float] | None = None
 
     @property
     def design(self) -> Design:
@@ -188,7 +191,7 @@ def estimate(diagram: ModelDiagram) -> Figure:
     curves, bands, sentences = [], [], []
     largest = 0.0
     for approach in diagram.approaches:
-        positions = curve_positions(fit, approach)
+        positions = curve_positions(fit, approach, diagram.span)
         x = read_only_floats(axis.position_unit.from_si(positions))
         found = fit.predict(at_positions(diagram.design, positions, approach))
         value, half = found.deviation, found.expanded_uncertainty

@@ -29,7 +29,7 @@ _BESIDE = 1e-9
 _GOLDEN = (5.0**0.5 - 1.0) / 2.0
 
 
-def curve_positions(fitted: Fit, approach: Approach) -> FloatArray:
+def curve_positions(fitted: Fit, approach: Approach, span: tuple[float, float] | None = None) -> FloatArray:
     """Return the positions of the curve of a model, rising, m or rad, shape (M,).
 
     Parameters
@@ -38,11 +38,16 @@ def curve_positions(fitted: Fit, approach: Approach) -> FloatArray:
         The model.
     approach
         A direction in which it was measured.
+    span
+        The part of the travel that is drawn, m or rad; without it all that was measured.
     """
     design = fitted.design
     pairs = list(zip(fitted.model.terms, fitted.solution.thetas, strict=True))
     return _positions(
-        pairs, design, design.span, lambda places: fitted.value_at(at_positions(design, places, approach))
+        pairs,
+        design,
+        span or design.span,
+        lambda places: fitted.value_at(at_positions(design, places, approach)),
     )
 
 
@@ -76,7 +81,9 @@ def _positions(
 ) -> FloatArray:
     first, last = span
     shortest = min((_scale(term, theta) for term, theta in pairs), default=np.inf)
-    joints = [place for term, theta in pairs for place in _joints(term, theta, design)]
+    joints = [
+        place for term, theta in pairs for place in _joints(term, theta, design) if first < place < last
+    ]
     wanted = _PER_PERIOD * (last - first) / shortest
     if wanted <= _POSITIONS:
         found = np.linspace(first, last, _POSITIONS)

@@ -177,11 +177,15 @@ def lagging_sensors(fitted: Fit, rivals: Sequence[Fit], effects: Iterable[Effect
         log = design.conditions[name]
         rate = np.interp(design.time, moments, np.gradient(log[first], moments))
         for effect in _followers(effects, design, name):
+            # What follows the log as it stands, as it does one that stands still, tells of no lag.
+            as_logged = _squares_left(
+                np.column_stack([base, effect.columns(design, effect.grid(design)[0])]), fitted.open_deviation
+            )
             for lag in _LAGS:
                 corrected = replace(design, conditions={**design.conditions, name: log + lag * rate})
                 columns = np.column_stack([base, effect.columns(corrected, effect.grid(corrected)[0])])
                 left = _squares_left(columns, fitted.open_deviation)
-                if left > enough:
+                if left > enough or readings * np.log(as_logged / max(left, 1e-12 * as_logged)) < _LAGGING:
                     continue
                 found.append((readings * float(np.log(least / max(left, 1e-12 * least))), name, lag))
     if not found:

@@ -23,7 +23,7 @@ from zlmreport.plugins import Registry
 from zlmreport.typesetting.contexts import WorkbenchContext
 from zlmreport.typesetting.resources import page_file
 from zlmreport.typesetting.templates import render
-from zlmreport.web.bench import Bench
+from zlmreport.web.bench import PLACE, Bench
 from zlmreport.web.changes import ConflictError, NothingToUndoError, Request, change
 from zlmreport.web.commands import Commands, Wanted
 from zlmreport.web.comparison import Comparison
@@ -33,7 +33,7 @@ from zlmreport.web.guard import HOST, Door, Guard
 from zlmreport.web.making import page_picture
 from zlmreport.web.remembered import Answers
 from zlmreport.web.texts import texts
-from zlmreport.web.view import before_and_after, results, view
+from zlmreport.web.view import before_and_after, closer, results, view
 
 _OTHER_PAGE = "the request is none of a page of this version"
 _TITLE = Words(en="Workbench", de="Werkbank")
@@ -91,6 +91,7 @@ class Workbench:
             Route("/api/job", self.job),
             Route("/api/results", self.results),
             Route("/api/step", self.step),
+            Route("/api/closer", self.closer),
             Route("/api/tests", self.tests),
             Route("/api/diagnosis", self.diagnosis),
             Route("/api/diagnosis/stop", self.stop, methods=["POST"]),
@@ -159,6 +160,18 @@ class Workbench:
 
         return await self._answered(request, found)
 
+    async def closer(self, request: HttpRequest) -> Response:
+        """Answer with the curves of the model on the part of the travel that a page shows."""
+
+        def found() -> dict[str, Any]:
+            try:
+                ends = float(request.query_params["low"]), float(request.query_params["high"])
+            except (KeyError, ValueError) as error:
+                raise InputError.at(PLACE, _OTHER_PAGE) from error
+            return closer(self.bench, self.bench.loaded(), ends)
+
+        return await self._answered(request, found)
+
     async def tests(self, request: HttpRequest) -> Response:
         """Answer with the other tests of the axis beside that of the job."""
         return await self._answered(request, lambda: self.comparison.values(self._language(request)))
@@ -186,7 +199,7 @@ class Workbench:
             effect = request.path_params["effect"]
             values = effect_page(self.bench, self.bench.loaded(), effect, self._language(request))
             if values is None:
-                raise InputError.at(Place("workbench"), f"there is no effect {effect[:60]!r}")
+                raise InputError.at(PLACE, f"there is no effect {effect[:60]!r}")
             return values
 
         return await self._answered(request, found)

@@ -23,7 +23,8 @@ from zlmreport.model.sessions import with_zeros
 from zlmreport.model.study import Fitted, Study, addition
 from zlmreport.plugins import Registry
 
-_PLACE = Place("workbench")
+#: Where mistakes stand that are made on the page.
+PLACE = Place("workbench")
 #: Fits that are kept: more than anybody tries in an hour, and few enough for any memory.
 _KEPT_FITS = 64
 
@@ -173,7 +174,7 @@ class Bench:
         """
         with self.lock:
             job, installed = loaded.job, self.registry.effects
-            named, removed = addition(text, job, self.registry, installed, _PLACE)
+            named, removed = addition(text, job, self.registry, installed, PLACE)
             kept = (each for each in job.effects if each.identifier not in removed)
             effects = (*kept, named.choice)
             by_identifier = {each.identifier: each for each in installed}

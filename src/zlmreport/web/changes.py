@@ -14,7 +14,7 @@ from typing import Annotated
 
 from pydantic import BaseModel, ConfigDict, StringConstraints, ValidationError
 
-from zlmreport.errors import InputError, Place, Problem
+from zlmreport.errors import InputError, Problem
 from zlmreport.job.edit import Edit, edit_effects
 from zlmreport.job.edit_items import ParameterChoice, edit_parameter, exclude, include
 from zlmreport.job.edit_keys import edit_keys
@@ -24,11 +24,10 @@ from zlmreport.language import Words
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.model.study import Fitted, addition, refuse_useless
 from zlmreport.web.asked import asked
-from zlmreport.web.bench import Bench, Loaded
+from zlmreport.web.bench import PLACE, Bench, Loaded
 from zlmreport.web.journal import REDO, UNDO, Entry, Journal, entry, redoable, undoable
 from zlmreport.web.lacking import lacking
 
-_PLACE = Place("workbench")
 _KEY = "model.effects"
 _TABLE = "axis.compensation_table"
 _NOTHING = "fill in a field first"
@@ -126,7 +125,7 @@ def change(bench: Bench, request: Request) -> None:
         if request.based_on != loaded.digest:
             raise ConflictError
         if request.action not in ACTIONS:
-            raise InputError.at(_PLACE, f"there is no action {request.action[:60]!r}")
+            raise InputError.at(PLACE, f"there is no action {request.action[:60]!r}")
         before = bench.whole(loaded)
         content = loaded.job.files[0].content or b""
         step = ACTIONS[request.action](bench, loaded, request)
@@ -139,7 +138,7 @@ def change(bench: Bench, request: Request) -> None:
 
 def _add(bench: Bench, loaded: Loaded, request: Request) -> _Step:
     registry = bench.registry
-    named, removed = addition(request.effect, loaded.job, registry, registry.effects, _PLACE)
+    named, removed = addition(request.effect, loaded.job, registry, registry.effects, PLACE)
     edit = edit_effects(bench.path, loaded.job, registry, add=named, remove=removed)
     added = named.choice.identifier
     refuse_useless(added, bench.whole(loaded), _tried(bench, loaded, edit), loaded.job)
@@ -156,7 +155,7 @@ def _remove(bench: Bench, loaded: Loaded, request: Request) -> _Step:
 
 def _fix(bench: Bench, loaded: Loaded, request: Request) -> _Step:
     if request.value is None or not math.isfinite(request.value):
-        raise InputError.at(_PLACE, "a parameter is fixed at a number; write one, such as 4.2")
+        raise InputError.at(PLACE, "a parameter is fixed at a number; write one, such as 4.2")
     return _with_parameter(bench, loaded, request, request.value)
 
 
@@ -175,12 +174,12 @@ def _exclude(bench: Bench, loaded: Loaded, request: Request) -> _Step:
     measurements = loaded.measurements
     wrong = [each for each in request.readings if not 0 <= each < len(measurements.deviation)]
     if wrong or not request.readings:
-        raise InputError.at(_PLACE, f"there is no reading {wrong[0]}" if wrong else "choose a reading first")
+        raise InputError.at(PLACE, f"there is no reading {wrong[0]}" if wrong else "choose a reading first")
     try:
         exclusions = [_exclusion(measurements, each, request.reason) for each in request.readings]
     except ValidationError as error:
         raise InputError.at(
-            _PLACE, "a reading is set aside for a reason: one line that others can read"
+            PLACE, "a reading is set aside for a reason: one line that others can read"
         ) from error
     edit = exclude(bench.path, loaded.job, bench.registry, exclusions)
     _tried(bench, loaded, edit)
@@ -203,7 +202,7 @@ def _exclusion(measurements: MeasurementSet, reading: int, reason: str) -> Exclu
 def _include(bench: Bench, loaded: Loaded, request: Request) -> _Step:
     listed = loaded.job.keys.measurement.excluded
     if not 0 <= request.listed < len(listed):
-        raise InputError.at(_PLACE, "this reading is not set aside")
+        raise InputError.at(PLACE, "this reading is not set aside")
     edit = include(bench.path, loaded.job, bench.registry, request.listed)
     _tried(bench, loaded, edit)
     return _Step(edit, _named(listed[request.listed]))
@@ -213,11 +212,11 @@ def _state(bench: Bench, loaded: Loaded, request: Request) -> _Step:
     units = _asked_for(bench, loaded)
     unasked = [key for key in request.stated if key not in units]
     if unasked or not request.stated:
-        raise InputError.at(_PLACE, f"the job is not asked for {unasked[0][:60]!r}" if unasked else _NOTHING)
+        raise InputError.at(PLACE, f"the job is not asked for {unasked[0][:60]!r}" if unasked else _NOTHING)
     wrong = [key for key, value in request.stated.items() if not _is_value(value)]
     if wrong:
         raise InputError(
-            Problem(_PLACE, f"{key}: write a number such as 10, or a line of text") for key in wrong
+            Problem(PLACE, f"{key}: write a number such as 10, or a line of text") for key in wrong
         )
     edit = edit_keys(bench.path, loaded.job, bench.registry, request.stated, units)
     _tried(bench, loaded, edit)

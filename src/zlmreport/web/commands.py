@@ -1,4 +1,4 @@
-"""What a page can have made: the job's documents, a compensation table, a second test held against it."""
+"""What a page can have made: documents, a compensation table, a second test held against it, the next job."""
 
 from __future__ import annotations
 
@@ -9,12 +9,11 @@ from typing import Annotated, Any
 
 from pydantic import BaseModel, ConfigDict, Field, StringConstraints
 
-from zlmreport.errors import InputError, Place
+from zlmreport.errors import InputError
 from zlmreport.language import Language
-from zlmreport.web.bench import Bench, Loaded
-from zlmreport.web.making import Making, compensation, documents
+from zlmreport.web.bench import PLACE, Bench, Loaded
+from zlmreport.web.making import Making, documents, values
 
-_PLACE = Place("workbench")
 _SUFFIXES = {".yaml", ".yml"}
 #: Jobs beside this one that are offered as its second test.
 _MOST = 200
@@ -35,6 +34,8 @@ class Wanted(BaseModel):
         Of the table: between its rows, mm or degrees; the targets without it.
     unconfirmed
         Of the table: whether a format that nobody tried on its control may be written.
+    effects
+        Of the experiment: those that it is to tell apart.
     after
         Of the confirmation: the file of the second test's job, in the folder of this one.
     """
@@ -45,6 +46,7 @@ class Wanted(BaseModel):
     controller: ShortText = ""
     step: float | None = Field(None, gt=0, allow_inf_nan=False)
     unconfirmed: bool = False
+    effects: tuple[ShortText, ...] = ()
     after: ShortText = ""
 
 
@@ -57,7 +59,7 @@ class Commands:
     bench
         The job.
     making
-        What is under way or done, by its name: ``certificate``, ``table`` or ``confirmation``.
+        What is under way or done, by its name: ``certificate``, ``table``, ``confirmation``, ``experiment``.
     """
 
     bench: Bench
@@ -66,7 +68,7 @@ class Commands:
     @classmethod
     def of(cls, bench: Bench, plugins: Sequence[Path]) -> Commands:
         """Return the commands of a job."""
-        readers = {"certificate": documents, "table": compensation, "confirmation": compensation}
+        readers = {"certificate": documents, "table": values, "confirmation": values, "experiment": values}
         return cls(bench, {name: Making(read, plugins) for name, read in readers.items()})
 
     def begin(self, name: str, wanted: Wanted) -> dict[str, Any]:
@@ -75,7 +77,7 @@ class Commands:
         Raises
         ------
         InputError
-            If a format, a control or a second test is none that the page offered.
+            If a format, a control, an effect or a second test is none that the page offered.
         """
         loaded, path = self.bench.loaded(), self.bench.path
         if name == "certificate":
@@ -83,6 +85,16 @@ class Commands:
         elif name == "table":
             folder = str(loaded.job.directory.resolve())
             arguments = ["compensate", str(path.resolve()), *self._control(wanted), "--output", folder]
+        elif name == "experiment":
+            decide = ",".join(self._effects(wanted))
+            arguments = [
+                "plan",
+                str(path.resolve()),
+                "--decide",
+                decide,
+                "--output",
+                str(path.resolve().parent),
+            ]
         else:
             _demand(wanted.after, siblings(path), "job")
             tests = (str(each.resolve()) for each in (path, path.with_name(wanted.after)))
@@ -104,6 +116,11 @@ class Commands:
         for each in wanted.formats:
             _demand(each, [renderer.identifier for renderer in self.bench.registry.renderers], "format")
         return ["--format", ",".join(wanted.formats)] if wanted.formats else []
+
+    def _effects(self, wanted: Wanted) -> Sequence[str]:
+        for each in wanted.effects:
+            _demand(each, [effect.identifier for effect in self.bench.registry.effects], "effect")
+        return wanted.effects
 
     def _control(self, wanted: Wanted) -> list[str]:
         _demand(wanted.controller, [each.identifier for each in self.bench.registry.controllers], "control")
@@ -152,4 +169,4 @@ def offered(bench: Bench, loaded: Loaded, language: Language) -> dict[str, Any]:
 
 def _demand(name: str, known: Sequence[str], what: str) -> None:
     if name not in known:
-        raise InputError.at(_PLACE, f"there is no {what} {name[:60]!r}")
+        raise InputError.at(PLACE, f"there is no {what} {name[:60]!r}")

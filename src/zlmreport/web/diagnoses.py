@@ -21,6 +21,7 @@ from typing import Any
 
 from zlmreport.errors import ZlmreportError
 from zlmreport.language import Language
+from zlmreport.planning.deciding import experiment_of_tie, experiment_values
 from zlmreport.plugins import Registry, find_plugins
 from zlmreport.web.bench import Bench
 from zlmreport.web.remembered import Answers
@@ -147,16 +148,21 @@ def main() -> None:
 
 
 def answer(bench: Bench, registry: Registry) -> dict[str, Any]:
-    """Return the diagnosis of the job in all languages, and of which content of its files it is."""
+    """Return the diagnosis of the job in all languages, what decides its tie, and of which content it is."""
     try:
         loaded = bench.loaded()
-        diagnosis = loaded.study.diagnosis(registry.effects)
+        study = loaded.study
+        diagnosis = study.diagnosis(registry.effects)
+        experiment = experiment_of_tie(study, diagnosis, registry.effects)
     except ZlmreportError as error:
         return {"problems": [str(each) for each in error.problems]}
     return {
         "content": loaded.content,
         "diagnosis": {
-            language.value: diagnosed(diagnosis, loaded.study, registry.effects, language)
+            language.value: {
+                **diagnosed(diagnosis, study, registry.effects, language),
+                "experiment": experiment and experiment_values(experiment, loaded.job, language),
+            }
             for language in Language
         },
     }

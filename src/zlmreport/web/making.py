@@ -56,13 +56,13 @@ def documents(output: str, complaints: str) -> Made:
     return Made(tuple(map(Path, job["files"])), tuple(problems))
 
 
-def compensation(output: str, complaints: str) -> Made:
-    """Return what ``zlmreport compensate JOB.yaml --json`` came to, by what it printed."""
+def values(output: str, complaints: str) -> Made:
+    """Return what another command came to, by the values that it printed; what it wrote is among them."""
     try:
-        values = json.loads(output)
+        found = json.loads(output)
     except ValueError:
         return Made(problems=_lines(complaints))
-    return Made(tuple(map(Path, values.get("files", ()))), (), values)
+    return Made(tuple(map(Path, found.get("files", ()))), (), found)
 
 
 def _lines(complaints: str) -> tuple[str, ...]:

@@ -131,6 +131,9 @@ TEXTS: Mapping[str, Words] = MappingProxyType(
         ),
         "equals": Words(en="Not to be told from", de="Nicht zu unterscheiden von"),
         "tell": Words(en="What would tell them apart", de="Was sie unterscheiden würde"),
+        "experiment": Words(en="The next experiment", de="Der nächste Versuch"),
+        "writeJob": Words(en="Write its job", de="Seinen Auftrag schreiben"),
+        "simulating": Words(en="Plans are being simulated …", de="Pläne werden simuliert …"),
         "diagnosing": Words(
             en="Every installed effect is being tried …", de="Jeder installierte Einfluss wird geprüft …"
         ),

@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from zlmreport.certificate.linked import failure_values, graphs
+from zlmreport.certificate.linked import failure_values, graphs, model_curves
+from zlmreport.errors import InputError
+from zlmreport.figures.model_diagram import ModelDiagram
 from zlmreport.job.job import Job
 from zlmreport.language import Language, Words, same
 from zlmreport.model.diagnosis import Diagnosis
@@ -14,7 +16,7 @@ from zlmreport.model.faults import Fault
 from zlmreport.model.study import Study
 from zlmreport.presenting.diagnosis import CandidateRow, DiagnosisRows
 from zlmreport.web.asked import asked
-from zlmreport.web.bench import Bench, Loaded
+from zlmreport.web.bench import PLACE, Bench, Loaded
 from zlmreport.web.commands import offered
 from zlmreport.web.journal import REDO, UNDO, Entry, Journal, redoable, undoable
 from zlmreport.web.lacking import field_values, lacking
@@ -122,6 +124,29 @@ def before_and_after(bench: Bench, loaded: Loaded, step: str, language: Language
         name: {"model": each["model"], "residual": each["readings"]["residual"]}
         for name, each in zip(("before", "after"), drawn, strict=True)
     }
+
+
+def closer(bench: Bench, loaded: Loaded, ends: tuple[float, float]) -> dict[str, Any]:
+    """Return the curves of the model on a part of the travel, as finely as that part needs.
+
+    Parameters
+    ----------
+    bench, loaded
+        The job.
+    ends
+        Of the part: positions in the unit of the page.
+
+    Raises
+    ------
+    InputError
+        If there is no such part.
+    """
+    whole, unit = bench.whole(loaded), loaded.job.axis.position_unit
+    first, last = whole.fit.design.span
+    low, high = (min(max(unit.to_si(each), first), last) for each in ends)
+    if not low < high:
+        raise InputError.at(PLACE, "nothing was measured there")
+    return {"stamp": loaded.stamp, "model": model_curves(ModelDiagram(whole.fit, whole.error, (low, high)))}
 
 
 def step(entry: Entry, language: Language) -> dict[str, str]:
