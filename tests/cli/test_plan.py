@@ -286,9 +286,10 @@ def test_job_that_decides_is_printed_or_written(folder: Path, capsys: Capture) -
     assert "next: zlmreport plan next/PLAN-1-decide.yaml" in capsys.readouterr().out
     assert main(["plan", "next/PLAN-1-decide.yaml", "--json"]) == 0
     assert json.loads(capsys.readouterr().out)["certificate"]["number"] == "PLAN-1-decide"
-    assert main([*asked, "--json"]) == 0
+    assert main([*asked, "--json", "--output", "again"]) == 0
     found = json.loads(capsys.readouterr().out)
     assert found["schema"] == "zlmreport/decision/1"
+    assert found["files"] == ["again/PLAN-1-decide.yaml"]
     assert found["decides"] >= 0.95
     assert found["minutes"] > found["job"]["plan"]["pause"]["minutes"]
 
