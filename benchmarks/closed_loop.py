@@ -22,9 +22,11 @@ from zlmreport.emulation.emulator import Scene
 from zlmreport.job.simulation import load_simulation
 from zlmreport.plugins import find_plugins
 from zlmreport.simulation.files import description_of
-from zlmreport.simulation.machine import emulated_machine
+from zlmreport.simulation.machine import EmulatedMachine, emulated_machine
 
 sys.path.append(str(Path(__file__).parents[1] / "tests"))
+sys.path.append(str(Path(__file__).parent))
+import on_linuxcnc
 from capture.virtual import PORT, World, inhabited
 
 _ROOT = Path(__file__).parents[1]
@@ -116,8 +118,12 @@ def _captured(job: Path, machine: str) -> None:
     path.write_text(machine, encoding="utf-8")
     registry = find_plugins()
     description = description_of(load_simulation(path, registry), registry.effect)
-    moving = emulated_machine(description, _LEAD)
-    emulator = registry.instrument("umd2").emulator(Scene(moving))
+    _capture(job, emulated_machine(description, _LEAD))
+
+
+def _capture(job: Path, moving: EmulatedMachine | on_linuxcnc.ScrewDriven) -> None:
+    """Capture a test before what moves."""
+    emulator = find_plugins().instrument("umd2").emulator(Scene(moving))
     with inhabited(World(emulator, moving.duration + 2 * _LEAD)):
         _run("capture", job)
 
@@ -133,11 +139,29 @@ def _run(*arguments: Any, expected: int = 0) -> str:
     return printed.getvalue()
 
 
-def main(arguments: list[str] | None = None) -> None:
+def _on_linuxcnc() -> int:
+    """Close the loop on LinuxCNC; return 1 if it does not do what it should."""
+    if not on_linuxcnc.is_here():
+        print("skipped: LinuxCNC is not installed (Debian's package linuxcnc-uspace)")
+        return 0
+    with TemporaryDirectory() as name:
+        try:
+            found = on_linuxcnc.closed(Path(name), PORT, _run, _capture)
+        except on_linuxcnc.DoesNotRunError as error:
+            print(f"skipped: LinuxCNC does not run here:\n{error}")
+            return 0
+    for key, value in found.items():
+        print(f"{key:20}{value:8.2f} µm" if isinstance(value, float) else f"{key:20}{value}")
+    return 0 if on_linuxcnc.is_as_it_should_be(found) else 1
+
+
+def main(arguments: list[str] | None = None) -> int:
     """Close the loop, and say what came of it."""
     parser = argparse.ArgumentParser(prog="./run closed-loop", description=__doc__)
     parser.add_argument("--record", type=Path, metavar="DIR", help="leave journals and table in a folder")
-    record = parser.parse_args(arguments).record
+    parser.add_argument("--on-linuxcnc", action="store_true", help="then on the real control, too: 6 minutes")
+    options = parser.parse_args(arguments)
+    record = options.record
     with TemporaryDirectory() as name:
         folder = Path(name)
         loop = closed(folder)
@@ -148,8 +172,9 @@ def main(arguments: list[str] | None = None) -> None:
     print(f"E without a table       {loop.before:8.2f} µm")
     print(f"E that was forecast     {low:8.2f} to {high:.2f} µm")
     print(f"E with the table        {loop.after:8.2f} µm  {loop.verdict}")
-    print(f"E with the wrong sign   {loop.wrong_after:8.2f} µm  {loop.wrong}")
+    print(f"E with the wrong sign   {loop.wrong_after:8.2f} µm  {loop.wrong}", flush=True)
+    return _on_linuxcnc() if options.on_linuxcnc else 0
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

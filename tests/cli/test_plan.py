@@ -213,6 +213,21 @@ def test_part_programs_of_the_command_line_stand_instead_of_the_jobs(folder: Pat
 
 
 @pytest.mark.usefixtures("folder")
+def test_the_program_of_a_run_that_is_taken_again_stands_alone(folder: Path, capsys: Capture) -> None:
+    (folder / "job.yaml").write_text(job_text(), encoding="utf-8")
+    command = ["plan", "job.yaml", "--program", "linuxcnc", "--output", "plan"]
+    assert main(command) == 0
+    assert main([*command, "--run", "2"]) == 0
+    program = next((folder / "plan").glob("*-run-2.ngc")).read_text(encoding="ascii")
+    assert " run 2)" in program
+    assert " run 1)" not in program
+    capsys.readouterr()
+    assert main([*command, "--run", "9"]) == 2
+    assert "there is no run 9: state 1 to 5" in capsys.readouterr().err
+    assert main(["plan", "job.yaml", "--run", "2"]) == 2
+    assert "state --program NAME and --output DIR" in capsys.readouterr().err
+
+
 def test_part_programs_that_wait_for_a_folder_are_told(lines: Callable[..., str]) -> None:
     text = lines(("plan: {}", "plan: {programs: [linuxcnc, fanuc]}"))
     assert "part programs for linuxcnc, fanuc: state a folder, --output DIR" in text

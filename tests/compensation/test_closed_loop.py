@@ -6,13 +6,21 @@ import json
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from environments import ROOT
 from zlmreport.cli import main
+from zlmreport.compensation.basis import Basis
+from zlmreport.compensation.confirmation import ConfirmationVerdict, confirm
+from zlmreport.compensation.curve import ErrorCurve, table_of
+from zlmreport.errors import Place
+from zlmreport.measurement.axis import Axis
+from zlmreport.quantities.arrays import FloatArray
 
 sys.path.append(str(ROOT / "benchmarks"))
 import closed_loop
+import on_linuxcnc
 
 EXAMPLE = ROOT / "configs" / "closed-loop"
 
@@ -37,3 +45,34 @@ def test_the_recorded_journals_hold_the_forecast(capsys: pytest.CaptureFixture[s
     jobs = [str(EXAMPLE / f"{name}.yaml") for name in ("before", "after")]
     assert main(["compensate", "--confirm", *jobs, "--json"]) == 0
     assert json.loads(capsys.readouterr().out)["verdict"] == "held"
+
+
+def test_the_axis_behind_the_control_has_its_play_and_its_screw(tmp_path: Path) -> None:
+    motor = tmp_path / "motor.txt"
+    np.savetxt(motor, [*range(101), *range(99, 49, -1)])
+    axis = on_linuxcnc.ScrewDriven.behind(motor)
+    forward, back = (axis.position(cycle * 1e-3) for cycle in (50, 150))
+    assert forward - 0.05 == pytest.approx(on_linuxcnc.screw(0.05) - 6e-6, abs=0.1e-6)
+    assert back - forward == pytest.approx(12e-6, abs=0.1e-6)
+
+
+def test_a_second_test_between_the_targets_is_held_against_all_that_is_known() -> None:
+    place, axis = Place("test"), Axis("X")
+
+    def wave(positions: FloatArray) -> FloatArray:
+        return np.stack([5e-6 * np.sin(positions / 0.03), 5e-6 * np.sin(positions / 0.03)])
+
+    def curve(positions: FloatArray, left: float) -> ErrorCurve:
+        forward, reverse = left * wave(positions)
+        return ErrorCurve(
+            positions, forward, reverse, np.full((2, len(positions)), 1e-8), 2, is_bidirectional=True
+        )
+
+    targets = np.linspace(0, 0.3, 5)
+    none, between = np.zeros((2, 5)), targets[:-1] + 0.04
+    before = curve(targets, 1.0)
+    basis = Basis(before, wave, wave, none, 1.0, np.empty((10, 0)), None)
+    rows = np.linspace(0, 0.3, 61)
+    table = table_of(wave(rows), rows, axis, "TEST", place)
+    assert confirm(basis, curve(between, 0.0), table, place).verdict is ConfirmationVerdict.HELD
+    assert confirm(basis, curve(between, 1.0), table, place).verdict is ConfirmationVerdict.OTHER

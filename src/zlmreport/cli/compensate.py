@@ -161,7 +161,7 @@ def _confirm(options: Namespace, registry: Registry) -> int:
     before, after = (load(path, registry) for path in options.jobs)
     made, _ = _made(before, registry, options)
     curve = curve_of(pipeline.read(after, registry), after.source.place)
-    found = confirm(made.basis.curve, curve, made.decoded, after.source.place)
+    found = confirm(made.basis, curve, made.decoded, after.source.place)
     shown = figures(np.stack([curve.forward, curve.reverse]), curve)
     written: Sequence[Path] = ()
     if options.output and after.keys.as_found is None:

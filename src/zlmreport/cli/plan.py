@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import os
 from argparse import Namespace
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -15,7 +15,7 @@ from zlmreport.capture.of_job import options_of
 from zlmreport.cli.plan_files import SIGNS, chosen_programs, plan_files, program_files
 from zlmreport.cli.plan_lines import plan_lines
 from zlmreport.cli.terminal import Colour, print_json, said, shown_path, wrapped
-from zlmreport.errors import AccessError
+from zlmreport.errors import AccessError, InputError, Place
 from zlmreport.files import Document, demand_free, write
 from zlmreport.job.job import ExtensionChoice, Job
 from zlmreport.job.loading import load
@@ -25,13 +25,14 @@ from zlmreport.model.effect import unit_of
 from zlmreport.model.study import Study
 from zlmreport.planning.deciding import deciding_experiment, deciding_number, deciding_text, experiment_values
 from zlmreport.planning.planned_test import PlannedTest, planned_test
-from zlmreport.planning.programs import motion_of
+from zlmreport.planning.programs import Motion, motion_of
 from zlmreport.planning.targets import in_users_unit
 from zlmreport.planning.visibility import Remedy, SeenEffect
 from zlmreport.plugin.extension import Extension, ExtensionPlan
 from zlmreport.plugins import Registry, find_plugins
 
 SCHEMA, DECISION = "zlmreport/plan/1", "zlmreport/decision/1"
+_RUN = Place("zlmreport plan --run")
 
 
 def run(options: Namespace) -> int:
@@ -41,20 +42,31 @@ def run(options: Namespace) -> int:
     if options.decide:
         return _decide(options, job, registry)
     own = _plan_of_extension(job, registry)
+    if own and options.run is not None:
+        raise InputError.at(_RUN, "this plan has no runs of its own; leave it out")
     if own:
         return _show_plan(options, job, registry, own)
     programs = chosen_programs(
         options.program, options.output, job.programs, registry.part_program, registry.programs_for()
     )
+    if options.run is not None and (not programs or not options.output):
+        raise InputError.at(
+            _RUN, "the program of a run is a file; state --program NAME and --output DIR, too"
+        )
     planned = planned_test(job, pipeline.standards(job, registry), registry.effects)
     documents: tuple[Document, ...] = ()
     if options.output:
         number = job.keys.certificate.number
         motion = partial(motion_of, number, job.axis, planned.proposal.plan)
-        documents = (
-            *plan_files(options.output, job, planned),
-            *program_files(options.output, number, motion, programs, registry.part_program),
-        )
+        if options.run is None:
+            documents = (
+                *plan_files(options.output, job, planned),
+                *program_files(options.output, number, motion, programs, registry.part_program),
+            )
+        else:
+            of_run = f"{number}-run-{options.run}"
+            subject = partial(_motion_of_run, motion, options.run)
+            documents = program_files(options.output, of_run, subject, programs, registry.part_program)
     demand_free(document.path for document in documents)
     written = write(documents)
     if options.json:
@@ -106,6 +118,10 @@ def _decide(options: Namespace, job: Job, registry: Registry) -> int:
         print(shown_path(path))
         print(f"next: zlmreport plan {shown_path(path)}")
     return 0
+
+
+def _motion_of_run(motion: Callable[[Place], Motion], run: int, place: Place) -> Motion:
+    return motion(place).of_run(run)
 
 
 def plan_values(job: Job, planned: PlannedTest, written: Sequence[Path]) -> dict[str, Any]:

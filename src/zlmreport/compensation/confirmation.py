@@ -7,6 +7,7 @@ from enum import StrEnum
 
 import numpy as np
 
+from zlmreport.compensation.basis import Basis
 from zlmreport.compensation.curve import CompensationTable, ErrorCurve
 from zlmreport.errors import InputError, Place
 from zlmreport.quantities.arrays import FloatArray
@@ -52,13 +53,15 @@ class Confirmation:
     shift: float = 0.0
 
 
-def confirm(before: ErrorCurve, after: ErrorCurve, table: CompensationTable, place: Place) -> Confirmation:
+def confirm(basis: Basis, after: ErrorCurve, table: CompensationTable, place: Place) -> Confirmation:
     """Hold a second test against the table that the first one gave.
 
     Parameters
     ----------
-    before, after
-        The two tests; the table is active in the second one only.
+    basis
+        What is known of the axis from the first test; between its targets, too.
+    after
+        The second test, with the table active.
     table
         As the control reads it.
     place
@@ -69,13 +72,14 @@ def confirm(before: ErrorCurve, after: ErrorCurve, table: CompensationTable, pla
     InputError
         If the two tests have no common length.
     """
+    before = basis.curve
     inside = (after.positions >= before.positions[0] - 1e-9) & (
         after.positions <= before.positions[-1] + 1e-9
     )
     positions = after.positions[inside]
     if len(positions) < 2:
         raise InputError.at(place, "has no two targets within the length of the test before")
-    was = np.stack([np.interp(positions, before.positions, e) for e in (before.forward, before.reverse)])
+    was = basis.known(positions)
     is_now = np.stack([after.forward, after.reverse])[:, inside]
     removed = was - is_now  # but for a constant: each test has its own zero
     ratio = float(np.ptp(is_now) / np.ptp(was)) if np.ptp(was) else 1.0

@@ -139,6 +139,27 @@ class Motion:
         rounded = (replace(stop, position=round(stop.position, decimals) + 0.0) for stop in self.stops)
         return replace(self, stops=tuple(self._from_their_sides(_moving(rounded), decimals)))
 
+    def of_run(self, run: int) -> Motion:
+        """Return the motion of one run, for a restart: from the start of the test, and back to it.
+
+        Raises
+        ------
+        InputError
+            If there is no such run, or the method reads a target in several runs before the next.
+        """
+        indices = [index for index, stop in enumerate(self.stops) if stop.reading and stop.reading.run == run]
+        if not 1 <= run <= self.runs:
+            raise InputError.at(self.place, f"there is no run {run}: state 1 to {self.runs}")
+        inside = self.stops[indices[0] : indices[-1] + 1]
+        if any(stop.reading and stop.reading.run != run for stop in inside):
+            raise InputError.at(
+                self.place,
+                f"the {self.method.value} method mixes the runs: no single one can be taken again",
+            )
+        start, before = self.stops[0], replace(self.stops[indices[0] - 1], begins="", reading=None)
+        stops = (start, before, *inside, ProgramStop(start.position))
+        return replace(self, stops=tuple(_moving(stops)))
+
     def _from_their_sides(self, stops: Iterable[ProgramStop], decimals: int) -> Iterator[ProgramStop]:
         """Yield stops; refuse a reading that no motion in its direction leads to."""
         before = None
@@ -291,6 +312,9 @@ def heading(motion: Motion) -> Iterator[str]:
     """Yield the remarks at the head of a program: plain ASCII, each beginning with a word of its own."""
     unit = motion.axis.position_unit.ascii
     runs = "1 run" if motion.runs == 1 else f"{motion.runs} runs"
+    included = {stop.reading.run for stop in motion.stops if stop.reading}
+    if len(included) < motion.runs:
+        runs = f"run {', '.join(map(str, sorted(included)))} of {motion.runs}"
     readings = sum(stop.reading is not None for stop in motion.stops)
     yield f"job {_plain(motion.number)}"
     yield f"axis {_plain(motion.axis.name)}, {motion.method.value} method, {runs}, {readings} readings"

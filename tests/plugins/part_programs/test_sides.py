@@ -47,11 +47,31 @@ def test_all_motion_has_the_feed_of_the_plan(control: str) -> None:
 
 @methods
 def test_interpreter_of_linuxcnc_makes_the_same_moves(method: Method, tmp_path: Path) -> None:
-    """Run the program through LinuxCNC's own interpreter, where that is installed."""
+    text = written("linuxcnc", sample_motion(method))
+    assert _interpreted(text, tmp_path) == linuxcnc(text).stops
+
+
+@controls
+@pytest.mark.parametrize("method", [Method.LINEAR, Method.UNIDIRECTIONAL])
+def test_a_run_has_a_program_of_its_own_from_the_datum_and_back(control: str, method: Method) -> None:
+    whole = sample_motion(method, runs=3)
+    machine = CONTROLS[control](written(control, whole.of_run(2)))
+    assert machine.waits == [machine.stops[0][0]] == [machine.stops[-1][0]] == [whole.stops[0].position]
+    readings = [stop for stop in whole.stops if stop.reading and stop.reading.run == 2]
+    assert [here for here, rest in machine.stops if rest] == [stop.position for stop in readings]
+
+
+def test_interpreter_of_linuxcnc_runs_a_single_run(tmp_path: Path) -> None:
+    text = written("linuxcnc", sample_motion(Method.LINEAR, runs=3).of_run(3))
+    assert "run 3 of 3" in text
+    assert _interpreted(text, tmp_path) == linuxcnc(text).stops
+
+
+def _interpreted(text: str, tmp_path: Path) -> list[tuple[float, float]]:
+    """Return the stops of a program by LinuxCNC's own interpreter, where that is installed."""
     rs274 = shutil.which("rs274")
     if rs274 is None:
         pytest.skip("LinuxCNC's stand-alone interpreter, rs274, is not installed")
-    text = written("linuxcnc", sample_motion(method))
     (tmp_path / "test.ngc").write_text(text, encoding="ascii")
     for name in ("variables", "tools"):
         (tmp_path / name).touch()
@@ -62,7 +82,7 @@ def test_interpreter_of_linuxcnc_makes_the_same_moves(method: Method, tmp_path: 
             stops.append((float(first), 0.0))
         else:
             stops[-1] = stops[-1][0], float(first)
-    assert stops == linuxcnc(text).stops
+    return stops
 
 
 @controls

@@ -49,6 +49,12 @@ def plan(command: str) -> CommandParser:
         help="with --output: part programs, parted by commas, instead of the job's: linuxcnc,fanuc",
     )
     parser.add_argument(
+        "--run",
+        metavar="N",
+        type=int,
+        help="write only the programs of one run, for a run that is taken again",
+    )
+    parser.add_argument(
         "--json",
         action="store_true",
         help="print the plan as JSON (zlmreport/plan/1, or that of an extension)",
