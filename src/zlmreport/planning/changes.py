@@ -132,7 +132,7 @@ def further_changes(axis: Axis, plan: Plan, seed: int, period: float | None) -> 
         yield _by_method(Method.PENDULUM, None)
     if plan.method in RUN_BY_RUN:
         yield from (_pause(column, minutes) for column, minutes in _WARMING)
-    longer = _LONGER * plan.dwell
+    longer = float(round(_LONGER * plan.dwell)) or plan.dwell
     yield Change("dwell", None, _REST.given(seconds=f"{longer:g}"), lambda each: replace(each, dwell=longer))
     yield Change(
         "overrun",

@@ -31,7 +31,7 @@ from zlmreport.planning.changes import Change, further_changes, together, within
 from zlmreport.planning.methods import RUN_BY_RUN
 from zlmreport.planning.plan import Expected, Plan, beyond_travel
 from zlmreport.planning.visibility import expected_design, logs_of
-from zlmreport.quantities.arrays import BoolArray, FloatArray, read_only_floats
+from zlmreport.quantities.arrays import FloatArray, read_only_floats
 
 #: The probability from which on an experiment is taken to decide, and below which none is advised.
 _ENOUGH, _NOT_WORTH_IT = 0.95, 0.5
@@ -252,11 +252,12 @@ class Experiment:
 
 @dataclass(frozen=True, slots=True)
 class _Option:
-    """A plan with what led to it, and how often it decides."""
+    """A plan with what led to it, how often it decides, and by how much of evidence in nine of ten tests."""
 
     changes: tuple[Change, ...]
     plan: Plan
     decides: float = 0.0
+    margin: float = -np.inf
 
 
 def next_experiment(
@@ -282,13 +283,15 @@ def next_experiment(
     changes = tuple(further_changes(question.axis, plan, seed, _period(question)))
     options = [looked(each) for each in _options(question.axis, plan, [(), *((one,) for one in changes)])]
     if all(each.decides < _ENOUGH for each in options):
-        leading = sorted(options, key=lambda each: -each.decides)[:_COMBINED]
+        leading = sorted(options, key=_surest)[:_COMBINED]
         single = [each.changes[0] for each in leading if each.changes]
-        pairs = [pair for pair in combinations(single, 2) if pair[0].of != pair[1].of]
-        options += [looked(each) for each in _options(question.axis, plan, pairs)]
+        several = [each for count in (2, 3) for each in combinations(single, count)]
+        apart = [each for each in several if len({change.of for change in each}) == len(each)]
+        options += [looked(each) for each in _options(question.axis, plan, apart)]
     promising = [each for each in options if each.decides >= _ENOUGH]
-    order = sorted(promising, key=lambda each: each.plan.duration)
-    order += sorted((each for each in options if each not in promising), key=lambda each: -each.decides)
+    surest = sorted(options, key=_surest)
+    order = [*sorted(promising, key=lambda each: each.plan.duration)[:1], *surest]
+    order = [each for number, each in enumerate(order) if each not in order[:number]]
     tried: list[_Option] = []
     for option in order[:_BEST] if order[0].decides >= _NOT_WORTH_IT else order[:1]:
         tried.append(_thorough(question, expected, effects, seed, option))
@@ -296,6 +299,10 @@ def next_experiment(
             break
     best = max(tried, key=lambda each: each.decides)
     return _experiment(question, expected, best, len(options))
+
+
+def _surest(option: _Option) -> tuple[float, float]:
+    return -option.decides, -option.margin
 
 
 def _of_moderate_size(plan: Plan) -> Plan:
@@ -334,7 +341,8 @@ def _glance(question: Question, expected: Expected, seed: int, option: _Option) 
     if len(visible) < len(question.rivals):
         return option
     comparison = Comparison.quick(design, question.base(design), visible, question.ratios)
-    return replace(option, decides=_decided(question, design, comparison, _SETS, seed))
+    decides, margin = _decided(question, design, comparison, _SETS, seed)
+    return replace(option, decides=decides, margin=margin)
 
 
 def _thorough(
@@ -348,11 +356,13 @@ def _thorough(
     own = [each.effect for each in question.rivals]
     forms = [*own, *(each for each in others if each.identifier not in question.names)]
     comparison = Comparison.quick(design, question.base(design), forms)
-    return replace(option, decides=_decided(question, design, comparison, _SETS_OF_THE_BEST, seed))
+    return replace(option, decides=_decided(question, design, comparison, _SETS_OF_THE_BEST, seed)[0])
 
 
-def _decided(question: Question, design: Design, comparison: Comparison, sets: int, seed: int) -> float:
-    """Return the share of simulated tests that are decided rightly, each truth as likely as it is.
+def _decided(
+    question: Question, design: Design, comparison: Comparison, sets: int, seed: int
+) -> tuple[float, float]:
+    """Return the share of tests that are decided rightly, truths as likely as they are; and the margin.
 
     By P. S. Laplace's rule of succession: what went well n times in n is not certain.
     """
@@ -365,28 +375,35 @@ def _decided(question: Question, design: Design, comparison: Comparison, sets: i
     bases = comparison.bases
     places = {bases.families[forms[0]].effect.identifier: row for row, forms in enumerate(bases.by_effect)}
     total = weight = 0.0
+    margin = np.inf
     for rival in question.rivals:
         weight += rival.probability
         if rival.effect.identifier not in places:
+            margin = -np.inf
             continue
         grid = rival.effect.grid(design)
         true = np.column_stack([rival.deviation(design, grid, random) for _ in range(sets)])
         evidence, nameless = comparison.evidence(true + sigma * noise, question.known)
-        right = _right(evidence, nameless, places, rival.effect.identifier, question.names)
-        total += rival.probability * (np.count_nonzero(right) + 1) / (sets + 2)
-    return float(total / weight) if weight else 0.0
+        lead = _lead(evidence, nameless, places, rival.effect.identifier, question.names)
+        total += rival.probability * (np.count_nonzero(lead > 0) + 1) / (sets + 2)
+        margin = min(margin, float(np.quantile(lead, 0.1)))
+    return (float(total / weight), margin) if weight else (0.0, -np.inf)
 
 
-def _right(
+def _lead(
     evidence: FloatArray, nameless: FloatArray, places: Mapping[str, int], truth: str, rivals: Sequence[str]
-) -> BoolArray:
-    """Return in which sets the truth leads, or is told from nothing but effects that nobody asks about."""
+) -> FloatArray:
+    """Return by how much more evidence than it needs the truth leads in each set.
+
+    It must surpass its rivals clearly, and no effect that nobody asks about may surpass it so.
+    """
     own = evidence[places[truth]]
     margins = np.full(len(evidence), -MENTION)
     margins[[places[name] for name in rivals if name in places]] = MENTION
     others = np.delete(evidence + margins[:, np.newaxis], places[truth], axis=0)
     shapes = nameless.max(axis=0, initial=-np.inf) + NAMED
-    return np.asarray((own > np.maximum(others.max(axis=0, initial=-np.inf), shapes)) & (own > MENTION))
+    needed = np.maximum(others.max(axis=0, initial=-np.inf), shapes)
+    return np.asarray(own - np.maximum(needed, MENTION), dtype=np.float64)
 
 
 def _experiment(question: Question, expected: Expected, best: _Option, count: int) -> Experiment:
