@@ -35,11 +35,11 @@ def words(request, files):
 
 def section(words, standard):
     """Return the words from the heading of one standard's section to that of the next."""
-    starts = [
-        at
-        for at in range(len(words))
-        if words[at : at + 2] == ["Results", "by"] and words[at + 2] != "target"
-    ]
+    headings = {}  # to where each stands first: the head of a page says it again
+    for at in range(len(words)):
+        if words[at : at + 2] == ["Results", "by"] and words[at + 2] != "target":
+            headings.setdefault(tuple(words[at : at + 4]), at)
+    starts = list(headings.values())
     assert len(starts) == len(STANDARDS)
     starts.append(len(words))
     return words[starts[STANDARDS.index(standard)] : starts[STANDARDS.index(standard) + 1]]
