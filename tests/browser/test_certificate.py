@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
+import pypdfium2
 import pytest
 from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import Browser, Page, expect
@@ -100,3 +101,36 @@ def test_on_paper_there_is_nothing_to_point_at(window: Window, file: Path) -> No
     page = window(file.as_uri())
     page.emulate_media(media="print")
     expect(page.locator("#linked")).to_be_hidden()
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("width", [390, 1024, 1440])
+def test_it_is_read_on_any_screen(window: Window, file: Path, width: int, scheme: str) -> None:
+    page = window(file.as_uri(), viewport={"width": width, "height": 844}, color_scheme=scheme)
+    expect(page.locator(".plot .mark").first).to_be_visible()
+    assert page.evaluate("document.documentElement.scrollWidth") <= width
+    edges = page.locator(".stacks td").evaluate_all("all => all.map(e => e.getBoundingClientRect().right)")
+    assert edges
+    assert max(edges) <= width
+    found = Axe().run(page)
+    assert found.violations_count == 0, found.generate_report()
+
+
+def test_a_phone_shows_the_results_first(window: Window, file: Path) -> None:
+    page = window(file.as_uri(), viewport={"width": 390, "height": 844})
+    top = "e => e.getBoundingClientRect().top"
+    results, facts = (page.locator(f".cover > {each}").first.evaluate(top) for each in (".wide", ".facts"))
+    assert results < facts
+    label = page.locator(".cover .stacks td").nth(1).evaluate("e => getComputedStyle(e, '::before').content")
+    assert "Value (µm)" in label
+
+
+def test_on_paper_it_is_paged_as_the_pdf_is(window: Window, file: Path) -> None:
+    page = window(file.as_uri(), color_scheme="dark")
+    printed = pypdfium2.PdfDocument(page.pdf(prefer_css_page_size=True))
+    texts = [each.get_textpage().get_text_range() for each in printed]
+    for number, text in enumerate(texts, 1):
+        assert f"page {number} of {len(texts)}" in text
+        assert "Measuring Report EXAMPLE-2026-" in text
+    corner = printed[0].render(scale=0.2).to_numpy()[0, 0]
+    assert tuple(corner[:3]) == (255, 255, 255), "a dark screen is no dark paper"

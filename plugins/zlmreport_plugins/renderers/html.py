@@ -9,7 +9,7 @@ from __future__ import annotations
 from base64 import b64encode
 from functools import lru_cache
 
-from zlmreport.plugin import Certificate, Words, hookimpl
+from zlmreport.plugin import Certificate, PageWords, Words, hookimpl
 
 #: The drawings set their look in attributes, so styles inside the page are allowed.
 _ALLOWED = (
@@ -41,11 +41,13 @@ class HtmlRenderer:
         logo = letterhead.logo if letterhead else None
         script = _script() if certificate.linked else ""
         setting = HtmlSetting(
-            style=_style(certificate.paper, certificate.look.accent, with_linked=bool(script)),
+            style=_style(certificate.paper, certificate.look.accent, with_linked=bool(script))
+            + _foot(certificate.page_words),
             drawings=tuple(figure_to_svg(figure, certificate.language) for figure in certificate.figures),
             logo=_data_address(logo, letterhead.logo_type) if letterhead and logo else "",
             policy=_policy(script),
             script=script,
+            is_for_screens=True,
         )
         return compose_html(certificate, setting).encode()
 
@@ -62,6 +64,22 @@ def _style(paper: str, accent: str, *, with_linked: bool) -> str:
     faces = font_face_rules(lambda face: _data_address(font_file(f"{face.stem}.woff2"), "font/woff2"))
     sheets = f"{faces}\n{style_sheet('certificate', 'screen', paper, accent=accent)}"
     return f"{sheets}\n{linked_style()}" if with_linked else sheets
+
+
+def _foot(words: PageWords) -> str:
+    """Return the rule for the foot of pages that a browser prints: number of the document and of the page."""
+    number, page, of = (_css_text(each) for each in (words.number, f"{words.page} ", f" {words.of} "))
+    return (
+        f"\n@page {{ @bottom-left {{ content: {number}; font: 7.5pt sans-serif }} "
+        f"@bottom-right {{ content: {page} counter(page) {of} counter(pages); font: 7.5pt sans-serif }} }}"
+    )
+
+
+def _css_text(text: str) -> str:
+    """Return a text as CSS has it, every sign that could mean anything in CSS or HTML as its number."""
+    return (
+        '"' + "".join(each if each.isalnum() or each == " " else f"\\{ord(each):06x}" for each in text) + '"'
+    )
 
 
 def _script() -> str:

@@ -57,6 +57,8 @@ class Setting:
         Address of the logo.
     policy
         Content security policy; empty where the document is none for a browser.
+    is_for_screens
+        Whether its tables stack their cells where a screen is narrow, and can be scrolled by keys.
     script
         Shows the linked graphs; empty where nothing is run, and then the document has none.
     """
@@ -66,6 +68,7 @@ class Setting:
     logo: str = LOGO_ADDRESS
     policy: str = ""
     script: str = ""
+    is_for_screens: bool = False
 
 
 def compose(certificate: Certificate, setting: Setting = Setting()) -> str:
@@ -150,7 +153,10 @@ class _Compositor:
     def _context(self, block: GatheredBlock) -> Context:
         match block:
             case Table():
-                return table_context(block, self._table_label(), self._certificate.page_words.page)
+                page = self._certificate.page_words.page
+                return table_context(
+                    block, self._table_label(), page, is_for_screens=self._setting.is_for_screens
+                )
             case Formulas():
                 return formulas_context(block, self._table_label())
             case Graph():

@@ -82,6 +82,11 @@ class TableContext:
         The rows.
     page
         Word before the number of a page that the table refers to.
+    is_for_screens
+        Whether keys can scroll it.
+    labels
+        What stands above each column, for a screen on which the cells of a row stand below each other; empty
+        where they never do.
     """
 
     template: ClassVar[str] = "table.html"
@@ -94,6 +99,8 @@ class TableContext:
     headings: tuple[CellContext, ...]
     groups: tuple[RowGroupContext, ...]
     page: str
+    is_for_screens: bool = False
+    labels: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -21,7 +21,7 @@ _SHAPE = {Mark.MET: "met", Mark.NOT_MET: "not-met", Mark.OPEN: "open"}
 _ALIGNMENT = {Align.LEFT: "", Align.RIGHT: "right", Align.CENTRE: "centre"}
 
 
-def table_context(table: Table, label: str, page: str) -> TableContext:
+def table_context(table: Table, label: str, page: str, *, is_for_screens: bool = False) -> TableContext:
     """Return the context of a table.
 
     Parameters
@@ -32,6 +32,8 @@ def table_context(table: Table, label: str, page: str) -> TableContext:
         Its number: ``Table 2``.
     page
         Word before the number of a page.
+    is_for_screens
+        Whether it says of a cell what stands above it, and can be scrolled by keys.
     """
     layout = columns.table_layout(table)
     styles = tuple(
@@ -50,6 +52,8 @@ def table_context(table: Table, label: str, page: str) -> TableContext:
             CellContext(columns.text_of(column.heading, symbol), style, column.unit)
             for column, style in zip(table.columns, styles, strict=True)
         ),
+        is_for_screens=is_for_screens,
+        labels=_labels(table) if is_for_screens else (),
         groups=tuple(
             RowGroupContext(
                 heading=group.heading,
@@ -75,6 +79,16 @@ def formulas_context(formulas: Formulas, label: str) -> FormulasContext:
             (symbol(letter.notation), symbol(formula.notation), name)
             for letter, formula, name in formulas.rows
         ),
+    )
+
+
+def _labels(table: Table) -> tuple[str, ...]:
+    """Return what stands above the cells of a table of words; nothing of one of numbers: it is scrolled."""
+    if table.columns[0].align is Align.RIGHT:
+        return ()
+    return tuple(
+        f"{columns.text_of(each.heading)} ({each.unit})" if each.unit else columns.text_of(each.heading)
+        for each in table.columns
     )
 
 
