@@ -9,6 +9,7 @@ import re
 import shutil
 import subprocess
 import sys
+import tempfile
 import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -205,8 +206,10 @@ def targets(folder: Path) -> tuple[Target, ...]:
             (folder / "attached").write_bytes(content_of(pdf, name))
 
         def attack(folder: Path) -> int:
-            (folder / "x.pdf").write_bytes(with_attachment(pdf, name, (folder / "attached").read_bytes()))
-            return main(["verify", str(folder / "x.pdf"), "--json"])
+            with tempfile.NamedTemporaryFile(suffix=".pdf") as file:
+                file.write(with_attachment(pdf, name, (folder / "attached").read_bytes()))
+                file.flush()
+                return main(["verify", file.name, "--json"])
 
         return Target(f"attached {name}", lay, "attached", (attack,))
 
