@@ -6,6 +6,7 @@ import doctest
 import json
 import subprocess
 import sys
+from dataclasses import replace
 from importlib import import_module
 from pathlib import Path
 
@@ -17,6 +18,7 @@ import pytest
 
 import zlmreport as z
 from environments import ROOT
+from zlmreport.verification.findings import Verdict
 
 JOB = ROOT / "configs" / "linear-axis" / "certificate.yaml"
 TARGETS = [0.0, 100.0, 250.0]
@@ -284,6 +286,12 @@ def test_a_certificate_is_verified(tmp_path: Path) -> None:
     assert found.holds
     assert found.number == "R-1"
     assert found.differences == ()
+    assert repr(found) == "<Verification of R-1: holds>"
+    open_page = replace(found._found.pages[0], verdict=Verdict.OPEN)
+    undecided = type(found)(found.file, replace(found._found, pages=(open_page,)))
+    assert not undecided
+    assert repr(undecided) == "<Verification of R-1: not decided>"
+    assert "R-1: not decided" in undecided._repr_html_()
 
 
 def test_a_tolerance_of_a_printed_symbol_is_answered_with_its_spelling() -> None:

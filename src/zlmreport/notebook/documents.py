@@ -111,6 +111,9 @@ def certificate(job: str | Path) -> Certificate:
     return Certificate(loaded, pipeline.compose(loaded, registry()))
 
 
+_OUTCOMES = {"holds": "holds", "does-not-hold": "does not hold", "undecided": "not decided"}
+
+
 class Verification:
     """Whether a certificate holds: each of its numbers against its own data, evaluated again."""
 
@@ -152,12 +155,12 @@ class Verification:
         return self.holds
 
     def __repr__(self) -> str:
-        """Return whether it holds."""
-        return f"<Verification of {self.number}: {'holds' if self.holds else 'does not hold'}>"
+        """Return whether it holds, or is not decided."""
+        return f"<Verification of {self.number}: {_OUTCOMES[self._found.outcome]}>"
 
     def _repr_html_(self) -> str:
         rows = [(each,) for each in self.differences] or [("Every statement that could be compared holds.",)]
-        return as_html((f"{self.number} {'holds' if self.holds else 'does not hold'}",), rows)
+        return as_html((f"{self.number}: {_OUTCOMES[self._found.outcome]}",), rows)
 
 
 def verify(file: str | Path) -> Verification:
