@@ -197,6 +197,19 @@ def test_error_in_proportion_to_position_adds_to_the_slope() -> None:
     assert after == pytest.approx(np.hypot(before, proportion), rel=1e-9)
 
 
+def test_error_at_each_position_is_that_of_independent_means() -> None:
+    """Against the formula of a straight line: u of its level is u/√m, whatever the runs."""
+    each, targets = 4e-6, len(np.unique(DESIGN.position))
+    model = model_of("offset", "backlash")
+    before, after = (
+        fit(model, DESIGN, READINGS, Assumptions(assumed)).estimates
+        for assumed in (InstrumentError(), InstrumentError(at_each_position=each))
+    )
+    level = np.hypot(before[0].standard_uncertainty, each / np.sqrt(targets))
+    assert after[0].standard_uncertainty == pytest.approx(level, rel=0.05)
+    assert after[1].standard_uncertainty == pytest.approx(before[1].standard_uncertainty, rel=0.05)
+
+
 def test_where_geometry_is_irregular_degrees_of_freedom_are_those_of_the_targets() -> None:
     random = np.random.default_rng(3)
     geometry = 3e-6 * random.standard_normal(11)[DESIGN.target]

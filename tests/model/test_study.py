@@ -9,6 +9,7 @@ import pytest
 
 from model.hidden_effect import LAST, example, example_diagnosis, example_history, study, written
 from zlmreport.errors import InputError
+from zlmreport.model.estimate import InstrumentError
 
 
 def problem(path: Path) -> tuple[int, int, str]:
@@ -30,22 +31,36 @@ def test_values_of_the_job_are_held_fixed_in_si(tmp_path: Path) -> None:
     assert (estimate.value, estimate.is_given) == (pytest.approx(-4.5e-6), True)
 
 
-def test_the_uncertainty_of_the_instrument_is_that_of_every_estimate(tmp_path: Path) -> None:
-    instrument = "instrument: {name: Laser, expanded_uncertainty: 3.0}\nmodel:\n"
-    found = study(written(tmp_path, ("model:\n", instrument))).fitted()
-    offset = found.fit.estimates[0]
-    without = example().fitted().fit.estimates[0]
-    # u² of the constant grows by that of the instrument: U = 3 µm with k = 2.
-    assert offset.standard_uncertainty**2 - without.standard_uncertainty**2 == pytest.approx(
-        (1.5e-6) ** 2, rel=1e-6
-    )
+def test_the_instrument_errs_in_the_model_as_in_the_budget(tmp_path: Path) -> None:
+    """U = 3 µm + 2 µm/m · L with k = 2 is 1.5 µm at each position and 1 µm/m along the length."""
+    instrument = "instrument: {name: Laser, expanded_uncertainty: 3 + 2*L}\nmodel:\n"
+    found = study(written(tmp_path, ("model:\n", instrument)))
+    assert found.assumptions.instrument == InstrumentError(0.0, pytest.approx(1e-6), pytest.approx(1.5e-6))
+    offset, without = found.fitted().fit.estimates[0], example().fitted().fit.estimates[0]
     assert offset.value == pytest.approx(without.value, abs=1e-15)
+    assert offset.standard_uncertainty > without.standard_uncertainty
+
+
+@pytest.mark.parametrize(
+    ("acts", "expected"),
+    [
+        ("at-the-datum", (1.5e-6, 0.0, 0.0)),
+        ("along-the-length", (0.0, 1.5e-6 / 0.6, 0.0)),
+        ("at-each-reading", (0.0, 0.0, 0.0)),
+    ],
+)
+def test_what_the_job_says_of_how_the_instrument_acts_holds_for_the_model(
+    acts: str, expected: tuple[float, ...], tmp_path: Path
+) -> None:
+    keys = f"instrument: {{name: L, expanded_uncertainty: 3}}\nuncertainty: {{instrument_acts: {acts}}}\n"
+    error = study(written(tmp_path, ("model:\n", f"{keys}model:\n"))).assumptions.instrument
+    assert (error.common, error.proportional, error.at_each_position) == pytest.approx(expected, rel=0.05)
 
 
 def test_an_uncertainty_in_words_is_none(tmp_path: Path) -> None:
     instrument = "instrument: {name: Laser, expanded_uncertainty: see its certificate}\nmodel:\n"
     found = study(written(tmp_path, ("model:\n", instrument)))
-    assert found.assumptions.instrument.common == 0.0
+    assert found.assumptions.instrument == InstrumentError()
 
 
 def test_the_history_begins_with_the_readings_alone() -> None:

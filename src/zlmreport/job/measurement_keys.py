@@ -16,6 +16,7 @@ from zlmreport.job.types import (
     Lines,
     Positive,
     Text,
+    along_the_length,
 )
 from zlmreport.measurement.axis import AxisKind
 
@@ -226,6 +227,15 @@ class Instrument(JobPart):
         description="What the instrument itself compensated, in words.",
         examples=["refractive index of the air; no material temperature"],
     )
+
+    @property
+    def stated_uncertainty(self) -> tuple[float, float] | None:
+        """U as a constant (µm or ″) and a part per metre (µm/m); None where no number is stated."""
+        constant, per_metre = self.expanded_uncertainty, self.expanded_uncertainty_per_metre or 0.0
+        if isinstance(constant, str):
+            formula = along_the_length(constant)
+            return (formula[0], formula[1] + per_metre) if formula else None
+        return (constant or 0.0, per_metre) if constant or per_metre else None
 
 
 class Environment(JobPart):

@@ -34,22 +34,28 @@ _FACTORS = 25
 
 @dataclass(frozen=True, slots=True)
 class InstrumentError:
-    """Standard uncertainty of the instrument, fully correlated between readings.
+    """Standard uncertainty of the instrument; what readings share does not average out.
 
     Attributes
     ----------
     common
         u(δ), the same at all positions, m or rad.
     proportional
-        Per position, m/m or rad/rad: the paper has none, but a laser's wavelength does.
+        Per distance from the first position, m/m or rad/rad: the paper has none, a laser's wavelength does.
+    at_each_position
+        Shared by all readings at one position, and by no others, m or rad.
     """
 
     common: float = 0.0
     proportional: float = 0.0
+    at_each_position: float = 0.0
 
     def factor(self, position: FloatArray) -> FloatArray:
-        """Return F with F·Fᵀ the covariance of readings at these positions, shape (N, 2)."""
-        return np.column_stack([np.full(len(position), self.common), self.proportional * position])
+        """Return F with F·Fᵀ the covariance of readings at these positions, shape (N, 2 and more)."""
+        shared = [np.full(len(position), self.common), self.proportional * (position - position.min())]
+        if self.at_each_position:
+            shared += [self.at_each_position * (position == each) for each in np.unique(position)]
+        return np.column_stack(shared)
 
 
 @dataclass(frozen=True, slots=True)
@@ -233,7 +239,7 @@ class Uncertainties:
         Standard deviation of a single reading, m or rad.
     inverse : (p, p) array
         (JᵀV⁻¹J)⁻¹.
-    systematic : (p, 2) array
+    systematic : (p, …) array
         What the instrument's error does to the parameters.
     variances
         How well the variance is known.
@@ -244,11 +250,14 @@ class Uncertainties:
     systematic: FloatArray
     variances: VarianceOfVariance
 
-    def of(self, rows: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return standard uncertainty and degrees of freedom of linear combinations, rows of shape (M, p)."""
+    def of(self, rows: FloatArray, least: float = 0.0) -> tuple[FloatArray, FloatArray]:
+        """Return standard uncertainty and degrees of freedom of linear combinations, rows of shape (M, p).
+
+        What the instrument does to them counts with `least` at least.
+        """
         scaled = np.einsum("np,pq,nq->n", rows, self.inverse, rows)
         random = self.sigma**2 * scaled
-        total = random + np.sum((rows @ self.systematic) ** 2, axis=1)
+        total = random + np.maximum(np.sum((rows @ self.systematic) ** 2, axis=1), least**2)
         degrees = np.array(
             [self.variances.degrees(row, part) for row, part in zip(rows, scaled, strict=True)]
         )

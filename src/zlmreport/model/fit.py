@@ -155,8 +155,12 @@ class Fit:
         return _value(self.model, design, self.solution)
 
     def predict(self, design: Design) -> Prediction:
-        """Return the deviation that the model gives for other readings; valid on the measured span only."""
-        standard, degrees = self.uncertainties.of(_jacobian(self.model, design, self.solution, self.places))
+        """Return the deviation that the model gives for other readings; valid on the measured span only.
+
+        No deviation is known better than the instrument that it was measured with.
+        """
+        rows = _jacobian(self.model, design, self.solution, self.places)
+        standard, degrees = self.uncertainties.of(rows, self.assumptions.instrument.at_each_position)
         return Prediction(self.value_at(design), standard, coverage_factors(degrees))
 
 

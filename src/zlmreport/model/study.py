@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
@@ -27,9 +28,11 @@ from zlmreport.model.outliers import outliers
 from zlmreport.model.sessions import held_together, of_the_job, with_zeros
 from zlmreport.quantities.arrays import read_only_floats
 from zlmreport.quantities.formula import names_in, parse_formula
+from zlmreport.quantities.units import MICROMETRE
 
 #: Coverage factor of the instrument's uncertainty as a job states it.
 _COVERAGE_FACTOR = 2.0
+_AT_POSITIONS = frozenset({"at-each-position", "at-each-approach"})
 _KEY = "model.effects"
 _SESSIONS = "model.sessions"
 #: What a table of positions, one for each direction, can take away; the rest changes with time or run.
@@ -118,7 +121,7 @@ class Study:
             measurements,
             with_zeros(AxisModel(chosen_terms(job.effects, find, job.axis.kind)), together.design),
             of_the_job(together),
-            Assumptions(instrument=instrument_error(job)),
+            Assumptions(instrument=instrument_error(job, float(np.ptp(measurements.target_positions)))),
             tuple(sessions),
             together,
         )
@@ -195,12 +198,22 @@ def _with_feed(observed: Observations, job: Job) -> Observations:
     return replace(observed, design=replace(observed.design, conditions=conditions))
 
 
-def instrument_error(job: Job) -> InstrumentError:
-    """Return the error of the instrument as a job states it; none if it is not stated as a number."""
-    stated = job.keys.instrument.expanded_uncertainty if job.keys.instrument else None
-    if not isinstance(stated, int | float):
-        return InstrumentError()
-    return InstrumentError(common=job.axis.deviation_unit.to_si(stated) / _COVERAGE_FACTOR)
+def instrument_error(job: Job, length: float) -> InstrumentError:
+    """Return the error of the instrument as the budget takes it; none if it is not stated as a number.
+
+    What acts otherwise than at a position, along the measured `length` (m or rad) or at the datum differs
+    from reading to reading, and is part of their noise.
+    """
+    stated = job.keys.instrument.stated_uncertainty if job.keys.instrument else None
+    constant, per_metre = stated or (0.0, 0.0)
+    u = job.axis.deviation_unit.to_si(constant) / _COVERAGE_FACTOR
+    acts = job.keys.uncertainty.instrument_acts or "at-each-position"
+    along = u / length if acts == "along-the-length" and length else 0.0
+    return InstrumentError(
+        common=u if acts == "at-the-datum" else 0.0,
+        proportional=math.hypot(MICROMETRE.to_si(per_metre) / _COVERAGE_FACTOR, along),
+        at_each_position=u if acts in _AT_POSITIONS else 0.0,
+    )
 
 
 def addition(

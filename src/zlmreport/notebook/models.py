@@ -357,7 +357,7 @@ def fit(
     effects
         Names of installed effects, or ``{name: {parameter: value}}`` as in a job.
     instrument_uncertainty
-        Expanded uncertainty of the instrument (k = 2), µm or ″.
+        Expanded uncertainty of the instrument (k = 2), µm or ″; it acts at each position.
 
     Raises
     ------
@@ -375,8 +375,8 @@ def fit(
     >>> round(model["backlash.lost_motion"].value)
     4
     """
-    common = data.measurements.axis.deviation_unit.to_si(instrument_uncertainty) / _COVERAGE_FACTOR
-    return _fitted(data, _chosen(effects), Assumptions(instrument=InstrumentError(common=common)))
+    u = data.measurements.axis.deviation_unit.to_si(instrument_uncertainty) / _COVERAGE_FACTOR
+    return _fitted(data, _chosen(effects), Assumptions(instrument=InstrumentError(at_each_position=u)))
 
 
 def _fitted(data: Readings, choices: Sequence[EffectChoice], assumptions: Assumptions) -> Model:

@@ -6,6 +6,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 from zlmreport.errors import InputError, Problem
 from zlmreport.job.job import Job
 from zlmreport.job.measurement_keys import LineOfPlane
@@ -69,9 +71,10 @@ def plane_of(measured: Sequence[Measured]) -> Plane:
             key=lambda line: line.across,
         )
     )
+    length = float(np.ptp(sample.target_positions))
     try:
         surfaces = tuple(
-            surface(side_by_side(lines, approach, second), instrument_error(first))
+            surface(side_by_side(lines, approach, second), instrument_error(first, length))
             for approach in sample.approaches
         )
     except ModelError as error:
@@ -128,7 +131,7 @@ def _differences(measured: Sequence[Measured], places: Sequence[LineOfPlane]) ->
                 f"this line was approached {_arrows(measurements)}, the first one {_arrows(sample)}; "
                 "all lines of a plane need the same directions",
             )
-        if instrument_error(job) != instrument_error(first):
+        if instrument_error(job, 1.0) != instrument_error(first, 1.0):
             yield Problem(
                 job.place_of("instrument.expanded_uncertainty"),
                 "the instrument's uncertainty is not that of the first job; one instrument measures a plane",

@@ -36,6 +36,10 @@ _STANDS_OUT = 2.2
 _MOST_STANDING_OUT = 0.3
 #: Variances of fewer positions tell nothing of how these vary.
 _FEWEST = 4
+#: Standard errors of a slope of ln s² along the axis from which the scatter counts as growing.
+_GROWS = 3.0
+#: Standard errors by which variances are taken to differ more than they seem to.
+_CAUTION = 1.0
 _STEP = 1e-3
 
 
@@ -79,7 +83,7 @@ def axis_intervals(
     """
     measurements = evaluations[0][0].measurements
     readings = measurements.deviations()
-    scatter = _scatter_of(readings)
+    scatter = _scatter_of(readings, measurements.target_positions)
     if scatter is None:
         return tuple({} for _ in evaluations)
     generator = np.random.Generator(np.random.PCG64(seed_of(measurements, readings)))
@@ -109,7 +113,7 @@ def _interval(value: float, one: FloatArray, other: FloatArray) -> tuple[float, 
     return shortened(max(lowest, 0.0) if never_negative else lowest), shortened(value + float(high))
 
 
-def _scatter_of(readings: FloatArray) -> _Scatter | None:
+def _scatter_of(readings: FloatArray, target_positions: FloatArray) -> _Scatter | None:
     """Return what readings (approach, position, run) tell of the scatter; None where they tell nothing."""
     there = np.isfinite(readings)
     count = there.sum(axis=-1)
@@ -130,11 +134,13 @@ def _scatter_of(readings: FloatArray) -> _Scatter | None:
     run_variance = (of_run**2).sum(axis=-1) / np.maximum(run_freedom, 1)
     product = math.sqrt(float(np.prod((of_run**2).sum(axis=-1))))
     correlation = float((of_run[0] * of_run[1]).sum()) / product if product else 0.0
-    pooled, pooled_freedom = _pooled(variance, freedom)
+    pooled, pooled_freedom = _pooled(variance, freedom, target_positions)
     return _Scatter(mean, pooled, pooled_freedom, run_variance, run_freedom, max(-1.0, min(1.0, correlation)))
 
 
-def _pooled(variance: FloatArray, freedom: FloatArray) -> tuple[FloatArray, FloatArray]:
+def _pooled(
+    variance: FloatArray, freedom: FloatArray, positions: FloatArray
+) -> tuple[FloatArray, FloatArray]:
     """Return the posterior variances and degrees of freedom of cells, each informed by all others."""
     known = (freedom > 0) & (variance > 0)
     if np.count_nonzero(known) < _FEWEST:
@@ -142,21 +148,55 @@ def _pooled(variance: FloatArray, freedom: FloatArray) -> tuple[FloatArray, Floa
         common = float(np.nansum(variance * freedom)) / total
         return np.full_like(freedom, common), np.full_like(freedom, total)
     own = float(np.median(freedom[known]))
+    chance = _trigamma(own / 2)
     logarithms = np.log(np.where(known, variance, 1.0)) - _digamma(own / 2) + math.log(own / 2)
-    alike = _alike(logarithms, known, _trigamma(own / 2))
-    centre = float(logarithms[alike].mean())
-    beyond_chance = float(logarithms[alike].var(ddof=1)) - _trigamma(own / 2)
+    trend, spent = _trend(logarithms, known, np.broadcast_to(positions, known.shape), chance)
+    logarithms -= trend
+    level = np.where(known, variance, 0.0) / np.exp(trend)
+    alike = _alike(logarithms, known, chance)
+    cells = np.count_nonzero(alike)
+    observed = float(logarithms[alike].var(ddof=1))
+    beyond_chance = observed * (1 + _CAUTION * math.sqrt(2 / (cells - 1))) - chance
     if beyond_chance <= _STEP:  # no more different than equal variances look
         total = float(freedom[alike].sum())
-        common = float((variance[alike] * freedom[alike]).sum()) / total
+        common = float((level[alike] * freedom[alike]).sum()) / total
         pooled, pooled_freedom = np.full_like(freedom, common), np.full_like(freedom, total)
     else:
         prior = 2 * _inverse_trigamma(beyond_chance)
-        scale = math.exp(centre + _digamma(prior / 2) - math.log(prior / 2))
+        scale = math.exp(float(logarithms[alike].mean()) + _digamma(prior / 2) - math.log(prior / 2))
         pooled_freedom = freedom + prior
-        pooled = (np.where(known, variance, 0.0) * freedom + prior * scale) / pooled_freedom
+        pooled = (level * freedom + prior * scale) / pooled_freedom
+    pooled = pooled * np.exp(trend)
+    pooled_freedom = _blurred(pooled_freedom, spent)
     stands_out = known & ~alike
     return np.where(stands_out, variance, pooled), np.where(stands_out, freedom, pooled_freedom)
+
+
+def _trend(
+    logarithms: FloatArray, known: BoolArray, positions: FloatArray, chance: float
+) -> tuple[FloatArray, FloatArray]:
+    """Return how ln σ² grows along the axis, about its mean, and the variance of that; 0 if by chance."""
+    x = positions - positions[known].mean()
+    squares = float((x[known] ** 2).sum())
+    nothing = np.zeros_like(logarithms)
+    if not squares or np.count_nonzero(known) <= _FEWEST:
+        return nothing, nothing
+    slope = float((x * logarithms)[known].sum()) / squares
+    left = (logarithms - slope * x)[known]
+    variance = max(float(left.var(ddof=2)), chance) / squares
+    if abs(slope) <= _GROWS * math.sqrt(variance):
+        return nothing, nothing
+    return slope * x, variance * x**2
+
+
+def _blurred(freedom: FloatArray, variance: FloatArray) -> FloatArray:
+    """Return degrees of freedom of variances whose logarithms are known worse by a `variance`."""
+    return np.array(
+        [
+            2 * _inverse_trigamma(_trigamma(each / 2) + more) if more else each
+            for each, more in zip(freedom.ravel().tolist(), variance.ravel().tolist(), strict=True)
+        ]
+    ).reshape(freedom.shape)
 
 
 def _alike(logarithms: FloatArray, known: BoolArray, chance: float) -> BoolArray:

@@ -8,7 +8,6 @@ from collections.abc import Iterator
 from zlmreport.errors import InputError
 from zlmreport.job.evaluation_keys import ContributionKeys
 from zlmreport.job.job import Job
-from zlmreport.job.types import along_the_length
 from zlmreport.language import Words, same
 from zlmreport.measurement.axis import AxisKind
 from zlmreport.measurement.measurement_set import MeasurementSet
@@ -92,15 +91,11 @@ def _instrument(job: Job, set_up: SetUp) -> tuple[Contribution, ...] | Words:
     instrument = job.keys.instrument
     if instrument is None:
         return wording.NO_INSTRUMENT
-    constant, per_metre = instrument.expanded_uncertainty, instrument.expanded_uncertainty_per_metre or 0.0
-    if isinstance(constant, str):
-        formula = along_the_length(constant)
-        if formula is None:
-            return wording.INSTRUMENT_IN_WORDS
-        constant, per_metre = formula[0], formula[1] + per_metre
-    if not (constant or per_metre):
-        return wording.NO_INSTRUMENT
-    return tuple(_device(constant or 0.0, per_metre, job, set_up))
+    stated = instrument.stated_uncertainty
+    if stated is None:
+        in_words = isinstance(instrument.expanded_uncertainty, str)
+        return wording.INSTRUMENT_IN_WORDS if in_words else wording.NO_INSTRUMENT
+    return tuple(_device(*stated, job, set_up))
 
 
 def _device(constant: float, per_metre: float, job: Job, set_up: SetUp) -> Iterator[Contribution]:
