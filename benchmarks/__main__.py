@@ -33,6 +33,7 @@ OTHERS = {
     "kills": "kills",
     "fleet": "fleet_nights",
     "trends": "fleet_trends",
+    "unchanged": "fleet_unchanged",
 }
 
 

@@ -12,10 +12,12 @@ import pytest
 
 from fleet.deadly import PLUGIN
 from fleet.fleets import FLEET, Fleet, Witness
+from fleet.servers import server
 from processes import PYTHON, awaited, group
 from zlmreport.errors import AccessError
 from zlmreport.fleet import cluster, night
 from zlmreport.fleet.issuing import What
+from zlmreport.fleet.records import State
 
 pytest.importorskip("distributed")
 
@@ -68,6 +70,25 @@ def test_a_cluster_makes_the_certificates_and_loses_none_with_a_worker(
     assert "no worker lived to make this certificate" in witness.of("killed").problems[0].message
     pids = {fleet.certificate(f"a{number}", ".pid").read_text() for number in range(1, 5)}
     assert str(os.getpid()) not in pids
+
+
+@pytest.mark.early
+def test_a_ledger_in_postgresql_has_all_that_a_cluster_with_a_killed_worker_made(
+    scheduler: str, tmp_path: Path
+) -> None:
+    fleet = Fleet.of(tmp_path, "a1", "a2", "killed", "killed-once")
+    plugin = fleet.write("deadly.py", PLUGIN)
+    with server() as address:
+        text = FLEET.replace("ledger.db", address)
+        fleet.write("fleet.yaml", f"{text}executor: {{kind: dask, scheduler: '{scheduler}'}}\n")
+        night.spend(fleet.file, night.Order((plugin,)), Witness())
+        states = {Path(each.job).stem: each.state for each in fleet.entries()}
+        assert {stem for stem, state in states.items() if state is State.MADE} == {"a1", "a2", "killed-once"}
+        (fleet.folder / "jobs/killed.yaml").unlink()
+        fleet.write("fleet.yaml", f"{fleet.file.content.decode()}retired: [jobs/killed.yaml]\n")
+        witness = Witness()
+        night.spend(fleet.file, night.Order((plugin,)), witness)
+        assert set(witness.what.values()) == {What.UNCHANGED}
 
 
 def test_a_scheduler_that_is_not_there_is_named_with_its_place(
