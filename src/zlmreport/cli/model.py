@@ -10,6 +10,7 @@ from typing import Any
 
 from zlmreport import pipeline
 from zlmreport.certificate.forecast import Forecast, forecasts
+from zlmreport.cli import model_learn
 from zlmreport.cli.model_lines import change_lines, diagnosis_lines, fit_lines, history_lines, point_lines
 from zlmreport.cli.model_values import (
     Change,
@@ -66,6 +67,8 @@ class _Session:
 
 def run(options: Namespace) -> int:
     """Do what the action says with a job's error model."""
+    if options.action == "learn":
+        return model_learn.run(options)
     registry = find_plugins(files=options.plugin)
     job = load(options.job, registry)
     session = _Session(

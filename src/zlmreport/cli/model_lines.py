@@ -173,7 +173,10 @@ def _heading(job: Job, fit: Fit) -> str:
     others = [each.files[0].name for each in job.sessions]
     runs = [fit.design.cycle[fit.design.session == number] for number in range(1, len(others) + 1)]
     held = [f"{name} (runs {each.min()} to {each.max()})" for name, each in zip(others, runs, strict=True)]
-    return f"{heading}\n  held together with {', '.join(held)}" if held else heading
+    more = [f"held together with {', '.join(held)}"] if held else []
+    if job.priors:
+        more.append(f"expects what {job.priors.tests} earlier tests taught")
+    return "\n  ".join([heading, *more])
 
 
 def _parameters(fit: Fit) -> Iterator[str]:

@@ -283,11 +283,11 @@ def alike_elsewhere(before: Job, after: Job, group: str, key: str) -> bool:
 
 
 def _without(keys: JobKeys, group: str, key: str) -> dict[str, Any]:
-    """Return what a job says but for a key; an empty list beside it says nothing."""
+    """Return what a job says but for a key; an empty list or nothing beside it says nothing."""
     stated = keys.model_dump()
     kept = {**(stated[group] or {})}
     kept.pop(key, None)
-    return {**stated, group: {name: value for name, value in kept.items() if value != []}}
+    return {**stated, group: {name: value for name, value in kept.items() if value not in ([], None)}}
 
 
 def meaning(choices: Sequence[EffectChoice]) -> list[tuple[object, ...]]:

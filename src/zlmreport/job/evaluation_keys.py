@@ -226,3 +226,43 @@ class Model(JobPart):
         "model is held against all of them, each with its own zero. They are not evaluated.",
         examples=[["second-test.yaml"]],
     )
+    priors: JobPath | None = Field(
+        None,
+        description="What earlier tests of the axis say of noise and of sizes of effects: a file that "
+        "`zlmreport model learn` wrote.",
+        examples=["priors.yaml"],
+    )
+
+
+#: `zlmreport.model.noise.NoiseSource`, by its values.
+SourceName: TypeAlias = Literal["position", "position_and_direction", "run", "time"]
+
+
+class NoiseKeys(JobPart):
+    """How probable each ratio of a shared variance to that of a single reading is."""
+
+    ratios: list[NotNegative] = Field(min_length=1, description="Ratios of variances.")
+    probabilities: list[NotNegative] = Field(min_length=1, description="Of each of them.")
+
+    @model_validator(mode="after")
+    def _of_each_ratio(self) -> NoiseKeys:
+        if len(self.ratios) != len(self.probabilities) or not sum(self.probabilities) > 0:
+            raise ValueError("each ratio has a probability, and these are not all 0")
+        return self
+
+
+class SizeKeys(JobPart):
+    """How large an effect was."""
+
+    rms: NotNegative = Field(description="Root mean square size, micrometres or arc seconds.")
+    tests: int = Field(ge=1, description="In so many tests.")
+
+
+class PriorsKeys(JobPart):
+    """A file of priors: what earlier tests say."""
+
+    schema_: Literal["zlmreport/priors/1"] = Field(alias="schema", description="Version of this format.")
+    kind: AxisKind = Field(description="Of the axes.")
+    tests: int = Field(ge=1, description="How many tests taught it.")
+    noise: dict[SourceName, NoiseKeys] = Field(description="By source of shared scatter.")
+    effects: dict[str, SizeKeys] = Field(description="By effect.")

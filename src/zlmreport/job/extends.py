@@ -30,6 +30,7 @@ class FileFormat:
 JOB = FileFormat("zlmreport/job/1", "a job", "zlmreport JOB.yaml")
 SIMULATION = FileFormat("zlmreport/simulation/1", "the description of a simulated test", "zlmreport simulate")
 FLEET = FileFormat("zlmreport/fleet/1", "a fleet of jobs", "zlmreport fleet FLEET.yaml")
+PRIORS = FileFormat("zlmreport/priors/1", "what earlier tests taught", "model.priors of a job")
 
 
 def refuse_other_format(
@@ -55,7 +56,7 @@ def refuse_other_format(
     named = entry.value if entry else None
     if not isinstance(named, Scalar) or named.text == expected.schema:
         return
-    own = (JOB, SIMULATION, FLEET)
+    own = (JOB, SIMULATION, FLEET, PRIORS)
     known = own if any(each.schema == named.text for each in own) else tuple(others())
     for each in known:
         if each.schema == named.text:

@@ -9,6 +9,7 @@ from typing import Any
 
 from zlmreport.errors import Place
 from zlmreport.job.choices import ControllerChoice, EffectChoice, InstrumentChoice, ProgramChoice
+from zlmreport.job.evaluation_keys import PriorsKeys
 from zlmreport.job.keys import JobKeys
 from zlmreport.job.tree import Keys, Step, keys_of, place_of
 from zlmreport.job.types import Options
@@ -90,6 +91,8 @@ class Job:
         What the files say, value by value, with the places.
     sessions
         Further tests of the same axis, against which the error model is held as well.
+    priors
+        What earlier tests say of noise and sizes of effects; None where the job names no such file.
     """
 
     keys: JobKeys
@@ -107,6 +110,7 @@ class Job:
     controller: ControllerChoice | None = None
     tree: Keys = field(default_factory=lambda: keys_of(Place("job")))
     sessions: tuple[Job, ...] = ()
+    priors: PriorsKeys | None = None
 
     @property
     def as_found(self) -> Job | None:

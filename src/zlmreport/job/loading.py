@@ -18,7 +18,8 @@ from zlmreport.job.choices import (
     program_choices,
 )
 from zlmreport.job.contradictions import contradictions
-from zlmreport.job.extends import JOB, Defaults, FileFormat, compose, refuse_other_format
+from zlmreport.job.evaluation_keys import PriorsKeys
+from zlmreport.job.extends import JOB, PRIORS, Defaults, FileFormat, compose, refuse_other_format
 from zlmreport.job.extensions import extension_choices
 from zlmreport.job.installed import Installed, InstalledStandard
 from zlmreport.job.job import Job, SourceChoice, StandardChoice
@@ -70,9 +71,11 @@ def load(
         If the job, or a file that it extends, cannot be read.
     """
     job = _load(path, registry, formats, content, defaults)
-    sessions = _sessions(job, path, registry)
-    files = (file for each in sessions for file in each.files)
-    return replace(job, sessions=sessions, files=(*job.files, *files))
+    sessions, priors = _sessions(job, path, registry), _priors(job)
+    files = [file for each in sessions for file in each.files]
+    if priors:
+        files.append(priors.file)
+    return replace(job, sessions=sessions, priors=priors.keys if priors else None, files=(*job.files, *files))
 
 
 def _load(
@@ -135,6 +138,20 @@ def _load(
         files=(*composition.files, *axis.files),
         tree=tree,
     )
+
+
+def _priors(job: Job) -> KeysFile[PriorsKeys] | None:
+    """Return what earlier tests say, if the job names a file of it."""
+    stated = job.keys.model.priors if job.keys.model else None
+    if stated is None:
+        return None
+    found = read_keys_file(stated, PriorsKeys, PRIORS)
+    if found.keys.kind != job.axis.kind:
+        raise InputError.at(
+            job.place_of("model.priors"),
+            f"it was learned from {found.keys.kind} axes, and this one is {job.axis.kind}",
+        )
+    return found
 
 
 def _sessions(job: Job, path: Path, registry: Installed) -> tuple[Job, ...]:

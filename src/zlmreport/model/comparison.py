@@ -27,9 +27,11 @@ from zlmreport.model.nameless import (
     side_by_side,
 )
 from zlmreport.model.noise import NoisePart, NoiseSource, coarse_grid, noise_parts, ratio_grid
+from zlmreport.model.priors import Expected
 from zlmreport.quantities.arrays import FloatArray
 
-#: Variances of an effect before any reading, in units of what one reading is worth, and their weights.
+#: Variances of an effect before any reading, in units of what one reading is worth, and their weights; the
+#: first is what earlier tests say, where they do.
 _WORTHS = ((1.0, 0.9), (1e2, 0.05), (1e4, 0.03), (1e6, 0.02))
 
 
@@ -95,12 +97,16 @@ class Comparison:
         What the effects could add.
     nameless
         Shapes without a name.
+    prior : (f,) array
+        Probability of each φ before the test.
     """
 
     space: Contrasts
     grid: FloatArray
     bases: Bases
     nameless: tuple[NamelessShape, ...]
+    prior: FloatArray
+    _squares: tuple[FloatArray, ...]
     _metrics: tuple[Metric, ...]
     _shared: FloatArray
     _roots: tuple[tuple[FloatArray, ...], ...]
@@ -108,6 +114,7 @@ class Comparison:
     _nameless_shared: FloatArray
     _nameless_groups: tuple[ShapeGroup, ...]
     _nameless_modes: dict[int, tuple[ShapeModes, ...]]
+    _expected: Expected
 
     @classmethod
     def of(
@@ -169,7 +176,7 @@ class Comparison:
     def _prepared(
         cls, space: Contrasts, grid: FloatArray, bases: Bases, nameless: tuple[NamelessShape, ...]
     ) -> Comparison:
-        columns, groups = side_by_side(nameless, len(space.scale))
+        nothing, (columns, groups) = Expected(), side_by_side(nameless, len(space.scale))
         metrics = tuple(space.metric(ratios) for ratios in grid)
         shared, nameless_shared = space.factors.T @ bases.columns, space.factors.T @ columns
         return cls(
@@ -177,6 +184,8 @@ class Comparison:
             grid,
             bases,
             nameless,
+            nothing.probabilities(space.parts, grid),
+            _squares(bases, nothing),
             metrics,
             shared,
             tuple(bases.roots(metric, shared) for metric in metrics),
@@ -187,7 +196,16 @@ class Comparison:
                 index: tuple(modes(metrics[index], nameless_shared, group) for group in groups)
                 for index in _coarse(grid, space.parts)
             },
+            nothing,
         )
+
+    def expecting(self, expected: Expected) -> Comparison:
+        """Return the same comparison by one who knows what earlier tests say, sizes in units of σ.
+
+        Without them every φ is as likely as any, and an effect as large as the scatter.
+        """
+        prior = expected.probabilities(self.space.parts, self.grid)
+        return replace(self, prior=prior, _squares=_squares(self.bases, expected), _expected=expected)
 
     def scores(self, deviations: FloatArray, known: float = 0.0) -> Scores:
         """Return the likelihood ratios on sets of deviations.
@@ -214,6 +232,13 @@ class Comparison:
         best = [families[list(forms)].min(axis=0) for forms in self.bases.by_effect]
         return Scores(null - np.array(best).reshape(-1, sets), null - nameless)
 
+    def posterior(self, deviation: FloatArray, known: float = 0.0) -> FloatArray:
+        """Return the probability of each φ on one set of deviations, shape (N,), without any effect."""
+        trials = self._trials(deviation[:, np.newaxis], known)
+        criteria = np.array([self._criterion(trial, trial.squares)[0] for trial in trials])
+        likelihoods = np.exp(-0.5 * (criteria - criteria.min()))
+        return np.asarray(likelihoods / likelihoods.sum())
+
     def criteria(self, deviation: FloatArray, known: float = 0.0) -> Criteria:
         """Return the criteria of one set of deviations, shape (N,); `known` as in `scores`."""
         null: list[float] = []
@@ -225,8 +250,9 @@ class Comparison:
             explained = [each[:, 0] for _, each in self._explained(trial)]
             ranks = [group.ranks for group in self.bases.groups]
             together, rank = np.concatenate([*explained, []]), np.concatenate([*ranks, []])
+            square = np.concatenate([*self._squares, []])
             fits.append(self._criterion(trial, trial.squares - together))
-            averages.append(self._averaged(trial, together, rank))
+            averages.append(self._averaged(trial, together, rank, square))
             nameless.extend(averaged[:, 0] for averaged in self._nameless_criteria(trial))
         return Criteria(
             np.array(null),
@@ -259,8 +285,9 @@ class Comparison:
         sizes = max(1, len(self._nameless_modes)) * len(SIZES)
         for trial in self._trials(deviations, known):
             np.logaddexp(null, -0.5 * self._criterion(trial, trial.squares), out=null)
-            for group, explained in self._explained(trial):
-                averaged = -0.5 * self._averaged(trial, explained, group.ranks[:, np.newaxis])
+            for (group, explained), square in zip(self._explained(trial), self._squares, strict=True):
+                rank = group.ranks[:, np.newaxis]
+                averaged = -0.5 * self._averaged(trial, explained, rank, square[:, np.newaxis])
                 most = averaged.max(axis=0)
                 counts = np.diff([*group.starts, len(group.ranks)])[:, np.newaxis]
                 likelihoods = np.add.reduceat(np.exp(averaged - most), group.starts, axis=0) / counts
@@ -282,7 +309,8 @@ class Comparison:
         bases = bases_of(design, self.space, entries, least_visible)
         shared = self.space.factors.T @ bases.columns
         roots = tuple(bases.roots(metric, shared) for metric in self._metrics)
-        return replace(self, bases=bases, nameless=(), _shared=shared, _roots=roots)
+        squares = _squares(bases, self._expected)
+        return replace(self, bases=bases, nameless=(), _shared=shared, _roots=roots, _squares=squares)
 
     def _trials(self, deviations: FloatArray, known: float) -> Iterator[_Trial]:
         contrasts = self.space.of(deviations)
@@ -304,18 +332,21 @@ class Comparison:
             )
 
     def _criterion(self, trial: _Trial, squares: FloatArray) -> FloatArray:
-        """Return −2 ln(likelihood) of residual squares, σ profiled out."""
-        return self.space.criterion(self._metrics[trial.index], squares)
+        """Return −2 ln(likelihood × probability of φ) of residual squares, σ profiled out."""
+        prior = 2.0 * float(np.log(self.prior[trial.index]))
+        return self.space.criterion(self._metrics[trial.index], squares) - prior
 
-    def _averaged(self, trial: _Trial, explained: FloatArray, rank: FloatArray) -> FloatArray:
+    def _averaged(
+        self, trial: _Trial, explained: FloatArray, rank: FloatArray, square: FloatArray
+    ) -> FloatArray:
         """Return the criterion of every block, its coefficients averaged over, shaped as what they explain.
 
-        Before any reading, the variance of an effect is one reading's worth, or rarely more: with that alone
-        no evidence could grow beyond the number of readings, however small the scatter.
+        Before any reading, the variance of an effect is what is expected, or rarely more: with that alone no
+        evidence could grow beyond the number of readings, however small the scatter.
         """
         found = []
         for factor, weight in _WORTHS:
-            prior = factor * float(self.space.degrees)
+            prior = factor * float(self.space.degrees) * (square if factor == 1.0 else 1.0)
             left = trial.squares - explained * prior / (1.0 + prior)
             found.append(self._criterion(trial, left) + rank * np.log1p(prior) - 2.0 * np.log(weight))
         least = np.min(found, axis=0)
@@ -337,7 +368,9 @@ class Comparison:
         found = self._nameless_modes.get(trial.index)
         if found is None or not self.nameless:
             return
-        groups = self._nameless_groups
+        groups, tried = self._nameless_groups, list(self._nameless_modes)
+        # They stand under some φ only: what these are worth together is that of all.
+        worth = 2.0 * float(np.log(len(tried) / len(self.grid) / self.prior[tried].sum()))
         squared = [
             (own.turn @ trial.nameless_products[group.places]) ** 2
             for group, own in zip(groups, found, strict=True)
@@ -347,9 +380,15 @@ class Comparison:
             for group, own, products in zip(groups, found, squared, strict=True):
                 spread = 1.0 + size * own.strengths
                 explained = ((size / spread)[:, np.newaxis, :] @ products)[:, 0]
-                averaged = np.log(spread).sum(axis=1)[:, np.newaxis]
+                averaged = np.log(spread).sum(axis=1)[:, np.newaxis] - worth
                 criteria[group.shapes] = self._criterion(trial, trial.squares - explained) + averaged
             yield criteria
+
+
+def _squares(bases: Bases, expected: Expected) -> tuple[FloatArray, ...]:
+    """Return for each group the mean square that is expected of its blocks over σ², shape (blocks,)."""
+    found = [np.full(len(each.thetas), expected.square(each.effect.identifier)) for each in bases.families]
+    return tuple(np.concatenate(found[group.families]) for group in bases.groups)
 
 
 def _coarse(grid: FloatArray, parts: tuple[NoisePart, ...]) -> list[int]:

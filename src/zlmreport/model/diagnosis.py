@@ -19,6 +19,7 @@ from zlmreport.model.faults import Fault, lagging_sensors, recorded_faults, run_
 from zlmreport.model.fit import Assumptions, Fit, cross_validated_rms, fit
 from zlmreport.model.observations import Observations, thinned
 from zlmreport.model.outliers import outliers
+from zlmreport.model.priors import Expected
 from zlmreport.model.repeats import noise_floor
 from zlmreport.model.residual_means import flagged
 from zlmreport.model.residual_tests import failures, residual_tests
@@ -224,6 +225,7 @@ def diagnose(
     observed: Observations,
     effects: Sequence[Effect],
     assumptions: Assumptions | None = None,
+    expected: Expected | None = None,
 ) -> Diagnosis:
     """Hold a model against the readings of a test, and try every effect that might be missing.
 
@@ -237,6 +239,8 @@ def diagnose(
         All that are installed.
     assumptions
         What the fits take for granted.
+    expected
+        What earlier tests say of noise and sizes of effects.
 
     Raises
     ------
@@ -254,7 +258,7 @@ def diagnose(
             f"a diagnosis needs at least {_FEWEST_DEGREES} readings more than parameters"
         )
         raise ModelError([sentence])
-    found = steps(fitted, effects)
+    found = steps(fitted, effects, expected)
     first = found[0]
     names = named_effects(found)
     verdict = _verdict(first, names)

@@ -82,7 +82,9 @@ class NullDistribution:
         return _p_value(ratio, self.ratios[index])
 
 
-def simulate_null(comparison: Comparison, design: Design, ratios: FloatArray) -> NullDistribution:
+def simulate_null(
+    comparison: Comparison, design: Design, ratios: FloatArray, posterior: FloatArray | None = None
+) -> NullDistribution:
     """Make the comparison on simulated tests without any effect.
 
     Parameters
@@ -93,8 +95,10 @@ def simulate_null(comparison: Comparison, design: Design, ratios: FloatArray) ->
         The test; its content alone seeds the simulation: the same test gives the same digits.
     ratios : (parts,) array
         φ̂.
+    posterior : (f,) array or None
+        Probability of each φ of the comparison's grid, where it is to be averaged over instead.
     """
-    scores = comparison.scores(_simulated(comparison, design, ratios))
+    scores = comparison.scores(_simulated(comparison, design, ratios, posterior))
     usual = np.quantile(scores.ratios, 1 - LEVEL, axis=1)
     usual_of_nameless = np.quantile(scores.nameless_ratios, 1 - LEVEL, axis=1)
     blank = NullDistribution(scores.ratios, scores.nameless_ratios, usual, usual_of_nameless, np.inf)
@@ -102,15 +106,19 @@ def simulate_null(comparison: Comparison, design: Design, ratios: FloatArray) ->
     return NullDistribution(scores.ratios, scores.nameless_ratios, usual, usual_of_nameless, threshold)
 
 
-def _simulated(comparison: Comparison, design: Design, ratios: FloatArray) -> FloatArray:
+def _simulated(
+    comparison: Comparison, design: Design, ratios: FloatArray, posterior: FloatArray | None
+) -> FloatArray:
     """Return simulated deviations of unit σ, shape (N, B)."""
     content = hashlib.sha256()
     for array in (design.position, design.direction, design.run, design.time, ratios):
         content.update(np.ascontiguousarray(array).tobytes())
     random = np.random.default_rng(int.from_bytes(content.digest()[:16], "big"))
-    space = comparison.space
+    space, of_each = comparison.space, np.tile(ratios, (TRIALS, 1))
+    if posterior is not None:
+        of_each = comparison.grid[random.choice(len(posterior), TRIALS, p=posterior)]
     found = random.standard_normal((len(design.position), TRIALS)) / space.scale[:, np.newaxis]
-    for part, ratio in zip(space.parts, ratios, strict=True):
+    for part, ratio in zip(space.parts, of_each.T, strict=True):
         shared = random.standard_normal((part.factor.shape[1], TRIALS))
         found += part.factor @ (np.sqrt(ratio) * shared)
     return found

@@ -17,6 +17,7 @@ from zlmreport.model.evidence import EXPLAINED, FURTHER, MENTION, NAMED, Ranked,
 from zlmreport.model.fit import Fit, fit
 from zlmreport.model.noise import Noise
 from zlmreport.model.null_distribution import LEVEL, PValue, simulate_null
+from zlmreport.model.priors import Expected
 from zlmreport.model.repeats import resolution
 from zlmreport.model.search import Thetas
 from zlmreport.model.visibility import Visibility, visibility
@@ -79,7 +80,9 @@ class Step:
         return leading[0] if leading and leading[0].evidence > 0 else None
 
 
-def compared(fitted: Fit, effects: Iterable[Effect], first: Fit | None = None) -> Step:
+def compared(
+    fitted: Fit, effects: Iterable[Effect], first: Fit | None = None, expected: Expected | None = None
+) -> Step:
     """Return a comparison of all effects beside a fitted model.
 
     Parameters
@@ -90,6 +93,8 @@ def compared(fitted: Fit, effects: Iterable[Effect], first: Fit | None = None) -
         That may be missing.
     first
         The model with which a diagnosis began, where effects have been added on trial since.
+    expected
+        What earlier tests say, sizes in units of σ.
     """
     design, deviation = fitted.design, fitted.open_deviation
     entered = effects_to_try(fitted.model, design, effects)
@@ -98,6 +103,8 @@ def compared(fitted: Fit, effects: Iterable[Effect], first: Fit | None = None) -
     comparison = Comparison.of(
         design, fitted.base(), entered.forms, fitted.noise.weights, least_visible=least_visible
     )
+    if expected is not None:
+        comparison = comparison.expecting(expected)
     space = comparison.space
     known = known_noise(fitted, first or fitted)
     ratios, variance = restricted_estimate(
@@ -108,7 +115,9 @@ def compared(fitted: Fit, effects: Iterable[Effect], first: Fit | None = None) -
         space.degrees * known**2,
     )
     by_source = {part.source: float(ratio) for part, ratio in zip(space.parts, ratios, strict=True)}
-    null = simulate_null(comparison, design, ratios)
+    # What earlier tests say is no single φ: each simulated test then has one of its own.
+    posterior = None if expected is None else comparison.posterior(deviation, known)
+    null = simulate_null(comparison, design, ratios, posterior)
     scores = comparison.scores(deviation[:, np.newaxis], known)
     evidence = evidence_of(comparison, design, deviation, least_visible, known)
     sigma = float(np.sqrt(variance))
@@ -192,14 +201,15 @@ def add(fitted: Fit, found: Ranked) -> Fit:
     return fit(model, fitted.design, fitted.deviation, assumptions, start)
 
 
-def steps(first: Fit, effects: Sequence[Effect]) -> tuple[Step, ...]:
+def steps(first: Fit, effects: Sequence[Effect], expected: Expected | None = None) -> tuple[Step, ...]:
     """Return the comparison beside a model and, as long as something is missing and has a name, the next."""
-    found = [compared(first, effects)]
+    relative = expected.in_units_of(first.noise.sigma) if expected else None
+    found = [compared(first, effects, None, relative)]
     while len(found) <= _MOST_STEPS:
         last = found[-1]
         if not last.something_is_missing or last.best is None:
             break
-        found.append(compared(add(last.fit, last.best), effects, first))
+        found.append(compared(add(last.fit, last.best), effects, first, relative))
     return tuple(found)
 
 

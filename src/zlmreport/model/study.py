@@ -25,6 +25,7 @@ from zlmreport.model.fit import Assumptions, Fit, fit
 from zlmreport.model.harmonic import Harmonic, harmonics
 from zlmreport.model.observations import Observations, observations_of, thinned
 from zlmreport.model.outliers import outliers
+from zlmreport.model.priors import Expected
 from zlmreport.model.sessions import held_together, of_the_job, with_zeros
 from zlmreport.quantities.arrays import read_only_floats
 from zlmreport.quantities.formula import names_in, parse_formula
@@ -133,9 +134,14 @@ class Study:
     def diagnosis(self, effects: Sequence[Effect]) -> Diagnosis:
         """Return the diagnosis: every installed effect is tried, and every formula that the job lists."""
         try:
-            return diagnose(self.model, self.together, self.tried(effects), self.assumptions)
+            tried = self.tried(effects)
+            return diagnose(self.model, self.together, tried, self.assumptions, self._expected())
         except ModelError as error:
             raise InputError(self._problems(error)) from error
+
+    def _expected(self) -> Expected | None:
+        """Return what the job says that earlier tests say."""
+        return Expected.of(self.job.priors, self.job.axis) if self.job.priors else None
 
     def titles(self, effects: Sequence[Effect]) -> dict[str, Words]:
         """Return what installed effects and the formulas of the job are called, by identifier."""

@@ -30,6 +30,7 @@ _MODEL_ACTIONS = {
     "add": "write an effect into the job, and show the error before and after",
     "remove": "take an effect out of the job, and show the same",
     "history": "how the error fell, effect by effect",
+    "learn": "from a folder of earlier tests: the file for model.priors of a job",
 }
 _MOST_WORKERS = 1024
 
@@ -196,10 +197,11 @@ def model(command: str) -> CommandParser:
         "examples:\n"
         "  zlmreport model diagnose configs/hidden-effect/job.yaml\n"
         "  zlmreport model add x-axis.yaml screw-pitch\n"
-        "  zlmreport model add x-axis.yaml 'polynomial: {order: 5}'",
+        "  zlmreport model add x-axis.yaml 'polynomial: {order: 5}'\n"
+        "  zlmreport model learn earlier -o priors.yaml",
     )
     parser.add_argument("action", metavar="ACTION", help=", ".join(_MODEL_ACTIONS))
-    parser.add_argument("job", metavar="JOB.yaml", type=Path, help="job file")
+    parser.add_argument("job", metavar="JOB.yaml", type=Path, help="job file; of learn: a folder of jobs")
     parser.add_argument(
         "effect",
         metavar="EFFECT",
@@ -214,6 +216,9 @@ def model(command: str) -> CommandParser:
         action="append",
         default=[],
         help="of fit: a position, mm or degrees, at which to state the deviation; may be given several times",
+    )
+    parser.add_argument(
+        "-o", "--output", metavar="FILE", type=Path, help="of learn: the file; without it, it is printed"
     )
     parser.add_argument("--json", action="store_true", help="print the values in full precision as JSON")
     return parser
@@ -230,6 +235,8 @@ def demand_model_action(options: argparse.Namespace, parser: CommandParser) -> N
         parser.error(f"{options.action} needs the name of an effect, such as backlash")
     if options.at and options.action != "fit":
         parser.error(f"--at belongs to fit, not to {options.action}")
+    if options.output and options.action != "learn":
+        parser.error(f"--output belongs to learn, not to {options.action}")
     if not takes_effect and options.effect:
         parser.error(f"{options.action} takes no effect, but {options.effect!r} is given")
 

@@ -1,0 +1,97 @@
+"""Learning from earlier tests, and using it."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import pytest
+
+from cli.commands import Shop
+from environments import ROOT
+
+_CONFIG = ROOT / "configs" / "second-test"
+_PRIORS = """schema: zlmreport/priors/1
+kind: linear
+tests: 8
+noise: {position: {ratios: [0, 0.1], probabilities: [1, 3]}}
+effects: {scale-expansion: {rms: 2, tests: 8}}
+"""
+
+
+@pytest.fixture
+def shop(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Shop:
+    """A folder of tests whose models describe their readings but for one, and a job beside it."""
+    monkeypatch.chdir(tmp_path)
+    for name in ("cool", "warm"):
+        shutil.copy(_CONFIG / f"{name}.csv", tmp_path)
+    shop = Shop(tmp_path, capsys)
+    lacking = (_CONFIG / "cool.yaml").read_text(encoding="utf-8")
+    whole = lacking.replace("    - backlash\n", "    - backlash\n    - scale-expansion\n")
+    shop.write("earlier/cool.yaml", whole.replace("file: cool", "file: ../cool"))
+    shop.write("earlier/deep/warm.yaml", whole.replace("file: cool", "file: ../../warm"))
+    shop.write("earlier/again.yaml", whole.replace("file: cool", "file: ../cool"))
+    shop.write("earlier/a-lacking.yaml", lacking.replace("file: cool", "file: ../warm"))
+    shop.write("earlier/bare.yaml", lacking[: lacking.index("model:")].replace("file: cool", "file: ../warm"))
+    shop.write("earlier/laboratory.yaml", "laboratory: {name: Sample}\n")
+    shop.write("job.yaml", lacking.replace("model:", "model:\n  priors: priors.yaml"))
+    return shop
+
+
+def test_tests_whose_models_describe_their_readings_teach_and_a_job_uses_it(shop: Shop) -> None:
+    run = shop.run("model", "learn", "earlier", "-o", "priors.yaml")
+    assert run.code == 0, run.messages
+    told = dict(line.strip().split("  ", 1) for line in run.output.splitlines() if line.startswith("  "))
+    assert {name: why.strip() for name, why in told.items()} == {
+        "earlier/again.yaml": "learned",
+        "earlier/bare.yaml": "left out: it has no error model",
+        "earlier/cool.yaml": "left out: the readings of earlier/again.yaml",
+        "earlier/deep/warm.yaml": "learned",
+        "earlier/a-lacking.yaml": "left out: its model is not adequate (missing)",
+    }
+    values = shop.run("model", "learn", "earlier", "--json").summary
+    assert (values["schema"], values["kind"], values["tests"]) == ("zlmreport/priors/1", "linear", 2)
+    assert set(values["effects"]) == {"offset", "backlash", "scale-expansion"}
+    printed = shop.run("model", "learn", "earlier").output
+    assert printed == (shop.folder / "priors.yaml").read_text(encoding="utf-8")
+    diagnosed = shop.run("model", "diagnose", "job.yaml")
+    assert diagnosed.code == 0, diagnosed.messages
+    assert "expects what 2 earlier tests taught" in diagnosed.output
+    assert "scale-expansion" in diagnosed.output
+
+
+def test_the_certificate_carries_the_file_and_holds(shop: Shop) -> None:
+    shop.write("priors.yaml", _PRIORS)
+    assert shop.run("job.yaml", "-o", "out", "--format", "pdf,json").code == 0
+    checked = shop.run("verify", "out/EXAMPLE-2026-0016.pdf", "--json").summary
+    assert checked["verdict"] == "holds"
+    assert "priors.yaml" in {each["subject"] for each in checked["files"]}
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "place", "message"),
+    [
+        ("linear", "rotary", "job.yaml:", "it was learned from rotary axes, and this one is linear"),
+        ("[1, 3]", "[1]", "priors.yaml:4:", "each ratio has a probability"),
+        ("position:", "place:", "priors.yaml:4:", "place"),
+        ("zlmreport/priors/1", "zlmreport/job/1", "priors.yaml:1:", "a job"),
+    ],
+)
+def test_a_file_that_says_something_else_is_refused(
+    shop: Shop, old: str, new: str, place: str, message: str
+) -> None:
+    shop.write("priors.yaml", _PRIORS.replace(old, new, 1))
+    run = shop.run("check", "job.yaml")
+    assert run.code == 2
+    assert run.messages.startswith(place)
+    assert message in run.messages
+
+
+def test_a_folder_that_teaches_nothing_writes_nothing(shop: Shop) -> None:
+    shop.write("empty/laboratory.yaml", "laboratory: {name: Sample}\n")
+    run = shop.run("model", "learn", "empty", "-o", "new.yaml")
+    assert run.code == 2
+    assert "no job in empty has an error model that describes its readings" in run.messages
+    assert not (shop.folder / "new.yaml").exists()
+    assert shop.run("model", "learn", "nowhere").code == 3
+    assert shop.run("model", "fit", "job.yaml", "-o", "new.yaml").code == 2
