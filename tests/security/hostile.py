@@ -13,6 +13,7 @@ Path = tuple[str, ...]
 
 #: Keys whose texts name something that must exist: a hostile one is refused.
 NAMES = {
+    ("certificate", "style", "accent"),  # a colour
     ("extends",),
     ("extends", "[]"),
     ("provided_by_customer", "[]"),
@@ -55,7 +56,12 @@ def job_with(text_of: Callable[[Path], str]) -> str:
     """Return a job that states every text it can state."""
     job: dict[str, Any] = {
         "schema": "zlmreport/job/1",
-        "certificate": {"number": "CAL-1", "issued": "2026-11-20", "kind": "report"},
+        "certificate": {
+            "number": "CAL-1",
+            "issued": "2026-11-20",
+            "kind": "report",
+            "sections": [{}, "results"],
+        },
         "laboratory": {"country": "DE"},
         "location": {"kind": "laboratory"},
         "axis": {"kind": "linear", "travel": [0, 100]},
