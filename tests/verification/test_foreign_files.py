@@ -205,9 +205,20 @@ def test_a_job_inside_a_pdf_reads_no_other_file(
 @pytest.mark.parametrize("name", ["/etc/passwd", "../../../../../../../../etc/passwd"])
 def test_a_job_inside_a_pdf_extends_no_other_file(issued: bytes, verified: Verify, name: str) -> None:
     job = JOB.replace("extends: ../laboratory.yaml", f"extends: {name}").encode()
-    with pytest.raises(AccessError, match="passwd' cannot be read: no such file") as refused:
+    with pytest.raises(InputError, match="passwd' is no YAML file") as refused:
         verified(with_source(issued, "job.yaml", job))
     assert "root" not in str(refused.value)
+
+
+def test_a_job_inside_a_pdf_extends_no_file_of_the_same_kind_outside(
+    issued: bytes, verified: Verify, tmp_path: Path
+) -> None:
+    secret = tmp_path / "secret.yaml"
+    secret.write_text(SECRET, encoding="utf-8")
+    job = JOB.replace("extends: ../laboratory.yaml", f"extends: {secret}").encode()
+    with pytest.raises(AccessError, match=r"secret\.yaml' cannot be read: no such file") as refused:
+        verified(with_source(issued, "job.yaml", job))
+    assert SECRET not in str(refused.value)
 
 
 def test_a_job_inside_a_pdf_writes_nothing(
