@@ -32,9 +32,11 @@ def shop(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.Capture
     shop.write("earlier/deep/warm.yaml", whole.replace("file: cool", "file: ../../warm"))
     shop.write("earlier/again.yaml", whole.replace("file: cool", "file: ../cool"))
     shop.write("earlier/a-lacking.yaml", lacking.replace("file: cool", "file: ../warm"))
-    shop.write("earlier/bare.yaml", lacking[: lacking.index("model:")].replace("file: cool", "file: ../warm"))
+    shop.write(
+        "earlier/bare.yaml", lacking[: lacking.index("\nmodel:") + 1].replace("file: cool", "file: ../warm")
+    )
     shop.write("earlier/laboratory.yaml", "laboratory: {name: Sample}\n")
-    shop.write("job.yaml", lacking.replace("model:", "model:\n  priors: priors.yaml"))
+    shop.write("job.yaml", lacking.replace("\nmodel:", "\nmodel:\n  priors: priors.yaml"))
     return shop
 
 
