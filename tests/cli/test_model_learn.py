@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import shutil
 from pathlib import Path
 
@@ -87,6 +88,18 @@ def test_a_file_that_says_something_else_is_refused(
     assert run.code == 2
     assert run.messages.startswith(place)
     assert message in run.messages
+
+
+def test_what_is_no_file_is_named_and_waited_for_by_nobody(shop: Shop) -> None:
+    os.mkfifo(shop.folder / "earlier" / "pipe.yaml")
+    (shop.folder / "earlier" / "folder.yaml").mkdir()
+    shop.write("earlier/cool.yaml", "")
+    for name in ("again", "deep/warm"):
+        (shop.folder / "earlier" / f"{name}.yaml").unlink()
+    run = shop.run("model", "learn", "earlier")
+    assert run.code == 2
+    assert "earlier/pipe.yaml: left out: it cannot be read: it is no file but" in run.messages
+    assert "earlier/folder.yaml: left out: it cannot be read: it is a folder" in run.messages
 
 
 def test_a_folder_that_teaches_nothing_writes_nothing(shop: Shop) -> None:

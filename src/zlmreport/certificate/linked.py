@@ -176,8 +176,8 @@ def graphs(study: Study, whole: Fitted, language: Language) -> dict[str, Any]:
             "place": observed.reading.tolist(),
             "direction": np.where(design.direction > 0, 1, -1).tolist(),
             "run": design.run.tolist(),
-            "deviation": _values(unit.from_si(observed.deviation)),
-            "residual": _values(unit.from_si(left)),
+            "deviation": drawn_values(unit.from_si(observed.deviation)),
+            "residual": drawn_values(unit.from_si(left)),
             "fitted": fitted.tolist(),
         },
         "model": model_curves(diagram),
@@ -194,10 +194,10 @@ def model_curves(diagram: ModelDiagram) -> list[dict[str, Any]]:
     return [
         {
             "direction": int(approach),
-            "x": _values(curve.x),
-            "y": _values(curve.y),
-            "low": _values(band.lower),
-            "high": _values(band.upper),
+            "x": drawn_values(curve.x),
+            "y": drawn_values(curve.y),
+            "low": drawn_values(band.lower),
+            "high": drawn_values(band.upper),
         }
         for approach, curve, band in zip(diagram.approaches, panel.curves, panel.bands, strict=True)
     ]
@@ -233,11 +233,11 @@ def _axes(study: Study, language: Language) -> Iterator[dict[str, Any]]:
 
 
 def _axis(key: str, title: str, unit: str, values: FloatArray) -> dict[str, Any]:
-    return {"key": key, "title": title, "unit": unit, "values": _values(values)}
+    return {"key": key, "title": title, "unit": unit, "values": drawn_values(values)}
 
 
-def _values(values: FloatArray) -> list[float | None]:
-    """Return values as JSON has them: NaN, which it has not, is nothing."""
+def drawn_values(values: FloatArray) -> list[float | None]:
+    """Return values in the units of the page as JSON has them: NaN, which it has not, is nothing."""
     return [None if value != value else value for value in np.round(values, _DECIMALS).tolist()]  # noqa: PLR0124 - NaN is what differs from itself
 
 

@@ -10,10 +10,11 @@ from pathlib import Path
 from zlmreport import pipeline
 from zlmreport.cli.terminal import print_json, shown_path, table
 from zlmreport.errors import AccessError, InputError, Place, ZlmreportError
-from zlmreport.files import Document, write
+from zlmreport.files import Document, read, reason, write
 from zlmreport.job.evaluation_keys import PriorsKeys
 from zlmreport.job.extends import JOB
 from zlmreport.job.loading import load
+from zlmreport.job.text import LARGEST
 from zlmreport.model.diagnosis import Verdict
 from zlmreport.model.fit import Fit
 from zlmreport.model.priors import learned
@@ -37,12 +38,12 @@ def run(options: Namespace) -> int:
         )
     found = learned(fits)
     if options.output:
-        write([Document(options.output, _text(found, folder.name).encode())])
+        write([Document(options.output, _text(found, folder.resolve().name).encode())])
     if options.json:
         print_json(found.model_dump(mode="json", by_alias=True))
         return 0
     if not options.output:
-        print(_text(found, folder.name), end="")
+        print(_text(found, folder.resolve().name), end="")
         return 0
     print(*table(told, indent="  "), sep="\n")
     print(f"\n{found.tests} tests taught {shown_path(options.output)}")
@@ -58,7 +59,7 @@ def _fits(paths: list[Path], registry: Registry) -> tuple[list[Fit], list[tuple[
     for path in paths:
         name = shown_path(path)
         try:
-            if JOB.schema not in path.read_text(encoding="utf-8", errors="replace"):
+            if JOB.schema.encode() not in read(path, LARGEST):
                 continue  # what jobs extend, a simulation, a fleet
             job = load(path, registry)
             if not job.effects:
@@ -76,6 +77,9 @@ def _fits(paths: list[Path], registry: Registry) -> tuple[list[Fit], list[tuple[
             diagnosis = Study.of(alone, measurements, registry.effects).diagnosis(registry.effects)
         except ZlmreportError as error:
             told.append((name, f"left out: {error.problems[0].message}"))
+            continue
+        except OSError as error:  # of the file itself: a pipe, a folder of this name, nobody's to read
+            told.append((name, f"left out: it cannot be read: {reason(error)}"))
             continue
         if diagnosis.verdict is not Verdict.ADEQUATE:
             told.append((name, f"left out: its model is not adequate ({diagnosis.verdict})"))

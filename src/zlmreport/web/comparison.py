@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from zlmreport import pipeline
+from zlmreport.certificate.linked import drawn_values
 from zlmreport.certificate.results import Evaluated
 from zlmreport.errors import InputError, Place, Problem, ZlmreportError
 from zlmreport.evaluation.evaluation import Parameter
@@ -27,8 +28,6 @@ from zlmreport.quantities.arrays import FloatArray
 from zlmreport.web.bench import Bench, Loaded
 from zlmreport.web.panels import symbol
 
-#: Decimals of values that are drawn, in the units of the page: finer than any screen.
-_DECIMALS = 6
 _AS_FOUND = Words(en="{name}, as found", de="{name}, wie vorgefunden")
 
 
@@ -149,9 +148,9 @@ def _test(test: _Test, here: _Test, language: Language) -> dict[str, Any]:
         curves.append(
             {
                 "direction": int(approach),
-                "x": _values(axis.position_unit.from_si(at[there])),
-                "y": _values(axis.deviation_unit.from_si(mean[there])),
-                "difference": _values(axis.deviation_unit.from_si(difference[there])),
+                "x": drawn_values(axis.position_unit.from_si(at[there])),
+                "y": drawn_values(axis.deviation_unit.from_si(mean[there])),
+                "difference": drawn_values(axis.deviation_unit.from_si(difference[there])),
             }
         )
     return {
@@ -242,7 +241,3 @@ def _models(tests: Sequence[_Test], language: Language) -> Iterator[dict[str, An
                 for each in found
             ],
         }
-
-
-def _values(values: FloatArray) -> list[float | None]:
-    return [float(each) if np.isfinite(each) else None for each in np.round(values, _DECIMALS)]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import Any, Literal
 
@@ -133,7 +133,7 @@ def _lacking(job: Job, loaded: Loaded, registry: Registry) -> Iterator[Field]:
     unit = job.axis.deviation_unit.symbol
     for key, field in _FIELDS.items():
         if key in of_clause:
-            yield _in_unit(field, unit) if key == _INSTRUMENT_U else field
+            yield replace(field, unit=unit) if key == _INSTRUMENT_U else field
     budget = pipeline.budget_of_job(job, loaded.measurements, registry)
     if budget.uncorrected_expansion is None:
         stated = job.keys.environment
@@ -142,7 +142,7 @@ def _lacking(job: Job, loaded: Loaded, registry: Registry) -> Iterator[Field]:
                 yield _FIELDS[key]
     for name in budget.missing:
         if name == INSTRUMENT:
-            yield _in_unit(_FIELDS[_INSTRUMENT_U], unit)
+            yield replace(_FIELDS[_INSTRUMENT_U], unit=unit)
         else:
             yield Field(
                 f"uncertainty.{name}",
@@ -151,10 +151,6 @@ def _lacking(job: Job, loaded: Loaded, registry: Registry) -> Iterator[Field]:
                 _UNITS.get(name, unit),
                 f"uncertainty.negligible.{name}",
             )
-
-
-def _in_unit(field: Field, unit: str) -> Field:
-    return Field(field.key, field.name, field.form, unit)
 
 
 def field_values(field: Field, language: Language) -> dict[str, Any]:
