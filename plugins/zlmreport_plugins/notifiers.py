@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import os
 import smtplib
+import ssl
 from collections.abc import Iterable
 from email.message import EmailMessage
 from typing import Any, Literal
@@ -28,7 +29,9 @@ class MailOptions(Options):
     sender: TextLine = Field("zlmreport@localhost", description="Who the mail is from.")
     server: TextLine = Field("localhost", description="The SMTP server.")
     port: int = Field(25, ge=1, le=65535, description="Its port.")
-    security: Literal["none", "starttls", "tls"] = Field("none", description="How the line to it is secured.")
+    security: Literal["none", "starttls", "tls"] = Field(
+        "none", description="How the line to it is secured; its certificate must be one that is trusted here."
+    )
     user: TextLine | None = Field(None, description="Name at the server, where it asks for one.")
     secret: TextLine = Field(
         "ZLMREPORT_NOTIFY",
@@ -60,17 +63,25 @@ class Mail:
         mail = EmailMessage()
         mail["Subject"], mail["From"], mail["To"] = message.title, options.sender, self.receiver(options)
         mail.set_content(message.text)
-        opened = smtplib.SMTP_SSL if options.security == "tls" else smtplib.SMTP
         try:
-            with opened(options.server, options.port, timeout=_PATIENCE) as server:
+            with _opened(options) as server:
                 if options.security == "starttls":
-                    server.starttls()
+                    server.starttls(context=ssl.create_default_context())
                 if options.user:
                     server.login(options.user, _secret(options.secret))
                 server.send_message(mail)
         except (OSError, smtplib.SMTPException) as error:
             where = Place(f"mail by {options.server}")
             raise AccessError.at(where, str(error) or type(error).__name__) from error
+
+
+def _opened(options: MailOptions) -> smtplib.SMTP:
+    """Return the line to the server; without a context the library takes any server's certificate."""
+    if options.security == "tls":
+        return smtplib.SMTP_SSL(
+            options.server, options.port, timeout=_PATIENCE, context=ssl.create_default_context()
+        )
+    return smtplib.SMTP(options.server, options.port, timeout=_PATIENCE)
 
 
 class AppriseOptions(Options):

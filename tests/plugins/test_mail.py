@@ -1,0 +1,59 @@
+"""A password is handed to no server that cannot prove its name."""
+
+from __future__ import annotations
+
+import socket
+import ssl
+import threading
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from cryptography.hazmat.primitives.serialization import Encoding, NoEncryption, PrivateFormat
+
+from signing.keys import certificate_of, elliptic
+from zlmreport.errors import AccessError
+from zlmreport.plugin import Message, Occasion
+from zlmreport_plugins.notifiers import Mail, MailOptions
+
+_PATIENCE = 10.0
+
+
+@pytest.fixture
+def port_of_a_stranger(tmp_path: Path) -> Iterator[int]:
+    """Return the port of a server with a certificate that nobody vouches for; it takes one line."""
+    file = tmp_path / "stranger.pem"
+    key = elliptic().private_bytes(Encoding.PEM, PrivateFormat.PKCS8, NoEncryption())
+    file.write_bytes(key + certificate_of(elliptic()).public_bytes(Encoding.PEM))
+    context = ssl.SSLContext(ssl.PROTOCOL_TLS_SERVER)
+    context.load_cert_chain(file)
+    said: list[bytes] = []
+
+    def serve() -> None:
+        line, _ = listener.accept()
+        line.settimeout(_PATIENCE)
+        try:
+            with context.wrap_socket(line, server_side=True) as secured:
+                secured.sendall(b"220 mail\r\n")
+                said.append(secured.recv(1000))
+        except OSError:
+            line.close()
+
+    with socket.create_server(("127.0.0.1", 0)) as listener:
+        listener.settimeout(_PATIENCE)
+        thread = threading.Thread(target=serve, daemon=True)
+        thread.start()
+        yield listener.getsockname()[1]
+        thread.join(_PATIENCE)
+    assert said == []
+
+
+def test_a_server_with_a_certificate_of_its_own_gets_nothing(
+    port_of_a_stranger: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("ZLMREPORT_NOTIFY", "password")
+    options = MailOptions.model_validate(
+        {"to": "a@b.c", "server": "127.0.0.1", "port": port_of_a_stranger, "security": "tls", "user": "fleet"}
+    )
+    with pytest.raises(AccessError, match="certificate verify failed"):
+        Mail().tell(Message(Occasion.DIGEST, "Hall North: 1 failed", "x\n"), options)
