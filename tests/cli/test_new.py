@@ -74,6 +74,7 @@ def test_skeleton_is_found_and_names_a_guide_that_there_is(kind: str, begun: Any
 
 
 def test_skeleton_is_as_the_formatter_leaves_it(begun: Any) -> None:
+    pytest.importorskip("ruff", reason="the formatter comes with the group lint, and is not installed")
     for kind in GUIDES:
         folder = begun(kind)
         formatted = subprocess.run(
