@@ -1,4 +1,6 @@
-"""Writes the generated parts of the pages, and pictures of sequences: ``python docs/generate [FOLDER]``.
+"""Writes the generated parts of the pages, pictures of sequences, and the door's names for type checkers.
+
+Called as ``python docs/generate [FOLDER]``; the door's stub is written below the folder's parent.
 
 A part stands between two comments, ``<!-- generated: NAME -->`` and ``<!-- end: NAME -->``, in any page below
 the folder (this one's parent, if none is given). What is around it is written by hand and left alone.
@@ -62,6 +64,9 @@ def generate(folder: Path) -> set[str]:
         if after != before:
             page.write_text(after, encoding="utf-8")
     (folder / "reference" / "job.schema.json").write_text(job_keys.schema_text(), encoding="utf-8")
+    stub = folder.parent / "src/zlmreport/plugin/__init__.pyi"
+    stub.parent.mkdir(parents=True, exist_ok=True)
+    stub.write_text(door.stub(), encoding="utf-8")
     for name, picture in {**sequences.pictures(), **probing_path.pictures()}.items():
         (folder / "images" / name).write_text(picture, encoding="utf-8")
     return used

@@ -49,6 +49,22 @@ def text() -> str:
     return "\n\n".join(part for room in order if room in by_room for part in _topic(room, by_room[room]))
 
 
+def stub() -> str:
+    """Return what a type checker reads of the door: its names, by the modules that they come from."""
+    by_module: dict[str, list[str]] = {}
+    for name in sorted(door.__all__):
+        module, own = door.home_of(name)
+        by_module.setdefault(module, []).append(name if own == name else f"{own} as {name}")
+    return "\n".join(
+        (
+            '"""The door for type checkers; ``python docs/generate`` writes it."""\n',
+            *(f"from {module} import {', '.join(names)}" for module, names in sorted(by_module.items())),
+            f"\n__all__ = {sorted(door.__all__)}\n".replace("'", '"'),
+            "def home_of(name: str) -> tuple[str, str]: ...\n",
+        )
+    )
+
+
 def _topic(room: str, names: list[str]) -> Iterator[str]:
     yield f"### {_TOPICS.get(room, room.replace('_', ' ').capitalize())}"
     yield table(("Name", "Meaning"), ((code(_written(name)), meaning(name)) for name in names))
