@@ -41,6 +41,8 @@ class Span:
 def spans(notation: str) -> tuple[Span, ...]:
     """Return the spans of a notation, in reading order.
 
+    Examples
+    --------
     >>> [(span.text, span.italic, span.subscript) for span in spans("P_{s max}")]
     [('P', True, False), ('s max', False, True)]
     """
