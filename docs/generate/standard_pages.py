@@ -7,8 +7,7 @@ from collections.abc import Iterator
 
 from markdown import code, symbol, table
 
-from zlmreport.evaluation.quantity import Group
-from zlmreport.evaluation.requirements import Basis
+from zlmreport.evaluation.evaluation import Basis, Group
 from zlmreport.language import Language
 from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.plugin.kinds import STANDARD

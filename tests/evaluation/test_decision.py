@@ -10,10 +10,9 @@ import numpy as np
 import pytest
 
 from plugins.standards.installed import STANDARDS
-from zlmreport.evaluation.conformity import Conformity, Decision
 from zlmreport.evaluation.decision import decided, decision_rule
 from zlmreport.evaluation.evaluate import evaluate
-from zlmreport.evaluation.evaluation import Parameter
+from zlmreport.evaluation.evaluation import Conformity, Decision, Parameter
 from zlmreport.job.types import Options
 from zlmreport.language import Language
 from zlmreport.testing import bidirectional_test, simulated_test

@@ -13,9 +13,7 @@ from pydantic import Field
 
 from zlmreport.certificate.document import Certificate, Graph
 from zlmreport.errors import AccessError, InputError, Place
-from zlmreport.evaluation.evaluation import Arithmetic, Evaluation
-from zlmreport.evaluation.quantity import Group, PositionQuantity, Quantity
-from zlmreport.evaluation.requirements import Finding
+from zlmreport.evaluation.evaluation import Arithmetic, Evaluation, Finding, Group, PositionQuantity, Quantity
 from zlmreport.evaluation.statistics import PositionStatistics, largest, smallest
 from zlmreport.figures.figure import Band, Bracket, Curve, Figure, Panel, Role
 from zlmreport.job.types import JobPath, Options

@@ -12,9 +12,7 @@ import pytest
 from pydantic import Field
 
 from testing.exemplary import ExemplaryOptions, ExemplaryStandard
-from zlmreport.evaluation.evaluation import Arithmetic, Evaluation
-from zlmreport.evaluation.quantity import PositionQuantity
-from zlmreport.evaluation.requirements import Finding
+from zlmreport.evaluation.evaluation import Arithmetic, Evaluation, Finding, PositionQuantity
 from zlmreport.evaluation.statistics import PositionStatistics, largest
 from zlmreport.figures.figure import Arrow, Figure, Level, Role
 from zlmreport.job.types import Options

@@ -31,9 +31,15 @@ from zlmreport.certificate.document import (
 )
 from zlmreport.evaluation.decision import decided, decision_rule
 from zlmreport.evaluation.evaluate import evaluate
-from zlmreport.evaluation.evaluation import Arithmetic, Evaluation
-from zlmreport.evaluation.quantity import Group, PositionQuantity, Quantity
-from zlmreport.evaluation.requirements import Basis, Finding
+from zlmreport.evaluation.evaluation import (
+    Arithmetic,
+    Basis,
+    Evaluation,
+    Finding,
+    Group,
+    PositionQuantity,
+    Quantity,
+)
 from zlmreport.evaluation.statistics import PositionStatistics
 from zlmreport.figures.figure import Arrow, Band, Bracket, Curve, Figure, Panel, Readings, Role
 from zlmreport.job.types import Options

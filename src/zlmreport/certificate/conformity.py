@@ -19,7 +19,7 @@ from zlmreport.certificate.document import (
     Table,
     Verdict,
 )
-from zlmreport.evaluation.conformity import Conformity
+from zlmreport.evaluation.evaluation import Conformity
 from zlmreport.language import Words
 from zlmreport.presenting.amounts import with_uncertainty
 from zlmreport.presenting.writer import NOTHING, Writer

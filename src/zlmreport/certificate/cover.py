@@ -15,7 +15,7 @@ from zlmreport.certificate.readings import missing_readings
 from zlmreport.certificate.results import Evaluated, section_key
 from zlmreport.certificate.statements import amendment_notice, in_a_line
 from zlmreport.certificate.values import Values, told_apart
-from zlmreport.evaluation.quantity import Group
+from zlmreport.evaluation.evaluation import Group
 from zlmreport.job.document_keys import Location
 from zlmreport.language import Words, same
 

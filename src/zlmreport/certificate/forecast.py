@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from zlmreport.compensation.basis import FittedModel, compensated
-from zlmreport.evaluation.quantity import Group, Quantity
+from zlmreport.evaluation.evaluation import Group, Quantity
 from zlmreport.evaluation.statistics import position_statistics
 from zlmreport.model.study import Fitted, Study, corrected
 from zlmreport.quantities.arrays import FloatArray, read_only_floats

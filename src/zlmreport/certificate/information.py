@@ -10,7 +10,7 @@ from enum import Enum
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
-from zlmreport.evaluation.requirements import Finding
+from zlmreport.evaluation.evaluation import Finding
 from zlmreport.language import Words
 from zlmreport.measurement.axis import AxisKind
 from zlmreport.uncertainty.budget import Budget, NoBudget

@@ -27,8 +27,7 @@ from zlmreport.certificate.document import (
     Verdict,
 )
 from zlmreport.certificate.values import Values, told_apart
-from zlmreport.evaluation.quantity import Group
-from zlmreport.evaluation.requirements import Basis, Finding
+from zlmreport.evaluation.evaluation import Basis, Finding, Group
 from zlmreport.language import Words
 from zlmreport.presenting.amounts import written_uncertainty
 from zlmreport.quantities.notation import plain

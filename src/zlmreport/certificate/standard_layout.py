@@ -31,8 +31,7 @@ from zlmreport.certificate.material import (
 )
 from zlmreport.certificate.results import Evaluated, section_key
 from zlmreport.certificate.values import Values, told_apart
-from zlmreport.evaluation.evaluation import Evaluation
-from zlmreport.evaluation.quantity import Group
+from zlmreport.evaluation.evaluation import Evaluation, Group
 from zlmreport.figures.figure import Figure, Panel
 from zlmreport.language import Words
 from zlmreport.presenting.writer import Writer

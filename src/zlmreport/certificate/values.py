@@ -15,8 +15,7 @@ from zlmreport.quantities.formatting import fixed_number
 from zlmreport.quantities.notation import plain
 
 if TYPE_CHECKING:
-    from zlmreport.evaluation.evaluation import Evaluation, Parameter
-    from zlmreport.evaluation.quantity import PositionQuantity, Quantity
+    from zlmreport.evaluation.evaluation import Evaluation, Parameter, PositionQuantity, Quantity
 
 _VALUE = Words(en="Value", de="Wert")
 _AXIS = Words(en="Axis, 95 %", de="Achse, 95 %")

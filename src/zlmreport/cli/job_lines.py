@@ -21,8 +21,7 @@ from zlmreport.uncertainty.budget import Budget
 
 if TYPE_CHECKING:
     from zlmreport.cli.jobs import Result
-    from zlmreport.evaluation.evaluation import Evaluation, Parameter
-    from zlmreport.evaluation.requirements import Finding
+    from zlmreport.evaluation.evaluation import Evaluation, Finding, Parameter
     from zlmreport.job.job import Job
     from zlmreport.measurement.measurement_set import MeasurementSet
     from zlmreport.model.faults import Fault

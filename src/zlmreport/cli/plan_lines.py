@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from zlmreport.cli.terminal import Colour, line_width, said, table, wrapped
-from zlmreport.evaluation import printed
+from zlmreport.evaluation.checks import position_in_words
 from zlmreport.job.job import Job
 from zlmreport.measurement.axis import Axis
 from zlmreport.model import wording
@@ -71,7 +71,7 @@ def _sequence(job: Job, planned: PlannedTest) -> Iterator[str]:
     stretches = list(_stretches(planned.visits))
     shown = "  ".join(stretches[:_MOST_STRETCHES])
     yield from wrapped(f"{shown}  …" if len(stretches) > _MOST_STRETCHES else shown)
-    overrun = said(printed.position(job.axis, plan.overrun))
+    overrun = said(position_in_words(job.axis, plan.overrun))
     feed = general_number(job.axis.position_unit.from_si(plan.feed) * _MINUTE)
     motion = (
         f"the axis turns round {overrun} beyond; {feed} {unit}/min{_assumed('measurement.feed', planned)}"
@@ -79,7 +79,7 @@ def _sequence(job: Job, planned: PlannedTest) -> Iterator[str]:
     yield from wrapped(
         f"{motion}, {general_number(plan.dwell)} s at rest{_assumed('measurement.dwell', planned)}"
     )
-    way = said(printed.position(job.axis, round(planned.travelled, 3)))
+    way = said(position_in_words(job.axis, round(planned.travelled, 3)))
     yield from wrapped(f"{way} of travel, about {max(1, round(planned.duration / _MINUTE))} min")
     yield from _beyond_the_travel(job.axis, planned)
 
@@ -87,7 +87,7 @@ def _sequence(job: Job, planned: PlannedTest) -> Iterator[str]:
 def _beyond_the_travel(axis: Axis, planned: PlannedTest) -> Iterator[str]:
     if axis.travel is None or planned.beyond_travel is None:
         return
-    ends = [said(printed.position(axis, end)) for end in (*planned.beyond_travel, *axis.travel)]
+    ends = [said(position_in_words(axis, end)) for end in (*planned.beyond_travel, *axis.travel)]
     text = "it turns round at {} and {}; the travel is {} to {}".format(*ends)
     yield from wrapped(f"{Colour.YELLOW.of('check')}: {text}")
 

@@ -11,9 +11,7 @@ from dataclasses import dataclass, replace
 from enum import Enum
 from typing import TypeAlias
 
-from zlmreport.evaluation.conformity import Conformity, Decision
-from zlmreport.evaluation.evaluation import Evaluation, Parameter
-from zlmreport.evaluation.requirements import Finding
+from zlmreport.evaluation.evaluation import Conformity, Decision, Evaluation, Finding, Parameter
 from zlmreport.language import Words
 from zlmreport.quantities.notation import plain
 

@@ -8,10 +8,17 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from zlmreport.evaluation.evaluation import Arithmetic, Evaluation, Parameter, PositionColumn
-from zlmreport.evaluation.printed import deviation
-from zlmreport.evaluation.quantity import Group, PositionQuantity, Quantity
-from zlmreport.evaluation.requirements import Finding
+from zlmreport.evaluation.checks import deviation_in_words
+from zlmreport.evaluation.evaluation import (
+    Arithmetic,
+    Evaluation,
+    Finding,
+    Group,
+    Parameter,
+    PositionColumn,
+    PositionQuantity,
+    Quantity,
+)
 from zlmreport.evaluation.statistics import PositionStatistics, position_statistics
 from zlmreport.language import Words
 from zlmreport.measurement.axis import Axis
@@ -158,7 +165,7 @@ def doubts(
         negative = is_negative(quantity, value, farthest)
         if not negative and abs(value) <= farthest:
             continue
-        symbol, said = plain(quantity.notation), deviation(axis, value)
-        largest = deviation(axis, float(np.nanmax(np.abs(statistics.deviations))))
+        symbol, said = plain(quantity.notation), deviation_in_words(axis, value)
+        largest = deviation_in_words(axis, float(np.nanmax(np.abs(statistics.deviations))))
         found = (_NEGATIVE if negative else _TOO_LARGE).given(symbol=symbol, value=said, largest=largest)
         yield Finding(_POSSIBLE.given(symbol=symbol), found, met=False)

@@ -1,4 +1,4 @@
-"""The result of evaluating one test by one standard."""
+"""What a standard asks and reports: requirements, quantities, values with what is decided on them."""
 
 from __future__ import annotations
 
@@ -6,13 +6,146 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import Enum
 
-from zlmreport.evaluation.conformity import Decision
-from zlmreport.evaluation.quantity import PositionQuantity, Quantity
-from zlmreport.evaluation.requirements import Finding
 from zlmreport.evaluation.statistics import PositionStatistics
 from zlmreport.language import Words
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.quantities.arrays import FloatArray
+
+
+class Conformity(Enum):
+    """The statement."""
+
+    MET = "pass"
+    CONDITIONALLY_MET = "conditional-pass"
+    CONDITIONALLY_FAILED = "conditional-fail"
+    FAILED = "fail"
+    UNDECIDED = "undecided"
+
+    @property
+    def conforms(self) -> bool | None:
+        """Whether the limit counts as kept; None where nothing is decided."""
+        if self is Conformity.UNDECIDED:
+            return None
+        return self in (Conformity.MET, Conformity.CONDITIONALLY_MET)
+
+
+@dataclass(frozen=True, slots=True)
+class Decision:
+    """What a decision rule says of one value.
+
+    Attributes
+    ----------
+    conformity
+        The statement.
+    acceptance_limit
+        TL − w, m or rad: up to it the limit is kept. Negative where no value could keep it; None where the
+        rule needs an uncertainty that was not evaluated.
+    rejection_limit
+        m or rad: beyond it the limit is exceeded. None as above.
+    risk
+        Probability that the statement is wrong: that the true value lies beyond the limit although the
+        statement says that it keeps it, or the other way round, for a normally distributed value
+        (JCGM 106:2012, clause 7). None where nothing is stated, or no uncertainty was evaluated.
+    """
+
+    conformity: Conformity
+    acceptance_limit: float | None
+    rejection_limit: float | None
+    risk: float | None
+
+
+class Basis(Enum):
+    """How sure it is that a rule stands in the standard's text as given here.
+
+    Only what is PUBLISHED may be printed as the standard's word; the rest is printed as the rule that
+    the laboratory applied.
+    """
+
+    PUBLISHED = "published"
+    APPLIED = "applied"
+
+
+@dataclass(frozen=True, slots=True)
+class Finding:
+    """One requirement held against the test.
+
+    Attributes
+    ----------
+    requirement
+        What is asked.
+    found
+        What the test has.
+    met
+        True, False, or None where the job does not tell.
+    basis
+        Where the requirement is known from.
+    """
+
+    requirement: Words
+    found: Words
+    met: bool | None
+    basis: Basis = Basis.APPLIED
+
+
+class Group(Enum):
+    """The three kinds of deviation that all standards tell apart (ZLM, G 1.3)."""
+
+    SYSTEMATIC = "systematic"
+    RANDOM = "random"
+    COMPOSITE = "composite"
+
+
+@dataclass(frozen=True, slots=True)
+class Quantity:
+    """A parameter of the axis as a standard defines it.
+
+    Attributes
+    ----------
+    symbol
+        ASCII, as in the results file: ``A_fwd``.
+    notation
+        As printed (`zlmreport.quantities.notation`): ``A↑``.
+    name
+        The name in the wording of the standard's edition.
+    group
+        Systematic, random or composite.
+    formula
+        The definition as printed, in notation.
+    meaning
+        What it says of a part made (or measured) on the machine, in a sentence.
+    can_be_limited
+        Whether a job may state a tolerance for it.
+    printed_sign
+        −1 where the edition prints the value with the sign opposite to the results file; else 1.
+    """
+
+    symbol: str
+    notation: str
+    name: Words
+    group: Group
+    formula: str
+    meaning: Words
+    can_be_limited: bool = True
+    printed_sign: int = 1
+
+
+@dataclass(frozen=True, slots=True)
+class PositionQuantity:
+    """A column of the table by position: one value at each target position.
+
+    Attributes
+    ----------
+    symbol
+        ASCII key, as in the results file: ``mean_fwd``.
+    notation
+        As printed: ``x̄_{i}↑``.
+    name
+        In words.
+    """
+
+    symbol: str
+    notation: str
+    name: Words
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,8 +8,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from zlmreport.evaluation.conformity import Decision
-from zlmreport.evaluation.evaluation import Evaluation, Parameter
+from zlmreport.evaluation.evaluation import Decision, Evaluation, Parameter
 from zlmreport.language import Language
 from zlmreport.measurement.approach import Approach
 from zlmreport.quantities.arrays import FloatArray

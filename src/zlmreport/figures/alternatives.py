@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from zlmreport.evaluation import printed
+from zlmreport.evaluation.checks import deviation_in_words, position_in_words, positions_in_words
 from zlmreport.evaluation.evaluation import Evaluation
 from zlmreport.figures.figure import Arrow, Bracket
 from zlmreport.language import Words
@@ -29,9 +29,9 @@ def graph_of(evaluation: Evaluation) -> Words:
         "Diagramm der Abweichung über der Sollposition für Achse {axis}: {positions}, {first} bis {last}.",
     ).given(
         axis=axis.name,
-        positions=printed.positions(len(targets)),
-        first=printed.position(axis, float(targets[0])),
-        last=printed.position(axis, float(targets[-1])),
+        positions=positions_in_words(len(targets)),
+        first=position_in_words(axis, float(targets[0])),
+        last=position_in_words(axis, float(targets[-1])),
     )
 
 
@@ -41,8 +41,8 @@ def range_of(axis: Axis, name: Words, values: FloatArray) -> Words | None:
         return None
     return Words("{name} from {low} to {high}.", "{name} von {low} bis {high}.").given(
         name=name,
-        low=printed.deviation(axis, float(np.nanmin(values))),
-        high=printed.deviation(axis, float(np.nanmax(values))),
+        low=deviation_in_words(axis, float(np.nanmin(values))),
+        high=deviation_in_words(axis, float(np.nanmax(values))),
     )
 
 
@@ -75,11 +75,11 @@ def _bracket(axis: Axis, bracket: Bracket) -> Words:
 
 
 def _printed_length(axis: Axis, value: float) -> Words:
-    return printed.deviation(axis, axis.deviation_unit.to_si(value))
+    return deviation_in_words(axis, axis.deviation_unit.to_si(value))
 
 
 def _printed_position(axis: Axis, value: float) -> Words:
-    return printed.position(axis, axis.position_unit.to_si(value))
+    return position_in_words(axis, axis.position_unit.to_si(value))
 
 
 def _joined(phrases: list[Words], between: str) -> Words:

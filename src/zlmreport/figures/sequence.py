@@ -7,7 +7,7 @@ from itertools import groupby
 
 import numpy as np
 
-from zlmreport.evaluation import printed
+from zlmreport.evaluation.checks import position_in_words, positions_in_words
 from zlmreport.figures import alternatives
 from zlmreport.figures.figure import Curve, Figure, Panel, Readings, Role
 from zlmreport.language import Words
@@ -82,9 +82,9 @@ def _alternative(motion: Motion) -> Words:
         _SENTENCE.given(
             readings=readings,
             runs=readings // len(motion.targets),
-            positions=printed.positions(len(motion.targets)),
-            first=printed.position(motion.axis, to_si(motion.targets[0])),
-            last=printed.position(motion.axis, to_si(motion.targets[-1])),
+            positions=positions_in_words(len(motion.targets)),
+            first=position_in_words(motion.axis, to_si(motion.targets[0])),
+            last=position_in_words(motion.axis, to_si(motion.targets[-1])),
         ),
-        _TURNS.given(overrun=printed.position(motion.axis, to_si(motion.overrun))),
+        _TURNS.given(overrun=position_in_words(motion.axis, to_si(motion.overrun))),
     )

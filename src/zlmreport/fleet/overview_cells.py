@@ -11,7 +11,7 @@ from datetime import date
 from pathlib import Path
 from urllib.parse import quote
 
-from zlmreport.evaluation.quantity import Quantity
+from zlmreport.evaluation.evaluation import Quantity
 from zlmreport.figures.canvas import Fill, Segment, Stroke
 from zlmreport.figures.svg import SvgCanvas
 from zlmreport.fleet import overview_words as words

@@ -18,7 +18,7 @@ import numpy as np
 
 from zlmreport.correction.refractive_index import STANDARD_HUMIDITY, STANDARD_PRESSURE
 from zlmreport.errors import InputError
-from zlmreport.evaluation.requirements import Finding
+from zlmreport.evaluation.evaluation import Finding
 from zlmreport.job.job import Job
 from zlmreport.language import Words
 from zlmreport.measurement.approach import Approach

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from zlmreport.errors import InputError
-from zlmreport.evaluation.requirements import Finding
+from zlmreport.evaluation.evaluation import Finding
 from zlmreport.job.job import Job
 from zlmreport.language import Words
 from zlmreport.model.axis_model import AxisModel, Term, chosen_terms

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from zlmreport.evaluation import printed
+from zlmreport.evaluation.checks import position_in_words
 from zlmreport.language import Words
 from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.quantities.arrays import BoolArray, FloatArray, read_only_floats
@@ -177,7 +177,7 @@ def periods_at_phases(axis: Axis, targets: FloatArray, number: int) -> list[Word
         1 or 2.
     """
     return [
-        _PERIODS[key].given(period=printed.position(axis, period))
+        _PERIODS[key].given(period=position_in_words(axis, period))
         for key, period in periods(axis)
         if phases(targets, period) == number
     ]

@@ -13,8 +13,8 @@ from importlib import import_module
 _ROOMS = {
     "zlmreport.capture.events": (
         "CaptureEnded=Ended CaptureResumed=Resumed DatumClosed=Closed DatumHolds DatumMoved DatumTaken "
-        "OperatorCommented=Commented OperatorRetake=Retake OperatorSkipped=Skipped "
-        "ReadingRecorded=Recorded ZeroLost"
+        "OperatorCommented=Commented OperatorRetake=Retake OperatorSkipped=Skipped ReadingRecorded=Recorded "
+        "ZeroLost"
     ),
     "zlmreport.capture.history": "JournalEntry=Entry JournalHistory=History read_journal=read_history",
     "zlmreport.capture.options": "CaptureOptions",
@@ -39,29 +39,22 @@ _ROOMS = {
     ),
     "zlmreport.emulation.emulator": "Emulator Scene Trouble",
     "zlmreport.errors": "AccessError InputError Place Problem did_you_mean quoted",
-    "zlmreport.evaluation.checks.positions": (
-        "exceeds measured_length positions_by_angle positions_in_all positions_over_travel "
-        "positions_per_metre positions_per_scale_element principal_angles"
+    "zlmreport.evaluation.checks": (
+        "both_directions deviation_in_words exceeds fewest_runs mean_interval measured_length "
+        "no_missing_readings number_of_runs position_in_words positions_by_angle positions_in_all "
+        "positions_in_words positions_over_travel positions_per_metre positions_per_scale_element "
+        "principal_angles random_fractions runs_in_words spacing_against_periods"
     ),
-    "zlmreport.evaluation.checks.readings": (
-        "both_directions fewest_runs mean_interval no_missing_readings number_of_runs random_fractions "
-        "spacing_against_periods"
-    ),
-    "zlmreport.evaluation.conformity": "Conformity Decision",
     "zlmreport.evaluation.decision": "decided decision_rule",
     "zlmreport.evaluation.evaluate": "evaluate",
-    "zlmreport.evaluation.evaluation": "Arithmetic EvaluatedParameter=Parameter Evaluation",
-    "zlmreport.evaluation.printed": (
-        "deviation_in_words=deviation position_in_words=position positions_in_words=positions "
-        "runs_in_words=runs"
+    "zlmreport.evaluation.evaluation": (
+        "Arithmetic Basis Conformity Decision EvaluatedParameter=Parameter Evaluation Finding "
+        "PositionQuantity Quantity QuantityGroup=Group"
     ),
-    "zlmreport.evaluation.quantity": "PositionQuantity Quantity QuantityGroup=Group",
     "zlmreport.evaluation.report": "report_evaluation",
-    "zlmreport.evaluation.requirements": "Basis Finding",
     "zlmreport.evaluation.statistics": (
-        "PositionStatistics largest_over_positions=largest mean_over_positions=average "
-        "position_statistics range_over_positions=width smallest_over_positions=smallest "
-        "span_over_positions=span"
+        "PositionStatistics largest_over_positions=largest mean_over_positions=average position_statistics "
+        "range_over_positions=width smallest_over_positions=smallest span_over_positions=span"
     ),
     "zlmreport.figures.alternatives": (
         "alternative_text=text graph_in_words=graph_of marks_in_words=marks range_in_words=range_of"
@@ -128,8 +121,7 @@ _ROOMS = {
     "zlmreport.quantities.temperature": "REFERENCE_TEMPERATURE above_reference_temperature=above_reference",
     "zlmreport.quantities.units": (
         "CELSIUS DEGREE HECTOPASCAL INCH LENGTH_UNITS MICROMETRE MICROMETRE_PER_METRE_KELVIN MICRORADIAN "
-        "MILLIMETRE MILLIRADIAN PERCENT POSITION_UNITS ReadingScale=Scale SECOND TIME_UNITS Unit "
-        "unit_named"
+        "MILLIMETRE MILLIRADIAN PERCENT POSITION_UNITS ReadingScale=Scale SECOND TIME_UNITS Unit unit_named"
     ),
     "zlmreport.typesetting.compose": "GRAPH_ADDRESS HtmlSetting=Setting LOGO_ADDRESS compose_html=compose",
     "zlmreport.typesetting.linked": "linked_script=script linked_style=style script_fingerprint=fingerprint",

@@ -17,16 +17,11 @@ from zlmreport.compensation.curve import CompensationTable
 from zlmreport.correction.refractive_index import STANDARD_HUMIDITY, STANDARD_PRESSURE, index_change, refractive_index
 from zlmreport.emulation.emulator import Emulator, Scene, Trouble
 from zlmreport.errors import AccessError, InputError, Place, Problem, did_you_mean, quoted
-from zlmreport.evaluation.checks.positions import exceeds, measured_length, positions_by_angle, positions_in_all, positions_over_travel, positions_per_metre, positions_per_scale_element, principal_angles
-from zlmreport.evaluation.checks.readings import both_directions, fewest_runs, mean_interval, no_missing_readings, number_of_runs, random_fractions, spacing_against_periods
-from zlmreport.evaluation.conformity import Conformity, Decision
+from zlmreport.evaluation.checks import both_directions, deviation_in_words, exceeds, fewest_runs, mean_interval, measured_length, no_missing_readings, number_of_runs, position_in_words, positions_by_angle, positions_in_all, positions_in_words, positions_over_travel, positions_per_metre, positions_per_scale_element, principal_angles, random_fractions, runs_in_words, spacing_against_periods
 from zlmreport.evaluation.decision import decided, decision_rule
 from zlmreport.evaluation.evaluate import evaluate
-from zlmreport.evaluation.evaluation import Arithmetic, Parameter as EvaluatedParameter, Evaluation
-from zlmreport.evaluation.printed import deviation as deviation_in_words, position as position_in_words, positions as positions_in_words, runs as runs_in_words
-from zlmreport.evaluation.quantity import PositionQuantity, Quantity, Group as QuantityGroup
+from zlmreport.evaluation.evaluation import Arithmetic, Basis, Conformity, Decision, Parameter as EvaluatedParameter, Evaluation, Finding, PositionQuantity, Quantity, Group as QuantityGroup
 from zlmreport.evaluation.report import report_evaluation
-from zlmreport.evaluation.requirements import Basis, Finding
 from zlmreport.evaluation.statistics import PositionStatistics, largest as largest_over_positions, average as mean_over_positions, position_statistics, width as range_over_positions, smallest as smallest_over_positions, span as span_over_positions
 from zlmreport.figures.alternatives import text as alternative_text, graph_of as graph_in_words, marks as marks_in_words, range_of as range_in_words
 from zlmreport.figures.canvas import Canvas, Colour, Fill, Face as FontFace, Segment, Stroke, Label as TextLabel, Run as TextRun

@@ -20,9 +20,7 @@ if TYPE_CHECKING:
     from zlmreport.compensation.curve import CompensationTable
     from zlmreport.emulation.emulator import Emulator, Scene
     from zlmreport.errors import Place
-    from zlmreport.evaluation.evaluation import Arithmetic, Evaluation
-    from zlmreport.evaluation.quantity import PositionQuantity, Quantity
-    from zlmreport.evaluation.requirements import Finding
+    from zlmreport.evaluation.evaluation import Arithmetic, Evaluation, Finding, PositionQuantity, Quantity
     from zlmreport.evaluation.statistics import PositionStatistics
     from zlmreport.figures.figure import Figure
     from zlmreport.job.types import Options

@@ -32,10 +32,17 @@ from zlmreport.certificate.document import (
     Verdict,
 )
 from zlmreport.errors import Place
-from zlmreport.evaluation.conformity import Conformity, Decision
-from zlmreport.evaluation.evaluation import Evaluation, Parameter, PositionColumn
-from zlmreport.evaluation.quantity import Group, PositionQuantity, Quantity
-from zlmreport.evaluation.requirements import Finding
+from zlmreport.evaluation.evaluation import (
+    Conformity,
+    Decision,
+    Evaluation,
+    Finding,
+    Group,
+    Parameter,
+    PositionColumn,
+    PositionQuantity,
+    Quantity,
+)
 from zlmreport.evaluation.statistics import position_statistics
 from zlmreport.figures.figure import Arrow, Band, Bracket, Curve, Figure, Level, Panel, Readings, Role
 from zlmreport.job.document_keys import CertificateKeys, Customer, Laboratory, Person

@@ -6,8 +6,7 @@ from collections import Counter
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from zlmreport.evaluation.quantity import Group, PositionQuantity, Quantity
-from zlmreport.evaluation.requirements import Basis, Finding
+from zlmreport.evaluation.evaluation import Basis, Finding, Group, PositionQuantity, Quantity
 from zlmreport.job.types import Options
 from zlmreport.plugin.protocols import Standard
 from zlmreport.quantities.notation import plain

@@ -15,7 +15,7 @@ import pytest
 from certificate.documents import COMPLETE, certificate
 from zlmreport.certificate.document import Certificate
 from zlmreport.errors import InputError
-from zlmreport.evaluation.conformity import Conformity, Decision
+from zlmreport.evaluation.evaluation import Conformity, Decision
 from zlmreport_plugins.renderers.dcc import DccRenderer
 from zlmreport_plugins.renderers.json_results.document import JsonResultsRenderer
 

@@ -7,7 +7,7 @@ import re
 import pytest
 
 from plugins.standards.installed import STANDARDS
-from zlmreport.evaluation.quantity import Group, Quantity
+from zlmreport.evaluation.evaluation import Group, Quantity
 from zlmreport.language import Language
 from zlmreport.quantities.notation import plain
 from zlmreport.testing import check_standard

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from evaluation.checks.findings import said
+from evaluation.findings import said
 from plugins.standards.installed import STANDARDS
-from zlmreport.evaluation.requirements import Basis, Finding
+from zlmreport.evaluation.evaluation import Basis, Finding
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.measurement.measurement_set import MeasurementSet

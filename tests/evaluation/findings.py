@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from zlmreport.evaluation.requirements import Finding
+from zlmreport.evaluation.evaluation import Finding
 from zlmreport.language import Language
 
 

@@ -1,4 +1,4 @@
-"""How many target positions a standard asks for, and where."""
+"""Requirements that several standards share, and how their numbers read."""
 
 from __future__ import annotations
 
@@ -7,22 +7,40 @@ import math
 import numpy as np
 import pytest
 
-from evaluation.checks.findings import said
-from zlmreport.evaluation.checks.positions import (
+from evaluation.findings import said
+from zlmreport.evaluation.checks import (
+    both_directions,
+    deviation_in_words,
     exceeds,
+    fewest_runs,
+    mean_interval,
+    measured_approaches,
+    no_missing_readings,
+    number_of_runs,
+    position_in_words,
     positions_by_angle,
     positions_in_all,
+    positions_in_words,
     positions_over_travel,
     positions_per_metre,
     positions_per_scale_element,
     principal_angles,
+    random_fractions,
+    runs_in_words,
+    spacing_against_periods,
 )
-from zlmreport.evaluation.requirements import Basis
+from zlmreport.evaluation.evaluation import Basis
+from zlmreport.language import Language, Words
+from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.measurement.measurement_set import MeasurementSet
-from zlmreport.testing import bidirectional_test
+from zlmreport.testing import bidirectional_test, simulated_test
 
 BY_ANGLE = {math.pi / 2: 3, math.pi: 5}
+CONSEQUENCE = Words("no reversal", "keine Umkehrspanne")
+LINEAR, ROTARY = Axis("X"), Axis("C", AxisKind.ROTARY)
+FORMULA = "P = N·p + r"
+HIDDEN = "all targets at the same phase: a deviation of this period stays hidden"
 
 
 def measured_at(*targets: float, axis: Axis | None = None) -> MeasurementSet:
@@ -203,3 +221,167 @@ def test_a_length_exceeds_a_limit_by_more_than_the_rounding_of_its_digits() -> N
     assert not exceeds(2.1 - 0.1, 2.0)
     assert not exceeds(2.3 - 0.3, 2.0)
     assert exceeds(2.000001, 2.0)
+
+
+def with_missing(*places: tuple[int, int, int]) -> MeasurementSet:
+    grid = np.zeros((2, 3, 5))
+    for place in places:
+        grid[place] = np.nan
+    return bidirectional_test([0, 100, 200], grid[0], grid[1])
+
+
+def test_both_directions_are_asked_for() -> None:
+    found = both_directions(simulated_test(), CONSEQUENCE, Basis.PUBLISHED)
+
+    assert said(found)[1:] == ("both directions", True)
+
+
+@pytest.mark.parametrize(
+    ("approach", "words"),
+    [
+        (Approach.POSITIVE, "positive direction only; no reversal"),
+        (Approach.NEGATIVE, "negative direction only; no reversal"),
+    ],
+)
+def test_a_test_in_one_direction_falls_short_with_its_consequence(approach: Approach, words: str) -> None:
+    found = both_directions(simulated_test(approaches=[approach]), CONSEQUENCE, Basis.PUBLISHED)
+
+    assert said(found)[1:] == (words, False)
+
+
+def test_a_direction_that_is_named_without_a_reading_was_not_measured() -> None:
+    named = with_missing(*((1, target, run) for target in range(3) for run in range(5)))
+
+    assert named.approaches == (Approach.POSITIVE, Approach.NEGATIVE)
+    assert measured_approaches(named) == (Approach.POSITIVE,)
+    assert both_directions(named, CONSEQUENCE, Basis.PUBLISHED).met is False
+
+
+@pytest.mark.parametrize(("runs", "met"), [(4, False), (5, True), (10, True)])
+def test_runs_are_counted(runs: int, met: bool) -> None:  # noqa: FBT001 - a column of a table
+    found = number_of_runs(simulated_test(runs=runs), 5, Basis.APPLIED)
+
+    assert said(found) == ("At least 5 runs in each direction", f"{runs} runs", met)
+
+
+def test_the_direction_with_fewer_runs_counts() -> None:
+    lacking = with_missing(*((1, target, 4) for target in range(3)))
+
+    assert fewest_runs(lacking) == 4
+
+
+def test_a_missing_reading_at_one_target_leaves_the_run_a_run() -> None:
+    assert fewest_runs(with_missing((1, 2, 4))) == 5
+
+
+def test_a_full_test_misses_nothing() -> None:
+    assert said(no_missing_readings(with_missing()))[1:] == ("all 30 readings", True)
+
+
+def test_missing_readings_are_counted_with_n_by_position() -> None:
+    found = no_missing_readings(with_missing((0, 1, 0), (0, 1, 3), (1, 2, 2)))
+
+    assert said(found)[1:] == ("3 of 30 missing; n from 3 to 5, evaluated by what is there", False)
+
+
+@pytest.mark.parametrize(
+    ("words", "english", "german"),
+    [
+        (position_in_words(LINEAR, 0.0125), "12.5 mm", "12,5 mm"),
+        (position_in_words(ROTARY, math.pi / 2), "90°", "90°"),
+        (deviation_in_words(LINEAR, -1.5e-6), "−1.5 µm", "−1,5 µm"),
+        (deviation_in_words(ROTARY, math.radians(2.5 / 3600)), "2.5″", "2,5″"),
+        (positions_in_words(1), "1 position", "1 Position"),
+        (positions_in_words(21), "21 positions", "21 Positionen"),
+        (runs_in_words(1), "1 run", "1 Durchlauf"),
+        (runs_in_words(5), "5 runs", "5 Durchläufe"),
+    ],
+)
+def test_values_are_written_in_the_units_and_manner_of_the_page(
+    words: Words, english: str, german: str
+) -> None:
+    assert words.in_language(Language.ENGLISH) == english
+    assert words.in_language(Language.GERMAN) == german
+
+
+def taken_at(*targets: float, pitch: float | None = None, signal: float | None = None) -> MeasurementSet:
+    readings = np.zeros((len(targets), 1))
+    axis = Axis("X", screw_pitch=pitch, signal_period=signal)
+    return bidirectional_test(targets, readings, readings, axis=axis)
+
+
+@pytest.mark.parametrize(
+    ("targets", "met"),
+    [
+        ([0, 50, 100, 150], False),  # 5 pitches each
+        ([3, 53, 103, 153], False),  # the same phase, though not zero
+        ([0, 30, 100, 110], False),  # uneven, and yet at one phase
+        ([0, 52, 104, 156], True),
+        ([0, 50.3, 100.1, 149.6], True),
+    ],
+)
+def test_spacing_of_whole_pitches_hides_the_deviation_of_the_pitch(targets: list[float], met: bool) -> None:  # noqa: FBT001 - a column of a table
+    (found,) = spacing_against_periods(taken_at(*targets, pitch=0.01), Basis.APPLIED)
+
+    assert said(found)[0] == "Spacing no integer multiple of the pitch (10 mm)"
+    assert found.met is met
+    assert (said(found)[1] == HIDDEN) is not met
+
+
+def test_each_stated_period_is_held_against_the_spacing() -> None:
+    pitch, signal = spacing_against_periods(
+        taken_at(0, 25.01, 50.02, 75.03, pitch=0.01, signal=20e-6), Basis.APPLIED
+    )
+
+    assert (said(pitch)[0], pitch.met) == ("Spacing no integer multiple of the pitch (10 mm)", True)
+    assert (said(signal)[0], signal.met) == (
+        "Spacing no integer multiple of the signal period (0.02 mm)",
+        True,
+    )
+
+
+def test_rounding_of_decimal_positions_does_not_pass_for_another_phase() -> None:
+    (found,) = spacing_against_periods(
+        taken_at(0.1, 200.1, 700.1, 1100.1, 1999.7, signal=20e-6), Basis.APPLIED
+    )
+
+    assert found.met is False
+
+
+def test_spacing_is_open_where_no_period_is_stated() -> None:
+    (found,) = spacing_against_periods(taken_at(0, 50, 100), Basis.APPLIED)
+
+    assert said(found)[1:] == ("no period stated", None)
+
+
+def test_spacing_is_open_at_a_single_position() -> None:
+    (found,) = spacing_against_periods(taken_at(50, pitch=0.01), Basis.APPLIED)
+
+    assert found.met is None
+
+
+def test_equal_intervals_carry_no_random_fraction() -> None:
+    found = random_fractions(taken_at(0.3, 10.5, 20.7, 30.9), FORMULA, Basis.PUBLISHED)
+
+    assert said(found) == (
+        "Targets P = N·p + r with a random fraction r at each",
+        "all intervals alike: 10.2 mm",
+        False,
+    )
+
+
+def test_differing_intervals_can_carry_a_random_fraction() -> None:
+    found = random_fractions(taken_at(0, 10.21, 19.87, 30.4), FORMULA, Basis.PUBLISHED)
+
+    assert said(found)[1:] == ("intervals from 9.66 mm to 10.53 mm", True)
+
+
+def test_two_positions_do_not_tell_whether_there_is_a_random_fraction() -> None:
+    assert random_fractions(taken_at(0, 10), FORMULA, Basis.PUBLISHED).met is None
+
+
+@pytest.mark.parametrize(("number", "met"), [(13, True), (12, False)])
+def test_mean_interval(number: int, met: bool) -> None:  # noqa: FBT001 - a column of a table
+    measurements = taken_at(*np.linspace(0, 3000, number))
+
+    assert mean_interval(measurements, 0.25, Basis.APPLIED).met is met
