@@ -161,13 +161,16 @@ def _smaller(block: Block) -> Block:
 def together(evaluated: Iterable[Evaluated], writer: Writer) -> Pages:
     """Return the evaluations, those together that share a page: the first of them gives names and limits."""
     pages: Pages = []
+    numbers: list[list[object]] = []
     for each in evaluated:
+        printed = _numbers(each.evaluation, writer)
         for number, page in enumerate(pages):
-            if _is_alike(page[0].evaluation, each.evaluation, writer):
+            if printed == numbers[number] and _limits_fit(page[0].evaluation, each.evaluation):
                 pages[number] = (*page, each)
                 break
         else:
             pages.append((each,))
+            numbers.append(printed)
     return pages
 
 
@@ -256,16 +259,16 @@ def _shows_again(panel: Panel, main: Panel) -> bool:
     return not panel.bars and not panel.levels and shown(panel) <= shown(main)
 
 
-def _is_alike(first: Evaluation, other: Evaluation, writer: Writer) -> bool:
-    """Return whether two evaluations print the same numbers, and the other has no limits of its own."""
+def _limits_fit(first: Evaluation, other: Evaluation) -> bool:
+    """Return whether the other evaluation has no limits of its own."""
     limits = [(each.limit, each.decision) for each in other.parameters]
-    return _numbers(first, writer) == _numbers(other, writer) and (
-        all(limit is None for limit, _ in limits)
-        or limits == [(each.limit, each.decision) for each in first.parameters]
-    )
+    return all(limit is None for limit, _ in limits) or limits == [
+        (each.limit, each.decision) for each in first.parameters
+    ]
 
 
 def _numbers(evaluation: Evaluation, writer: Writer) -> list[object]:
+    """Return what is printed of an evaluation, but for its limits."""
     without_limits = Values(writer, has_uncertainty=True, has_limits=False)
     parameters = [
         (each.quantity.notation, each.quantity.group, without_limits.cells(each))

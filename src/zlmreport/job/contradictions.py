@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import datetime as dt
 from collections.abc import Iterable, Iterator
+from functools import cache
 from typing import TypeAlias
 
 from pydantic import BaseModel
@@ -141,6 +142,7 @@ _PARTS = frozenset(
 )
 
 
+@cache
 def markable_keys() -> tuple[str, ...]:
     """Return the dotted names of all keys whose values may come from others; lists have no index in them."""
     return tuple(key for key in _names(JobKeys, "") if key.partition(".")[0] in _PARTS)
@@ -148,12 +150,11 @@ def markable_keys() -> tuple[str, ...]:
 
 def supplied_problems(keys: JobKeys, tree: Keys) -> Iterator[Problem]:
     """Yield every key that is said to be somebody else's and is unknown, or not stated by the job."""
-    known = markable_keys()
     for key, path in _named(keys):
         where = ".".join(step for step in path if isinstance(step, str))
         place = place_of(tree, path)
-        if key not in known:
-            near = did_you_mean(key, _neighbours(key, known))
+        if key not in markable_keys():
+            near = did_you_mean(key, _neighbours(key, markable_keys()))
             yield Problem(place, f"{where}: {quoted(key)} is no key whose value others can supply; {near}")
         elif not _is_stated(tree, key.split(".")):
             yield Problem(place, f"{where}: this job does not state {key}; state it, or do not list it")
