@@ -7,13 +7,13 @@ from __future__ import annotations
 
 import contextlib
 import gc
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from zlmreport.certificate.attachments import Attachment, arranged, media_type, source_attachments
-from zlmreport.certificate.build import build
+from zlmreport.certificate.build import GENERATOR, build
 from zlmreport.certificate.clauses import missing_items
 from zlmreport.certificate.information import findings
 from zlmreport.certificate.results import Evaluated
@@ -49,6 +49,8 @@ if TYPE_CHECKING:
     from zlmreport.presenting.writer import Writer
     from zlmreport.signing.signer import Signer
 
+#: This program, and each plugin by its identifier, with their releases.
+Programs: TypeAlias = tuple[str, Mapping[str, str]]
 #: The format that every document with attachments carries.
 RESULTS = "json"
 
@@ -98,8 +100,11 @@ def read_sessions(job: Job, registry: Registry) -> tuple[MeasurementSet, ...]:
     return tuple(read(each, registry) for each in job.sessions)
 
 
-def compose(job: Job, registry: Registry) -> Certificate:
-    """Read, evaluate by every standard that the job names, and compose the document; nothing is rendered."""
+def compose(job: Job, registry: Registry, made_by: Programs | None = None) -> Certificate:
+    """Read, evaluate by every standard that the job names, and compose the document; nothing is rendered.
+
+    `made_by` are the programs that the document names; those that make it if they are left out.
+    """
     missing = list(missing_items(job))
     try:
         measurements = read(job, registry)
@@ -122,7 +127,13 @@ def compose(job: Job, registry: Registry) -> Certificate:
         ]
         return [each for each in said if each]
 
-    return build(job, evaluations, registry.versions(job), studied, as_found, describe)
+    generator, plugins = made_by or programs(job, registry)
+    return build(job, evaluations, plugins, studied, as_found, describe, generator)
+
+
+def programs(job: Job, registry: Registry) -> Programs:
+    """Return the programs that make the document of a job."""
+    return GENERATOR, registry.versions(job)
 
 
 def budget_of_job(job: Job, measurements: MeasurementSet, registry: Registry) -> Budget | NoBudget:

@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from verification.issued import READINGS, issue, lay_out, with_attachment, with_results
+from zlmreport.certificate.build import GENERATOR
 from zlmreport.cli import main
 
 Run = Callable[..., tuple[int, str, str]]
@@ -42,7 +43,7 @@ def test_a_certificate_that_holds_is_told_with_what_that_rests_on(report: bytes,
     assert (code, messages) == (0, "")
     head, identity, _, *others = output.splitlines()
     assert head == "report.pdf  holds: consistent, origin unknown"
-    assert identity == "  Measuring Report VERIFY-1, issued 2026-11-20, made by zlmreport 0.1.0"
+    assert identity == f"  Measuring Report VERIFY-1, issued 2026-11-20, made by {GENERATOR}"
     assert others[0] == "  signature  not signed: nothing tells who made the file"
     assert others[1] == "  files      6 of 6 attached files as the certificate states"
     assert others[3] == "  pages      3 of 3 pages as printed again"

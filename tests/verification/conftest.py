@@ -30,12 +30,13 @@ def verified(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[[bytes
     """Verify the bytes of a PDF; what the same files give is printed once for all tests."""
     made_again = verifying._again
 
-    def known(job: Path, carrier: Any, plugins: Any) -> Any:
+    def known(job: Path, carrier: Any, stated: Any, plugins: Any) -> Any:
         unpacked = sorted(path for path in job.parents[1].rglob("*") if path.is_file())
         files = tuple((path.relative_to(job.parents[1]), path.read_bytes()) for path in unpacked)
-        key = files, tuple(carrier.carried), carrier.creator
+        named = stated.provenance.generator, *stated.provenance.plugins.items()
+        key = files, tuple(carrier.carried), carrier.creator, named
         if key not in _made_again:
-            _made_again[key] = made_again(job, carrier, plugins)
+            _made_again[key] = made_again(job, carrier, stated, plugins)
         return _made_again[key]
 
     monkeypatch.setattr(verifying, "_again", known)

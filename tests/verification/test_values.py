@@ -84,11 +84,15 @@ def test_words_of_another_release_are_left_open() -> None:
     assert differing(other, results(), same_programs=False) == {}
 
 
-def test_keys_that_only_this_release_knows_are_no_difference_to_another() -> None:
+def test_what_only_this_release_states_is_left_open() -> None:
     newer = results()
     newer["evaluations"][0]["parameters"][0]["expanded_uncertainty"] = 1.4
     assert differing(results(), newer).keys() == {f"{A}/expanded_uncertainty"}
     assert differing(results(), newer, same_programs=False) == {}
+    (left_open,) = (
+        each for each in compare(results(), newer, same_programs=False) if each.verdict is Verdict.OPEN
+    )
+    assert "/".join(left_open.path) == f"{A}/expanded_uncertainty"
 
 
 def test_a_number_of_another_release_that_is_not_recomputed_differs() -> None:

@@ -18,6 +18,8 @@ from verification.issued import (
     READINGS,
     altered,
     content_of,
+    issue,
+    lay_out,
     page_with,
     specification,
     with_attachment,
@@ -26,6 +28,8 @@ from verification.issued import (
     with_results,
     with_source,
 )
+from zlmreport import pipeline
+from zlmreport.certificate.build import GENERATOR
 from zlmreport.verification.findings import Finding, Outcome, Verdict, Verification
 
 Verify = Callable[[bytes], Verification]
@@ -328,30 +332,60 @@ def test_a_checksum_that_is_not_the_files_is_found(issued: bytes, verified: Veri
     assert differing(verified(altered(issued, change))) == [RESULTS]
 
 
-def test_what_another_release_worded_otherwise_is_not_decided(issued: bytes, verified: Verify) -> None:
-    def older(results: dict[str, Any]) -> None:
-        results["provenance"]["generator"] = "zlmreport 0.0.9"
-        results["evaluations"][0]["parameters"][0]["name"] = "Worded otherwise"
+@pytest.fixture(scope="module")
+def older(tmp_path_factory: pytest.TempPathFactory) -> bytes:
+    """Return the report as an earlier release made it that gave the same."""
+    with pytest.MonkeyPatch.context() as patch:
+        here = pipeline.programs
+        patch.setattr(
+            pipeline,
+            "programs",
+            lambda *given: ("zlmreport 0.0.9", dict.fromkeys(here(*given)[1], "zlmreport 0.0.9")),
+        )
+        return issue(lay_out(tmp_path_factory.mktemp("older")))
 
-    found = verified(with_results(issued, older))
-    assert (found.outcome, found.undecided) == (Outcome.UNDECIDED, ("values",))
-    assert not found.holds
-    assert found.remarks[0].startswith("made by zlmreport 0.0.9, ")
+
+def test_what_another_release_made_holds_if_all_of_it_is_repeated(older: bytes, verified: Verify) -> None:
+    found = verified(older)
+    assert found.outcome is Outcome.HOLDS
+    assert found.identity.generator == "zlmreport 0.0.9"
+    assert found.remarks == (
+        f"made by zlmreport 0.0.9; this is {GENERATOR}, and it repeats all of it in that name",
+    )
 
 
-def test_an_uncertainty_of_another_release_that_cannot_be_repeated_is_not_decided(
-    issued: bytes, verified: Verify
+def _of_first_parameter(pdf: bytes, **entries: Any) -> bytes:
+    return with_results(pdf, lambda results: results["evaluations"][0]["parameters"][0].update(entries))
+
+
+@pytest.mark.parametrize(
+    ("change", "part"),
+    [
+        (lambda pdf: _of_first_parameter(pdf, name="Worded otherwise"), "values"),
+        (lambda pdf: _of_first_parameter(pdf, expanded_uncertainty=0.5), "values"),
+        (lambda pdf: _of_first_parameter(pdf, conforms=None), "values"),
+        (lambda pdf: with_digit(pdf, "7.26", "7.96"), "pages"),
+    ],
+    ids=["word", "uncertainty", "rule", "page"],
+)
+def test_what_another_release_stated_and_this_cannot_repeat_is_not_decided(
+    older: bytes, verified: Verify, change: Callable[[bytes], bytes], part: str
 ) -> None:
-    def older(results: dict[str, Any]) -> None:
-        results["provenance"]["generator"] = "zlmreport 0.0.9"
-        results["evaluations"][0]["parameters"][0]["expanded_uncertainty"] = 0.5
-
-    assert verified(with_results(issued, older)).outcome is Outcome.UNDECIDED
+    found = verified(change(older))
+    assert (found.outcome, found.undecided) == (Outcome.UNDECIDED, (part,))
+    assert found.remarks[0].startswith(f"made by zlmreport 0.0.9, and this is {GENERATOR}: ")
 
 
-def test_a_number_that_another_release_printed_wrongly_is_found(issued: bytes, verified: Verify) -> None:
-    def older(results: dict[str, Any]) -> None:
-        results["provenance"]["generator"] = "zlmreport 0.0.9"
-        results["evaluations"][0]["parameters"][0]["value"] = 4.5
+def test_a_value_that_the_readings_do_not_give_is_wrong_in_every_release(
+    older: bytes, verified: Verify
+) -> None:
+    found = verified(_of_first_parameter(older, value=4.5))
+    assert differing(found) == ["evaluations/nmtba/parameters/P/value"]
+    readings = READINGS.replace("200,+,2,3.1", "200,+,2,3.2").encode()
+    assert verified(with_source(older, "x-axis.csv", readings)).outcome is Outcome.DOES_NOT_HOLD
 
-    assert differing(verified(with_results(issued, older))) == ["evaluations/nmtba/parameters/P/value"]
+
+@pytest.mark.parametrize("named", ["zlmreport 0.0.9, checked by PTB", "zlmreport by PTB", "zlmrep0rt 0.0.9"])
+def test_what_is_no_name_of_a_release_is_printed_by_none(issued: bytes, verified: Verify, named: str) -> None:
+    stated = with_results(issued, lambda results: results["provenance"].update(generator=named))
+    assert verified(stated).outcome is Outcome.UNDECIDED

@@ -49,6 +49,7 @@ def build(  # noqa: PLR0913, PLR0917 - what a document is made of
     modelled: Modelled | None = None,
     as_found: tuple[Evaluated, ...] = (),
     describe: Callable[[Writer], Sequence[Described]] = lambda _: (),
+    generator: str = GENERATOR,
 ) -> Certificate:
     """Build the document.
 
@@ -66,6 +67,8 @@ def build(  # noqa: PLR0913, PLR0917 - what a document is made of
         Evaluations of the axis before it was adjusted, by the same standards; empty where it was not.
     describe
         Returns what extensions say of their groups of job keys.
+    generator
+        The program and its release, as the document names them.
     """
     certificate = job.keys.certificate
     measurements = evaluated[0].evaluation.measurements
@@ -88,7 +91,7 @@ def build(  # noqa: PLR0913, PLR0917 - what a document is made of
         modelled,
         describe(writer),
         made_from,
-        GENERATOR,
+        generator,
         plugins,
         letterhead,
         title,
@@ -121,7 +124,7 @@ def build(  # noqa: PLR0913, PLR0917 - what a document is made of
         measurements=measurements,
         evaluations=tuple(each.evaluation for each in evaluated),
         evaluations_as_found=tuple(each.evaluation for each in as_found),
-        generator=GENERATOR,
+        generator=generator,
         keywords=designations,
         plugins=plugins,
         diagnosis=modelled.diagnosis if modelled else None,

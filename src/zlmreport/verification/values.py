@@ -28,13 +28,10 @@ def compare(stated: Any, recomputed: Any, *, same_programs: bool) -> tuple[Value
         The files' trees.
     same_programs
         Whether both come from the same releases. Otherwise readings, parameters and limits are compared;
-        words, uncertainties and whatever else differs are left open, and the file may have keys that only the
-        later release knows.
+        words, uncertainties, what only this release states, and whatever else differs are left open.
     """
     return tuple(
-        value if same_programs else _of_another_release(value)
-        for value in _walk(stated, recomputed, ())
-        if same_programs or value.stated is not None
+        value if same_programs else _of_another_release(value) for value in _walk(stated, recomputed, ())
     )
 
 
@@ -42,7 +39,7 @@ def _of_another_release(value: Value) -> Value:
     is_kept = value.path[0] == "measurements" or (
         value.path[2:3] == ("parameters",) and value.path[-1] in _KEPT
     )
-    if value.verdict is Verdict.HOLDS or (value.is_number and is_kept):
+    if value.verdict is Verdict.HOLDS or (value.is_number and is_kept and value.stated is not None):
         return value
     return Value(value.path, value.stated, value.recomputed, Verdict.OPEN)
 

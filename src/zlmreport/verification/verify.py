@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -27,10 +28,12 @@ from zlmreport.verification.unpacking import laid_out
 #: The format of a certificate whose creator is this program.
 PRINTED = "pdf"
 _PROGRAM = GENERATOR.partition(" ")[0]
+_RELEASE = re.compile(r"\S+ \d{1,4}(\.\d{1,4}){0,3}((a|b|rc)\d{1,3})?", re.ASCII)
 _OTHER_RELEASES = (
     "made by {stated}, and this is {here}: readings and parameters are compared, and what else differs is "
     "not decided; to decide, install the releases that made it, and verify it there"
 )
+_REPEATED = "made by {stated}; this is {here}, and it repeats all of it in that name"
 _OTHER_RENDERER = (
     "printed by {creator}, which is not installed here: how pages are drawn is not decided; to decide, "
     "install it"
@@ -45,12 +48,12 @@ _OTHER_LIBRARIES = (
 class _Again:
     """A certificate that was made again from its attachments.
 
-    `programs` are its generator and its plugins, `results` its results file; it may be that another renderer
+    `programs` made it here, in whosever name; `results` is its results file. It may be that another renderer
     than the one that made it had to print it.
     """
 
     certificate: Certificate
-    programs: tuple[str, Mapping[str, str]]
+    programs: pipeline.Programs
     prints: pages.Prints
     results: bytes
     is_by_its_own_renderer: bool
@@ -110,7 +113,7 @@ def verify(
     sources = stated.results.provenance.sources
     with laid_out(sources, carrier.carried) as layout:
         try:
-            again = _again(layout.job, carrier, registry)
+            again = _again(layout.job, carrier, stated.results, registry)
         except Exception as error:  # what anyone sent may break anything that it is handed to
             ended = error if isinstance(error, ZlmreportError) else _unforeseen(carrier.place, error)
             problems = layout.problems(ended)
@@ -136,21 +139,39 @@ def _identity(results: Results) -> Identity:
     return Identity(certificate.number, certificate.title, certificate.issued, results.provenance.generator)
 
 
-def _again(job_path: Path, carrier: Carrier, registry: Registry) -> _Again:
-    """Load the attached job, evaluate it, and print it with all that the document carries."""
+def _again(job_path: Path, carrier: Carrier, stated: Results, registry: Registry) -> _Again:
+    """Load the attached job, evaluate it, and print it with all that the document carries.
+
+    It is printed in the name of the releases that it states: where their names are all that differs, another
+    release has repeated it.
+    """
     results, printer = registry.renderer(pipeline.RESULTS), _printer(carrier, registry)
     job = load(job_path, registry, formats=(printer.identifier,))
-    certificate = pipeline.compose(job, registry)
+    here = pipeline.programs(job, registry)
+    named = stated.provenance.generator, stated.provenance.plugins
+    certificate = pipeline.compose(job, registry, named if _are_releases_of(named, here) else here)
     others = [
         each for each in registry.renderers if each is not results and _is_carried(each, certificate, carrier)
     ]
     contents = pipeline.render(certificate, [results, *others, printer], registry)
     return _Again(
         certificate,
-        (GENERATOR, registry.versions(job)),
+        here,
         pages.Prints(opened(contents[printer.identifier], Place(f"{carrier.place} (printed again)"))),
         contents[pipeline.RESULTS],
         made(printer, carrier.creator) or carrier.creator.startswith(f"{_PROGRAM} "),
+    )
+
+
+def _are_releases_of(stated: pipeline.Programs, here: pipeline.Programs) -> bool:
+    """Whether programs are the same but for their releases; whatever else stood there would be printed."""
+    (generator, plugins), (generator_here, plugins_here) = stated, here
+    return plugins.keys() == plugins_here.keys() and all(
+        one == other or (_RELEASE.fullmatch(one) and one.split(" ")[0] == other.split(" ")[0])
+        for one, other in (
+            (generator, generator_here),
+            *((plugins[each], plugins_here[each]) for each in plugins),
+        )
     )
 
 
@@ -181,14 +202,15 @@ def _compared(found: Verification, carrier: Carrier, stated: Stated, again: _Aga
         document=printed.document,
     )
     if not by_same_programs:
-        return _left_open(
-            found,
-            _OTHER_RELEASES.format(
-                stated=_named(provenance.generator, provenance.plugins), here=_named(*again.programs)
-            ),
+        left_open = _left_open(found)
+        remark = _OTHER_RELEASES if left_open.undecided else _REPEATED
+        stated_programs = _named(provenance.generator, provenance.plugins)
+        return replace(
+            left_open, remarks=(remark.format(stated=stated_programs, here=_named(*again.programs)),)
         )
     if not again.is_by_its_own_renderer:
-        return _left_open(found, _OTHER_RENDERER.format(creator=carrier.creator or "another renderer"))
+        remark = _OTHER_RENDERER.format(creator=carrier.creator or "another renderer")
+        return replace(_left_open(found), remarks=(remark,))
     return found if printed.is_drawn_alike else replace(found, remarks=(_OTHER_LIBRARIES,))
 
 
@@ -196,7 +218,7 @@ def _named(generator: str, plugins: Mapping[str, str]) -> str:
     return ", ".join(dict.fromkeys((generator, *sorted(plugins.values()))))
 
 
-def _left_open(found: Verification, remark: str) -> Verification:
+def _left_open(found: Verification) -> Verification:
     """Return what is found of pages that cannot be printed here as they were: what differs is not decided."""
 
     def left_open(finding: Finding) -> Finding:
@@ -206,5 +228,4 @@ def _left_open(found: Verification, remark: str) -> Verification:
         found,
         pages=tuple(map(left_open, found.pages)),
         document=tuple(map(left_open, found.document)),
-        remarks=(remark,),
     )
