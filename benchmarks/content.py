@@ -29,7 +29,7 @@ from zlmreport.certificate.document import (
 )
 from zlmreport.figures.figure import Figure, Panel
 from zlmreport.language import Language, Words
-from zlmreport.quantities.notation import Span, plain, spans
+from zlmreport.quantities.formatting import Span, plain, spans
 
 Content = dict[str, Any]
 

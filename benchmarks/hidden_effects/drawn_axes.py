@@ -14,7 +14,7 @@ from zlmreport.measurement.axis import Axis, AxisKind, PositionTable
 from zlmreport.planning.methods import Method
 from zlmreport.planning.plan import Plan
 from zlmreport.planning.targets import target_positions
-from zlmreport.quantities.temperature import ZERO_CELSIUS
+from zlmreport.quantities.units import ZERO_CELSIUS
 from zlmreport.simulation.description import Course, Description
 
 _TABLE_ROWS = 21

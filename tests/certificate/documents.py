@@ -26,7 +26,7 @@ from zlmreport.certificate.document import (
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
 from zlmreport.plugins import Registry, find_plugins
-from zlmreport.quantities.notation import plain
+from zlmreport.quantities.formatting import plain
 
 ROOT = Path(__file__).parents[2]
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from zlmreport.correction.refractive_index import index_change, refractive_index, saturation_vapour_pressure
-from zlmreport.quantities.temperature import above_reference
+from zlmreport.quantities.units import above_reference
 
 # Stone and Zimmerman, Index of refraction of air, NIST Engineering Metrology Toolbox
 # (emtoolbox.nist.gov/Wavelength/Documentation.asp), table 1: °C, % relative humidity, kPa, nm; the column of

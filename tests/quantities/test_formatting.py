@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from zlmreport.quantities.formatting import DecimalSign, p_value, percentage
+from zlmreport.quantities.formatting import DecimalSign, p_value, percentage, plain, spans
 
 
 @pytest.mark.parametrize(
@@ -29,3 +29,22 @@ def test_a_share_below_the_last_digit_is_small_and_not_nothing(share: float, tex
 def test_a_share_has_the_decimal_sign_and_the_decimals_that_are_asked_for() -> None:
     assert percentage(0.1234, DecimalSign.COMMA, 1) == "12,3"
     assert percentage(0.0004, DecimalSign.COMMA, 1) == "< 0,1"
+
+
+@pytest.mark.parametrize(
+    ("notation", "italic"),
+    [
+        ("A·sin(2π·P/Λ + φ)", ["A", "P", "Λ", "φ"]),
+        ("Σ c_{k}·p", ["c", "p"]),
+        ("x̄_{i}↑ + 2s_{i}↑", ["x̄", "i", "s", "i"]),
+        ("P_{s max}", ["P"]),
+        ("U(k = 2)", ["U", "k"]),
+    ],
+)
+def test_only_quantities_and_running_indices_are_italic(notation: str, italic: list[str]) -> None:
+    assert [span.text for span in spans(notation) if span.italic] == italic
+
+
+@pytest.mark.parametrize("notation", ["A·sin(2π·P/p_{0} + φ)", "P_{s max}", "½·B·d"])
+def test_nothing_is_lost_in_spans(notation: str) -> None:
+    assert "".join(span.text for span in spans(notation)) == plain(notation)

@@ -11,7 +11,7 @@ from jinja2 import UndefinedError, meta, nodes
 from jinja2.exceptions import SecurityError
 
 from zlmreport.certificate import document
-from zlmreport.quantities.notation import Span
+from zlmreport.quantities.formatting import Span
 from zlmreport.typesetting import contexts, overview
 from zlmreport.typesetting.resources import PACKAGE
 from zlmreport.typesetting.templates import environment

@@ -5,16 +5,38 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from zlmreport.plugin import Effect, hookimpl
-from zlmreport_plugins.effects.air import AirIndex, DeadPath
 from zlmreport_plugins.effects.compensation import CompensationShift, CompensationSign
-from zlmreport_plugins.effects.geometry import Abbe, CosineError, Offset, Polynomial, ScaleError
-from zlmreport_plugins.effects.over_time import DatumStep, FirstRun, TimePeriodic
-from zlmreport_plugins.effects.periodic import DirectionalPitch, EncoderInterpolation, Periodic, ScrewPitch
-from zlmreport_plugins.effects.reversal import Backlash, BacklashBow, BacklashGradient, ReversalRelaxation
-from zlmreport_plugins.effects.rotary import Eccentricity, Ellipticity, GearMesh
-from zlmreport_plugins.effects.scale import ScaleJoint, ScaleKink
+from zlmreport_plugins.effects.course import (
+    Backlash,
+    BacklashBow,
+    BacklashGradient,
+    DatumStep,
+    FirstRun,
+    ReversalRelaxation,
+    TimePeriodic,
+)
+from zlmreport_plugins.effects.geometry import (
+    Abbe,
+    CosineError,
+    Offset,
+    Polynomial,
+    ScaleError,
+    ScaleJoint,
+    ScaleKink,
+)
+from zlmreport_plugins.effects.periodic import (
+    DirectionalPitch,
+    Eccentricity,
+    Ellipticity,
+    EncoderInterpolation,
+    GearMesh,
+    Periodic,
+    ScrewPitch,
+)
 from zlmreport_plugins.effects.thermal import (
+    AirIndex,
     DatumTemperature,
+    DeadPath,
     ScaleExpansion,
     ScrewExpansion,
     ThermalDrift,

@@ -31,7 +31,7 @@ from zlmreport.certificate.document import (
     Table,
     Verdict,
 )
-from zlmreport.quantities.notation import plain
+from zlmreport.quantities.formatting import plain
 
 #: Number, with its decimals apart; a dash stands for a value that does not exist.
 _NUMBER = re.compile(r"(?:[−+-]?\d+(?:[.,](?P<decimals>\d+))?|–)")

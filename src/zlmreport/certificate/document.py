@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Symbol:
-    """A standard's symbol or formula, in the notation of `zlmreport.quantities.notation`."""
+    """A standard's symbol or formula, in the notation of `zlmreport.quantities.formatting`."""
 
     notation: str
 

@@ -11,8 +11,7 @@ from zlmreport.certificate.document import Align, Cell, Column, Symbol
 from zlmreport.language import Words
 from zlmreport.presenting.amounts import with_uncertainty, written
 from zlmreport.presenting.writer import NOTHING, Writer
-from zlmreport.quantities.formatting import fixed_number
-from zlmreport.quantities.notation import plain
+from zlmreport.quantities.formatting import fixed_number, plain
 
 if TYPE_CHECKING:
     from zlmreport.evaluation.evaluation import Evaluation, Parameter, PositionQuantity, Quantity

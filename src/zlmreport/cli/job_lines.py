@@ -16,7 +16,7 @@ from zlmreport.cli.terminal import Colour, shown_path, table
 from zlmreport.language import Language
 from zlmreport.presenting.amounts import written
 from zlmreport.presenting.writer import Writer
-from zlmreport.quantities.notation import plain
+from zlmreport.quantities.formatting import plain
 from zlmreport.uncertainty.budget import Budget
 
 if TYPE_CHECKING:

@@ -28,8 +28,7 @@ from zlmreport.presenting.model import (
     wave_rows,
 )
 from zlmreport.presenting.writer import Writer
-from zlmreport.quantities.formatting import general_number, rounded_pair
-from zlmreport.quantities.notation import plain
+from zlmreport.quantities.formatting import general_number, plain, rounded_pair
 
 _ENGLISH = Language.ENGLISH
 _VERDICTS = {

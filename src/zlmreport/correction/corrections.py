@@ -17,7 +17,7 @@ from zlmreport.language import Words
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.measurement.provenance import Correction
 from zlmreport.quantities.arrays import FloatArray, read_only_floats
-from zlmreport.quantities.temperature import above_reference
+from zlmreport.quantities.units import above_reference
 
 
 def displacement_in_air(displayed: FloatArray, index: FloatArray, assumed_index: float) -> FloatArray:

@@ -18,8 +18,7 @@ from zlmreport.measurement.measurement_set import CONDITIONS, STATE_OF_AIR, Meas
 from zlmreport.measurement.provenance import Exclusion
 from zlmreport.quantities.arrays import FloatArray, read_only_floats
 from zlmreport.quantities.formatting import general_number
-from zlmreport.quantities.temperature import REFERENCE_TEMPERATURE
-from zlmreport.quantities.units import MICROMETRE_PER_METRE_KELVIN
+from zlmreport.quantities.units import MICROMETRE_PER_METRE_KELVIN, REFERENCE_TEMPERATURE
 
 #: Target positions nearer to each other than this share of their unit are the same.
 _SAME = 1e-6

@@ -12,7 +12,7 @@ from __future__ import annotations
 import numpy as np
 
 from zlmreport.quantities.arrays import FloatArray
-from zlmreport.quantities.temperature import REFERENCE_TEMPERATURE, ZERO_CELSIUS
+from zlmreport.quantities.units import REFERENCE_TEMPERATURE, ZERO_CELSIUS
 
 #: Vacuum wavelength of a helium-neon laser, m.
 HELIUM_NEON = 632.991e-9

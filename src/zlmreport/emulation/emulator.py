@@ -13,7 +13,7 @@ from types import MappingProxyType
 from typing import Protocol
 
 from zlmreport.correction.refractive_index import STANDARD_HUMIDITY, STANDARD_PRESSURE
-from zlmreport.quantities.temperature import REFERENCE_TEMPERATURE
+from zlmreport.quantities.units import REFERENCE_TEMPERATURE
 
 #: How finely noise is laid out in time, s: a device that asks twice within it gets the same.
 _NOISE_GRAIN = 1e-4

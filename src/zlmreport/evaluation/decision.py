@@ -13,7 +13,7 @@ from typing import TypeAlias
 
 from zlmreport.evaluation.evaluation import Conformity, Decision, Evaluation, Finding, Parameter
 from zlmreport.language import Words
-from zlmreport.quantities.notation import plain
+from zlmreport.quantities.formatting import plain
 
 #: Binary doubles cannot hold 1 µm and 3 µm exactly: a range of exactly 2 µm must not fail a limit of 2 µm.
 _ROUNDING_OF_DOUBLES = 1e-9

@@ -24,7 +24,7 @@ from zlmreport.language import Words
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.quantities.arrays import read_only_floats
-from zlmreport.quantities.notation import plain
+from zlmreport.quantities.formatting import plain
 
 
 class EvaluatingStandard(Protocol):

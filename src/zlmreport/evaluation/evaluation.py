@@ -104,7 +104,7 @@ class Quantity:
     symbol
         ASCII, as in the results file: ``A_fwd``.
     notation
-        As printed (`zlmreport.quantities.notation`): ``A↑``.
+        As printed (`zlmreport.quantities.formatting`): ``A↑``.
     name
         The name in the wording of the standard's edition.
     group

@@ -15,7 +15,7 @@ from zlmreport.language import Words, same
 from zlmreport.measurement.axis import AxisKind
 from zlmreport.measurement.measurement_set import CONDITION_NAMES, CONDITIONS, ConditionKind, MeasurementSet
 from zlmreport.quantities.arrays import decimals_of
-from zlmreport.quantities.notation import plain
+from zlmreport.quantities.formatting import plain
 from zlmreport.quantities.units import Scale
 
 _UNLIKELY = Words(

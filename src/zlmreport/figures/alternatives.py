@@ -12,7 +12,7 @@ from zlmreport.figures.figure import Arrow, Bracket
 from zlmreport.language import Words
 from zlmreport.measurement.axis import Axis
 from zlmreport.quantities.arrays import FloatArray
-from zlmreport.quantities.notation import plain
+from zlmreport.quantities.formatting import plain
 
 
 def text(*sentences: Words | None) -> Words:

@@ -8,8 +8,7 @@ from zlmreport.figures.figure import Bar, Figure, Level, Panel, Role
 from zlmreport.language import Language, Words, same
 from zlmreport.measurement.axis import Axis
 from zlmreport.model import wording
-from zlmreport.quantities.formatting import rounded_pair
-from zlmreport.quantities.notation import plain
+from zlmreport.quantities.formatting import plain, rounded_pair
 from zlmreport.uncertainty.budget import Budget
 
 _UNCERTAIN_TITLE = Words(

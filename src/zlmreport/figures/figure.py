@@ -42,7 +42,7 @@ class Curve:
     Attributes
     ----------
     notation
-        The symbol in the legend (`zlmreport.quantities.notation`).
+        The symbol in the legend (`zlmreport.quantities.formatting`).
     role
         What it stands for.
     x, y : (m,) arrays

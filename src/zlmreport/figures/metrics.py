@@ -14,7 +14,7 @@ from typing import Any
 from unicodedata import normalize
 
 from zlmreport.figures.canvas import Face, Label, Run
-from zlmreport.quantities.notation import Span, spans
+from zlmreport.quantities.formatting import Span, spans
 
 _NO_GLYPH = ".notdef"
 
@@ -153,7 +153,7 @@ def plain_label(text: str, size: float, face: Face = Face.REGULAR) -> Label:
 
 @lru_cache(maxsize=1024)
 def symbol_label(notation: str, size: float) -> Label:
-    """Return a symbol or a formula as `zlmreport.quantities.notation` writes it."""
+    """Return a symbol or a formula as `zlmreport.quantities.formatting` writes it."""
     runs = []
     end = 0.0
     for span in spans(notation):

@@ -21,8 +21,7 @@ from zlmreport.fleet.records import Entry, RecordedParameter
 from zlmreport.fleet.trend import MOST_YEARS_AHEAD, Calibration, Line
 from zlmreport.language import Language, Words
 from zlmreport.plugin.protocols import Standard
-from zlmreport.quantities.formatting import fixed_number, general_number, p_value, rounded_pair
-from zlmreport.quantities.notation import plain
+from zlmreport.quantities.formatting import fixed_number, general_number, p_value, plain, rounded_pair
 from zlmreport.quantities.units import printed_symbol
 from zlmreport.typesetting.overview import LinkContext, OverviewCellContext, drawing
 from zlmreport.typesetting.templates import symbol

@@ -38,7 +38,7 @@ class LimitedQuantity(Protocol):
 
     @property
     def notation(self) -> str:
-        """As the standard prints it (`zlmreport.quantities.notation`)."""
+        """As the standard prints it (`zlmreport.quantities.formatting`)."""
 
     @property
     def name(self) -> Words:

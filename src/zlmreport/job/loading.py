@@ -30,7 +30,7 @@ from zlmreport.job.validate import validate
 from zlmreport.measurement.axis import Axis, position_units
 from zlmreport.measurement.position_table import TableColumn, read_position_table
 from zlmreport.measurement.provenance import SourceFile
-from zlmreport.quantities.notation import plain
+from zlmreport.quantities.formatting import plain
 from zlmreport.quantities.units import ANGLE_UNITS, MICRORADIAN, MILLIMETRE
 
 _SOURCE = ("measurement", "source")

@@ -27,7 +27,7 @@ from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.planning.methods import RUN_BY_RUN, Method, path
 from zlmreport.planning.targets import drawn_targets, makes_whole_turns, usual_overrun
 from zlmreport.quantities.arrays import FloatArray, read_only_floats, read_only_integers
-from zlmreport.quantities.temperature import REFERENCE_TEMPERATURE
+from zlmreport.quantities.units import REFERENCE_TEMPERATURE
 
 _SECONDS_PER_MINUTE = 60.0
 _USUAL_FEED = 2000.0

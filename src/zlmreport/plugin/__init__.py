@@ -116,12 +116,13 @@ _ROOMS = {
     ),
     "zlmreport.presenting.writer": "Writer",
     "zlmreport.quantities.arrays": "BoolArray FloatArray read_only_floats",
-    "zlmreport.quantities.formatting": "DecimalSign MINUS_SIGN=MINUS fixed_number general_number",
-    "zlmreport.quantities.notation": "notation_spans=spans",
-    "zlmreport.quantities.temperature": "REFERENCE_TEMPERATURE above_reference_temperature=above_reference",
+    "zlmreport.quantities.formatting": (
+        "DecimalSign MINUS_SIGN=MINUS fixed_number general_number notation_spans=spans"
+    ),
     "zlmreport.quantities.units": (
         "CELSIUS DEGREE HECTOPASCAL INCH LENGTH_UNITS MICROMETRE MICROMETRE_PER_METRE_KELVIN MICRORADIAN "
-        "MILLIMETRE MILLIRADIAN PERCENT POSITION_UNITS ReadingScale=Scale SECOND TIME_UNITS Unit unit_named"
+        "MILLIMETRE MILLIRADIAN PERCENT POSITION_UNITS REFERENCE_TEMPERATURE ReadingScale=Scale SECOND "
+        "TIME_UNITS Unit above_reference_temperature=above_reference unit_named"
     ),
     "zlmreport.typesetting.compose": "GRAPH_ADDRESS HtmlSetting=Setting LOGO_ADDRESS compose_html=compose",
     "zlmreport.typesetting.linked": "linked_script=script linked_style=style script_fingerprint=fingerprint",

@@ -63,10 +63,8 @@ from zlmreport.plugin.kinds import hookimpl
 from zlmreport.plugin.protocols import Connection, Controller, DataSource, Instrument, Message, Notifier, Occasion, PartProgram, Renderer, SourceContext, SourceProposal, Standard
 from zlmreport.presenting.writer import Writer
 from zlmreport.quantities.arrays import BoolArray, FloatArray, read_only_floats
-from zlmreport.quantities.formatting import DecimalSign, MINUS as MINUS_SIGN, fixed_number, general_number
-from zlmreport.quantities.notation import spans as notation_spans
-from zlmreport.quantities.temperature import REFERENCE_TEMPERATURE, above_reference as above_reference_temperature
-from zlmreport.quantities.units import CELSIUS, DEGREE, HECTOPASCAL, INCH, LENGTH_UNITS, MICROMETRE, MICROMETRE_PER_METRE_KELVIN, MICRORADIAN, MILLIMETRE, MILLIRADIAN, PERCENT, POSITION_UNITS, Scale as ReadingScale, SECOND, TIME_UNITS, Unit, unit_named
+from zlmreport.quantities.formatting import DecimalSign, MINUS as MINUS_SIGN, fixed_number, general_number, spans as notation_spans
+from zlmreport.quantities.units import CELSIUS, DEGREE, HECTOPASCAL, INCH, LENGTH_UNITS, MICROMETRE, MICROMETRE_PER_METRE_KELVIN, MICRORADIAN, MILLIMETRE, MILLIRADIAN, PERCENT, POSITION_UNITS, REFERENCE_TEMPERATURE, Scale as ReadingScale, SECOND, TIME_UNITS, Unit, above_reference as above_reference_temperature, unit_named
 from zlmreport.typesetting.compose import GRAPH_ADDRESS, Setting as HtmlSetting, LOGO_ADDRESS, compose as compose_html
 from zlmreport.typesetting.linked import script as linked_script, style as linked_style, fingerprint as script_fingerprint
 from zlmreport.typesetting.resources import FACES as FONT_FACES, font_faces as font_face_rules, font as font_file, style_sheet

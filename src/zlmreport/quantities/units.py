@@ -10,7 +10,13 @@ from typing import TypeVar, overload
 
 from zlmreport.errors import did_you_mean
 from zlmreport.quantities.arrays import FloatArray
-from zlmreport.quantities.temperature import ZERO_CELSIUS
+
+#: 0 °C in kelvin.
+ZERO_CELSIUS = 273.15
+#: 20 °C in kelvin, the standard reference temperature of ISO 1.
+REFERENCE_TEMPERATURE = 293.15
+
+_Value = TypeVar("_Value", float, FloatArray)
 
 
 @dataclass(frozen=True, slots=True)
@@ -177,3 +183,8 @@ def unit_named(spelling: str, units: Mapping[str, _U]) -> _U:
 def printed_symbol(ascii_name: str) -> str:
     """Return the printed symbol of a unit that a results file names: ``um`` as ``µm``; others as they are."""
     return next((unit.symbol for unit in (*LENGTHS, *ANGLES) if unit.ascii == ascii_name), ascii_name)
+
+
+def above_reference(temperature: _Value) -> _Value:
+    """Return ΔT = T − 20 °C, K, of a temperature in kelvin."""
+    return temperature - REFERENCE_TEMPERATURE

@@ -14,7 +14,7 @@ from zlmreport.model.design import Design
 from zlmreport.planning.methods import Method, path, planned_design, visits
 from zlmreport.planning.targets import target_positions
 from zlmreport.quantities.arrays import FloatArray, read_only_floats
-from zlmreport.quantities.temperature import REFERENCE_TEMPERATURE
+from zlmreport.quantities.units import REFERENCE_TEMPERATURE
 
 _BETWEEN = np.linspace(0.0, 1.0, 11)
 _ROWS = tuple(_BETWEEN.tolist())

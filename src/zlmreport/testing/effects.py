@@ -13,7 +13,7 @@ from zlmreport.model.design import Design
 from zlmreport.model.effect import Confusion, Dimension, Effect, Parameter, Shape
 from zlmreport.model.observations import of_readings
 from zlmreport.quantities.arrays import FloatArray, read_only_floats
-from zlmreport.quantities.notation import plain
+from zlmreport.quantities.formatting import plain
 from zlmreport.testing.designs import full_designs, poor_designs
 from zlmreport.testing.expectations import (
     check,

@@ -14,7 +14,7 @@ from zlmreport.job.types import Options
 from zlmreport.language import Language
 from zlmreport.plugin.protocols import Standard
 from zlmreport.quantities.arrays import FloatArray
-from zlmreport.quantities.notation import plain
+from zlmreport.quantities.formatting import plain
 from zlmreport.quantities.units import ANGLES, LENGTHS, Unit
 from zlmreport.testing.expectations import check, expect, expect_identifier, expect_words, same_value
 from zlmreport.testing.measurements import good_tests, poor_tests

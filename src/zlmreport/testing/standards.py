@@ -9,7 +9,7 @@ from typing import Any
 from zlmreport.evaluation.evaluation import Basis, Finding, Group, PositionQuantity, Quantity
 from zlmreport.job.types import Options
 from zlmreport.plugin.protocols import Standard
-from zlmreport.quantities.notation import plain
+from zlmreport.quantities.formatting import plain
 from zlmreport.testing.arithmetic import ARITHMETIC_CHECKS
 from zlmreport.testing.expectations import (
     check,

@@ -8,7 +8,7 @@ from typing import ClassVar, TypeAlias
 from markupsafe import Markup
 
 from zlmreport.certificate.document import Facts, Letterhead
-from zlmreport.quantities.notation import Span
+from zlmreport.quantities.formatting import Span
 from zlmreport.typesetting.overview import (
     OverviewContext,
     OverviewLegendContext,

@@ -10,7 +10,7 @@ from jinja2 import PackageLoader, StrictUndefined
 from jinja2.sandbox import ImmutableSandboxedEnvironment
 from markupsafe import Markup
 
-from zlmreport.quantities.notation import spans
+from zlmreport.quantities.formatting import spans
 from zlmreport.typesetting.contexts import Context, SymbolContext
 from zlmreport.typesetting.resources import PACKAGE
 

@@ -10,8 +10,7 @@ import numpy as np
 from zlmreport.errors import Problem
 from zlmreport.job.job import Job
 from zlmreport.measurement.measurement_set import MeasurementSet
-from zlmreport.quantities.temperature import ZERO_CELSIUS, above_reference
-from zlmreport.quantities.units import MICROMETRE_PER_METRE_KELVIN
+from zlmreport.quantities.units import MICROMETRE_PER_METRE_KELVIN, ZERO_CELSIUS, above_reference
 
 #: The temperature that the scale, and with it the measured length, has: the first that is known counts.
 _TEMPERATURES = ("axis_temperature", "material_temperature")

@@ -27,7 +27,7 @@ from zlmreport.presenting.model import (
     parameter_rows,
 )
 from zlmreport.presenting.writer import NOTHING, Writer
-from zlmreport.quantities.notation import spans
+from zlmreport.quantities.formatting import spans
 from zlmreport.web.bench import Loaded
 
 

@@ -15,9 +15,8 @@ import pytest
 from typesetting import samples
 from zlmreport.certificate.document import Certificate
 from zlmreport.language import Language
-from zlmreport_plugins.renderers.json_results.csv_table import CsvRenderer, harmless
 from zlmreport_plugins.renderers.json_results.document import JsonResultsRenderer
-from zlmreport_plugins.renderers.json_results.workbook import XlsxRenderer
+from zlmreport_plugins.renderers.json_results.tables import CsvRenderer, XlsxRenderer, harmless
 
 FORMULA = '=HYPERLINK("http://example.com";"1")'
 

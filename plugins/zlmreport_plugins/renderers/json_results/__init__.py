@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from zlmreport.plugin import Renderer, hookimpl
-from zlmreport_plugins.renderers.json_results.csv_table import CsvRenderer
 from zlmreport_plugins.renderers.json_results.document import JsonResultsRenderer
-from zlmreport_plugins.renderers.json_results.workbook import XlsxRenderer
+from zlmreport_plugins.renderers.json_results.tables import CsvRenderer, XlsxRenderer
 
 
 @hookimpl

@@ -7,14 +7,15 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 from zlmreport.plugin import CONDITIONS, Approach, InputError, Problem, Reading, SourceContext, quoted
-from zlmreport_plugins.sources.laser_csv.cells import Cells, time_reader
 from zlmreport_plugins.sources.laser_csv.columns import (
+    Cells,
     Column,
     Heading,
     column_of,
     find,
     missing_column,
     read_headings,
+    time_reader,
 )
 from zlmreport_plugins.sources.laser_csv.options import LaserCsvOptions, run_and_direction
 from zlmreport_plugins.sources.laser_csv.table import Row, Table

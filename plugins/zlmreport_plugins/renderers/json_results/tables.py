@@ -1,14 +1,17 @@
-"""The results as a workbook: parameters, positions with a chart, readings, error model.
+"""The results as tables: one value a row, for pandas, R and whoever draws graphs; or a workbook.
 
-Every text is a text, also one that begins as a formula does. The same certificate gives the same bytes: what
-openpyxl writes of the clock is taken out again.
+The numbers are those of the results file, digit by digit. In the workbook every text is a text, also one that
+begins as a formula does; and the same certificate gives the same bytes: what openpyxl writes of the clock is
+taken out again.
 """
 
 from __future__ import annotations
 
+import csv
 import io
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from datetime import datetime, time
 from typing import Any, TypeAlias
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
@@ -16,8 +19,15 @@ from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 from zlmreport.plugin import Approach, Certificate, Words
 from zlmreport_plugins.renderers.json_results.document import Json, results
 
+_HEADER = ("standard", "symbol", "target", "quantity", "value", "unit")
+_NO_UNIT = "1"
+#: What spreadsheets take for the beginning of a formula.
+_FORMULA = ("=", "+", "-", "@", "\t", "\r")
+_OF_PARAMETER = ("value", "expanded_uncertainty", "coverage_factor", "limit")
+_WITHOUT_UNIT = frozenset({"coverage_factor", "risk", "chi2_per_dof"})
+
 #: A number, a text, or nothing.
-Value: TypeAlias = float | str | None
+_Cell: TypeAlias = float | str | None
 
 _PARAMETERS = Words(en="Parameters", de="Kenngrößen")
 _AS_FOUND = Words(en="{sheet} as found", de="{sheet} vorher")
@@ -63,6 +73,83 @@ _MEANS = {"mean_fwd": "0063A6", "mean_bwd": "CC5500"}
 #: The first date that an archive can state.
 _NO_DATE = (1980, 1, 1, 0, 0, 0)
 _CLOCK = re.compile(rb"(<dcterms:modified[^>]*>)[^<]*")
+
+
+@dataclass(frozen=True, slots=True)
+class Value:
+    """A number: whose it is, what it is, its unit; `target` is None beside the table by position."""
+
+    standard: str
+    symbol: str
+    target: float | None
+    quantity: str
+    value: float
+    unit: str
+
+
+class CsvRenderer:
+    """Results as CSV: UTF-8, comma, decimal point."""
+
+    identifier = "csv"
+    title = Words(en="Results, one value a row (CSV)", de="Ergebnisse, ein Wert je Zeile (CSV)")
+    suffix = ".csv"
+
+    def render(self, certificate: Certificate) -> bytes:
+        """Return the table."""
+        table = io.StringIO()
+        writer = csv.writer(table, lineterminator="\n")
+        writer.writerow(_HEADER)
+        for each in values(certificate):
+            target = "" if each.target is None else repr(each.target)
+            names = map(harmless, (each.standard, each.symbol))
+            writer.writerow((*names, target, each.quantity, repr(each.value), each.unit))
+        return table.getvalue().encode()
+
+
+def values(certificate: Certificate) -> Iterator[Value]:
+    """Yield every number of the evaluations and of the error model."""
+    found = results(certificate)
+    for evaluation in found["evaluations"]:
+        yield from _of_evaluation(evaluation, found["measurements"]["units"]["deviation"])
+    before = found.get("as_found", {})
+    for evaluation in before.get("evaluations", ()):
+        unit = before["measurements"]["units"]["deviation"]
+        yield from _of_evaluation(evaluation, unit, prefix="as_found.")
+    yield from _of_model(found["model"])
+
+
+def harmless(text: str) -> str:
+    """Return a text that no spreadsheet takes for a formula."""
+    return f"'{text}" if text.startswith(_FORMULA) else text
+
+
+def _of_evaluation(evaluation: Json, unit: str, prefix: str = "") -> Iterator[Value]:
+    standard = evaluation["standard"]
+    for parameter in evaluation["parameters"]:
+        numbers = {key: parameter[key] for key in _OF_PARAMETER if key in parameter}
+        numbers |= {
+            key: value for key, value in parameter.get("decision", {}).items() if not isinstance(value, str)
+        }
+        for key, value in numbers.items():
+            own = _NO_UNIT if key in _WITHOUT_UNIT else parameter["unit"]
+            yield Value(standard, parameter["symbol"], None, prefix + key, value, own)
+    for position in evaluation["positions"]:
+        for key, value in position.items():
+            if key != "target":
+                own = _NO_UNIT if key.startswith("n_") else unit
+                yield Value(standard, key, position["target"], prefix + key, value, own)
+
+
+def _of_model(model: Json) -> Iterator[Value]:
+    for parameter in model["parameters"]:
+        symbol = f"{parameter['effect']}.{parameter['name']}"
+        for key in ("value", "expanded_uncertainty"):
+            if parameter.get(key) is not None:
+                yield Value("", symbol, None, key, parameter[key], parameter["unit"])
+    unit = model["error"].get("unit", "")
+    for key, value in model["error"].items():
+        if not isinstance(value, str):
+            yield Value("", "error", None, key, value, _NO_UNIT if key in _WITHOUT_UNIT else unit)
 
 
 class XlsxRenderer:
@@ -131,7 +218,7 @@ class _Sheets:
         if drawn and of_first:
             self._chart(sheet, drawn, of_first, units)
 
-    def _parameter(self, evaluation: Json, parameter: Json) -> list[Value]:
+    def _parameter(self, evaluation: Json, parameter: Json) -> list[_Cell]:
         return [
             self._certificate.number,
             evaluation["standard"],
@@ -154,7 +241,7 @@ class _Sheets:
         headings = [self._say(each) + unit for each, unit in zip(_READING_HEADINGS, units, strict=True)]
         targets = axis.position_unit.from_si(measurements.target_positions)
         deviations = axis.deviation_unit.from_si(measurements.deviation)
-        rows: list[list[Value]] = [
+        rows: list[list[_Cell]] = [
             [
                 int(run),
                 Approach(approach).arrow,
@@ -174,7 +261,7 @@ class _Sheets:
         ]
         self._sheet(self._say(_MODEL), map(self._say, _MODEL_HEADINGS), rows)
 
-    def _sheet(self, title: str, headings: Iterable[str], rows: Iterable[Sequence[Value]]) -> Any:
+    def _sheet(self, title: str, headings: Iterable[str], rows: Iterable[Sequence[_Cell]]) -> Any:
         from openpyxl.styles import Font  # noqa: PLC0415 (slow to load)
         from openpyxl.utils import get_column_letter  # noqa: PLC0415 (slow to load)
 
