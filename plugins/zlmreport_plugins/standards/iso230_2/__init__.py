@@ -1,7 +1,7 @@
 """ISO 230-2, positioning of numerically controlled axes: editions 1988, 1997, 2006 and 2014.
 
-The editions are rows of one table (`editions`); their formulas differ by the coverage factor only
-(`formulas`), their words by edition (`wording`).
+The editions are rows of one table, each with its words (`editions`); their formulas differ by the coverage
+factor only (`formulas`).
 
 The numbers of 1988 are those of the ZLM Position manual (G 1.1), and so published; those of the later
 editions have not been read in the standard's own text and are applied as they are in use, but for the rule
@@ -45,7 +45,7 @@ from zlmreport.plugin import (
     runs_in_words,
     spacing_against_periods,
 )
-from zlmreport_plugins.standards.iso230_2 import figures, formulas, quantities
+from zlmreport_plugins.standards.iso230_2 import editions, figures, formulas
 from zlmreport_plugins.standards.iso230_2.editions import EDITIONS, Edition
 
 _RUNS = 5
@@ -213,8 +213,8 @@ class Iso230Part2:
         self.identifier = f"iso230-2:{edition.year}"
         self.designation = f"ISO 230-2:{edition.year}"
         self.position_index = edition.position_index
-        self.quantities = quantities.parameters(edition)
-        self.position_quantities = quantities.by_position(edition)
+        self.quantities = editions.parameters(edition)
+        self.position_quantities = editions.by_position(edition)
         self.notes = notes(edition)
 
     def requirements(self, measurements: MeasurementSet, options: Options) -> Iterable[Finding]:  # noqa: ARG002 - no keys of its own

@@ -1,10 +1,185 @@
-"""What tells the editions of ISO 230-2 apart."""
+"""What tells the editions of ISO 230-2 apart; their parameters and columns as they define and print them."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
-from zlmreport.plugin import Basis
+from zlmreport.plugin import Basis, PositionQuantity, Quantity, QuantityGroup, Words
+
+_SINCE_1988 = {
+    "A": Words("Bidirectional accuracy of positioning", "Zweiseitige Positioniergenauigkeit"),
+    "A_fwd": Words(
+        "Unidirectional accuracy of positioning, positive direction",
+        "Einseitige Positioniergenauigkeit, positive Richtung",
+    ),
+    "A_bwd": Words(
+        "Unidirectional accuracy of positioning, negative direction",
+        "Einseitige Positioniergenauigkeit, negative Richtung",
+    ),
+    "E": Words(
+        "Bidirectional systematic positional deviation", "Zweiseitige systematische Positionsabweichung"
+    ),
+    "E_fwd": Words(
+        "Unidirectional systematic positional deviation, positive direction",
+        "Einseitige systematische Positionsabweichung, positive Richtung",
+    ),
+    "E_bwd": Words(
+        "Unidirectional systematic positional deviation, negative direction",
+        "Einseitige systematische Positionsabweichung, negative Richtung",
+    ),
+    "M": Words(
+        "Range of the mean bidirectional positional deviation",
+        "Spannweite der mittleren zweiseitigen Positionsabweichung",
+    ),
+    "R": Words(
+        "Bidirectional repeatability of positioning", "Zweiseitige Wiederholpräzision der Positionierung"
+    ),
+    "R_fwd": Words(
+        "Unidirectional repeatability of positioning, positive direction",
+        "Einseitige Wiederholpräzision der Positionierung, positive Richtung",
+    ),
+    "R_bwd": Words(
+        "Unidirectional repeatability of positioning, negative direction",
+        "Einseitige Wiederholpräzision der Positionierung, negative Richtung",
+    ),
+    "B": Words("Reversal value", "Umkehrspanne"),
+    "B_mean": Words("Mean reversal value", "Mittlere Umkehrspanne"),
+}
+
+_SINCE_2006 = _SINCE_1988 | {
+    "B": Words("Reversal error", "Umkehrspanne"),
+    "B_mean": Words("Mean reversal error", "Mittlere Umkehrspanne"),
+}
+
+_SINCE_2014 = _SINCE_2006 | {
+    "A": Words(
+        "Bidirectional positioning error (accuracy)", "Zweiseitige Positionierabweichung (Genauigkeit)"
+    ),
+    "A_fwd": Words(
+        "Unidirectional positioning error (accuracy), positive direction",
+        "Einseitige Positionierabweichung (Genauigkeit), positive Richtung",
+    ),
+    "A_bwd": Words(
+        "Unidirectional positioning error (accuracy), negative direction",
+        "Einseitige Positionierabweichung (Genauigkeit), negative Richtung",
+    ),
+    "E": Words(
+        "Bidirectional systematic positioning error", "Zweiseitige systematische Positionierabweichung"
+    ),
+    "E_fwd": Words(
+        "Unidirectional systematic positioning error, positive direction",
+        "Einseitige systematische Positionierabweichung, positive Richtung",
+    ),
+    "E_bwd": Words(
+        "Unidirectional systematic positioning error, negative direction",
+        "Einseitige systematische Positionierabweichung, negative Richtung",
+    ),
+    "M": Words("Mean bidirectional positioning error", "Mittlere zweiseitige Positionierabweichung"),
+    "R": Words(
+        "Bidirectional positioning repeatability", "Zweiseitige Wiederholpräzision der Positionierung"
+    ),
+    "R_fwd": Words(
+        "Unidirectional positioning repeatability, positive direction",
+        "Einseitige Wiederholpräzision der Positionierung, positive Richtung",
+    ),
+    "R_bwd": Words(
+        "Unidirectional positioning repeatability, negative direction",
+        "Einseitige Wiederholpräzision der Positionierung, negative Richtung",
+    ),
+}
+
+#: The names by year of the edition, then by symbol.
+NAMES = {1988: _SINCE_1988, 1997: _SINCE_1988, 2006: _SINCE_2006, 2014: _SINCE_2014}
+
+
+_ALWAYS_POSITIVE = Words(
+    "all positions are approached in the positive direction",
+    "alle Positionen in positiver Richtung angefahren werden",
+)
+_ALWAYS_NEGATIVE = Words(
+    "all positions are approached in the negative direction",
+    "alle Positionen in negativer Richtung angefahren werden",
+)
+_ACCURACY = Words(
+    "The largest error, systematic and random together, that positioning is expected to bring into a "
+    "dimension of a part if {condition}.",
+    "Die größte Abweichung, systematisch und zufällig zusammen, die das Positionieren in einem Maß des "
+    "Werkstücks erwarten lässt, wenn {condition}.",
+)
+_SYSTEMATIC = Words(
+    "The largest error of a dimension that remains on average over many like parts if {condition}.",
+    "Die größte Abweichung eines Maßes, die im Mittel über viele gleiche Werkstücke bleibt, wenn "
+    "{condition}.",
+)
+_REPEATABILITY = Words(
+    "The largest scatter to expect of a feature's place among like parts if {condition}.",
+    "Die größte zu erwartende Streuung der Lage eines Formelements unter gleichen Werkstücken, wenn "
+    "{condition}.",
+)
+#: One sentence for each symbol.
+MEANINGS = {
+    "A": _ACCURACY.given(
+        condition=Words(
+            "positions are approached from either direction",
+            "Positionen aus beiden Richtungen angefahren werden",
+        )
+    ),
+    "A_fwd": _ACCURACY.given(condition=_ALWAYS_POSITIVE),
+    "A_bwd": _ACCURACY.given(condition=_ALWAYS_NEGATIVE),
+    "E": _SYSTEMATIC.given(
+        condition=Words(
+            "each position is approached from its less favourable direction",
+            "jede Position aus der jeweils ungünstigeren Richtung angefahren wird",
+        )
+    ),
+    "E_fwd": _SYSTEMATIC.given(condition=_ALWAYS_POSITIVE),
+    "E_bwd": _SYSTEMATIC.given(condition=_ALWAYS_NEGATIVE),
+    "M": _SYSTEMATIC.given(
+        condition=Words(
+            "each position is approached from both directions equally often",
+            "jede Position aus beiden Richtungen gleich oft angefahren wird",
+        )
+    ),
+    "R": _REPEATABILITY.given(
+        condition=Words(
+            "it is approached now from one direction, now from the other: the reversal is part of it",
+            "es bald aus der einen, bald aus der anderen Richtung angefahren wird: die Umkehrspanne "
+            "gehört dazu",
+        )
+    ),
+    "R_fwd": _REPEATABILITY.given(condition=_ALWAYS_POSITIVE),
+    "R_bwd": _REPEATABILITY.given(condition=_ALWAYS_NEGATIVE),
+    "B": Words(
+        "The largest average shift of a feature when its position is approached from the other direction.",
+        "Die größte mittlere Verschiebung eines Formelements, wenn seine Position aus der anderen Richtung "
+        "angefahren wird.",
+    ),
+    "B_mean": Words(
+        "The average over the axis of the shift of features when their positions are approached from the "
+        "other direction.",
+        "Die über die Achse gemittelte Verschiebung von Formelementen, wenn ihre Positionen aus der anderen "
+        "Richtung angefahren werden.",
+    ),
+}
+
+
+_GROUPS = {
+    "A": QuantityGroup.COMPOSITE,
+    "E": QuantityGroup.SYSTEMATIC,
+    "M": QuantityGroup.SYSTEMATIC,
+    "R": QuantityGroup.RANDOM,
+    "B": QuantityGroup.SYSTEMATIC,
+}
+_NOTATIONS = {
+    "A_fwd": "A↑",
+    "A_bwd": "A↓",
+    "E_fwd": "E↑",
+    "E_bwd": "E↓",
+    "R_fwd": "R↑",
+    "R_bwd": "R↓",
+    "B_mean": "B̄",
+}
+_SINCE_1997 = frozenset({"E", "E_fwd", "E_bwd", "M"})
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,3 +244,81 @@ EDITIONS = (
         long_axis=Basis.PUBLISHED,
     ),
 )
+
+
+def parameters(edition: Edition) -> tuple[Quantity, ...]:
+    """Return the parameters of the axis in the order of the results table."""
+    return tuple(
+        Quantity(
+            symbol=symbol,
+            notation=_NOTATIONS.get(symbol, symbol),
+            name=NAMES[edition.year][symbol],
+            group=_GROUPS[symbol[0]],
+            formula=formula,
+            meaning=MEANINGS[symbol],
+            printed_sign=_printed_sign(edition, symbol),
+        )
+        for symbol, formula in _formulas(edition).items()
+        if edition.defines_systematic_deviation or symbol not in _SINCE_1997
+    )
+
+
+def by_position(edition: Edition) -> tuple[PositionQuantity, ...]:
+    """Return the columns that the edition adds to the table by position."""
+    i = f"_{{{edition.position_index}}}"
+    return (
+        PositionQuantity(
+            "R_fwd",
+            f"R{i}↑",
+            Words(
+                "Unidirectional repeatability at a position, positive direction",
+                "Einseitige Wiederholpräzision an einer Position, positive Richtung",
+            ),
+        ),
+        PositionQuantity(
+            "R_bwd",
+            f"R{i}↓",
+            Words(
+                "Unidirectional repeatability at a position, negative direction",
+                "Einseitige Wiederholpräzision an einer Position, negative Richtung",
+            ),
+        ),
+        PositionQuantity(
+            "R",
+            f"R{i}",
+            Words(
+                "Bidirectional repeatability at a position",
+                "Zweiseitige Wiederholpräzision an einer Position",
+            ),
+        ),
+    )
+
+
+def _printed_sign(edition: Edition, symbol: str) -> int:
+    return -1 if symbol == "B_mean" and edition.prints_reversal_as_negative_minus_positive else 1
+
+
+def _formulas(edition: Edition) -> dict[str, str]:
+    """Return the definitions in notation, in the order of the results table."""
+    k, i = edition.coverage_factor, f"_{{{edition.position_index}}}"
+    up, down = f"x̄{i}↑", f"x̄{i}↓"
+    s_up, s_down = f"{k}s{i}↑", f"{k}s{i}↓"
+    reversal = f"{up} − {down}"
+    if edition.prints_reversal_as_negative_minus_positive:
+        mean_reversal = f"(1/n) · ∑ ({down} − {up})"
+    else:
+        mean_reversal = f"(1/m) · ∑ B{i}, B{i} = {reversal}"
+    return {
+        "A": f"max({up} + {s_up}; {down} + {s_down}) − min({up} − {s_up}; {down} − {s_down})",
+        "A_fwd": f"max({up} + {s_up}) − min({up} − {s_up})",
+        "A_bwd": f"max({down} + {s_down}) − min({down} − {s_down})",
+        "E": f"max({up}; {down}) − min({up}; {down})",
+        "E_fwd": f"max({up}) − min({up})",
+        "E_bwd": f"max({down}) − min({down})",
+        "M": f"max(x̄{i}) − min(x̄{i}), x̄{i} = ({up} + {down})/2",
+        "R": f"max({s_up} + {s_down} + |B{i}|; {2 * k}s{i}↑; {2 * k}s{i}↓), B{i} = {reversal}",
+        "R_fwd": f"max({2 * k}s{i}↑)",
+        "R_bwd": f"max({2 * k}s{i}↓)",
+        "B": f"max(|B{i}|), B{i} = {reversal}",
+        "B_mean": mean_reversal,
+    }

@@ -1,32 +1,64 @@
-"""VDI/DGQ 3441 and VDI/VDE 2617: the same algebra with 3 and with 2 standard deviations."""
+"""VDI/DGQ 3441 and VDI/VDE 2617: the same algebra with 3 and with 2 standard deviations.
+
+k stands for the guideline's factor: 3 in VDI/DGQ 3441, 2 in VDI/VDE 2617. Every function takes the
+statistics of one test or of a stack of tests; NaN stands for what is not defined. Positions are counted
+by j, cycles by i.
+
+In a test in one direction, for which the guidelines do not provide, x̄_j and s̄_j are those of this
+direction, and there is no reversal span.
+
+Source: the ZLM Position manual, G 1.3; of its limits x̄_j↑ + P_sj/2 and x̄_j↓ − P_sj/2, which hold only
+where x̄_j↑ lies above x̄_j↓, the general form x̄_j ± ½(U_j + P_sj) is taken, as in its formula for P.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
+import numpy as np
+
 from zlmreport.plugin import (
+    MEAN_ROLES,
+    Approach,
     Arithmetic,
+    Arrow,
+    Band,
     Basis,
+    Bracket,
+    Curve,
+    Diagram,
     Evaluation,
     Figure,
     Finding,
+    FloatArray,
     MeasurementSet,
     Options,
+    Panel,
     PositionStatistics,
+    Role,
     Standard,
     Words,
+    alternative_text,
     both_directions,
+    diagram_panel,
+    graph_in_words,
     hookimpl,
+    largest_over_positions,
+    marks_in_words,
+    mean_over_positions,
     no_missing_readings,
     number_of_runs,
     positions_in_all,
     positions_over_travel,
     positions_per_metre,
     positions_per_scale_element,
+    range_in_words,
+    range_over_positions,
     spacing_against_periods,
+    span_over_positions,
+    worst_position,
 )
-from zlmreport_plugins.standards.vdi import figures, formulas
-from zlmreport_plugins.standards.vdi.guidelines import BY_POSITION, GUIDELINES, Guideline, parameters
+from zlmreport_plugins.standards.vdi.guidelines import BY_POSITION, GUIDELINES, Guideline, quantities
 
 _WIDTHS = Words(
     "All parameters are full widths, not ± values. The position spread is {k} times the sum of the standard "
@@ -52,6 +84,8 @@ _SOURCE = Words(
     "Formeln nach dem Handbuch des Programms ZLM Position, G 1.3.",
 )
 
+_MEAN = Words("Mean deviation", "Mittlere Abweichung")
+
 
 def notes(guideline: Guideline) -> tuple[Words, ...]:
     """Return the notes of a guideline."""
@@ -76,7 +110,7 @@ class VdiGuideline:
         self.identifier = guideline.identifier
         self.designation = guideline.designation
         self.title = guideline.title
-        self.quantities = parameters(guideline)
+        self.quantities = quantities(guideline)
         self.notes = notes(guideline)
 
     def requirements(self, measurements: MeasurementSet, options: Options) -> Iterable[Finding]:  # noqa: ARG002 - no keys of its own
@@ -86,11 +120,11 @@ class VdiGuideline:
     def arithmetic(self, statistics: PositionStatistics, options: Options) -> Arithmetic:  # noqa: ARG002 - no keys of its own
         """Return the guideline's parameters, and U_j and P_sj by position."""
         factor = self.guideline.factor
-        return Arithmetic(formulas.parameters(statistics, factor), formulas.positions(statistics, factor))
+        return Arithmetic(parameters(statistics, factor), positions(statistics, factor))
 
     def figures(self, evaluation: Evaluation, options: Options) -> Iterable[Figure]:  # noqa: ARG002 - no keys of its own
         """Return the guideline's two diagrams."""
-        return figures.figures(evaluation)
+        return _figures(evaluation)
 
 
 _RUNS = 5
@@ -112,6 +146,158 @@ def findings(guideline: Guideline, measurements: MeasurementSet) -> Iterator[Fin
     yield no_missing_readings(measurements)
     yield positions_over_travel(measurements)
     yield from spacing_against_periods(measurements, Basis.APPLIED)
+
+
+def mean_deviation(statistics: PositionStatistics) -> FloatArray:
+    """x̄_j = (x̄_j↑ + x̄_j↓)/2, shape (..., position)."""
+    return statistics.of_both_or_single(statistics.mean_bidirectional, statistics.mean)
+
+
+def position_spread(statistics: PositionStatistics, k: int) -> FloatArray:
+    """P_sj = k·(s_j↑ + s_j↓) = 2k·s̄_j, shape (..., position)."""
+    both = k * (statistics.s_positive + statistics.s_negative)
+    return statistics.of_both_or_single(both, 2 * k * statistics.standard_deviation)
+
+
+def reversal_span(statistics: PositionStatistics) -> FloatArray:
+    """U_j = abs(x̄_j↑ − x̄_j↓), shape (..., position); NaN where a direction is missing."""
+    return np.abs(statistics.reversal_value)
+
+
+def half_width(reversal: FloatArray, spread: FloatArray, statistics: PositionStatistics) -> FloatArray:
+    """½(U_j + P_sj), half the width of the band about x̄_j; ½P_sj in one direction. Shape (..., position)."""
+    bidirectional = statistics.is_bidirectional[..., np.newaxis]
+    return np.where(bidirectional, reversal + spread, spread) / 2
+
+
+def parameters(statistics: PositionStatistics, k: int) -> dict[str, FloatArray]:
+    """Return the parameters of the axis by symbol, each of shape (...)."""
+    mean = mean_deviation(statistics)
+    spread = position_spread(statistics, k)
+    reversal = reversal_span(statistics)
+    half = half_width(reversal, spread, statistics)
+    return {
+        "P": range_over_positions(mean + half, mean - half),
+        "Pa": span_over_positions(mean),
+        "Ps_max": largest_over_positions(spread),
+        "Ps_mean": mean_over_positions(spread),
+        "U_max": largest_over_positions(reversal),
+        "U_mean": mean_over_positions(reversal),
+    }
+
+
+def positions(statistics: PositionStatistics, k: int) -> dict[str, FloatArray]:
+    """Return the columns by position, each of shape (..., position)."""
+    return {"U": reversal_span(statistics), "Ps": position_spread(statistics, k)}
+
+
+def _figures(evaluation: Evaluation) -> Iterator[Figure]:
+    """Yield both diagrams, as far as the test defines what they show."""
+    graphs = _Graphs(evaluation)
+    yield graphs.means()
+    yield graphs.overall()
+
+
+class _Graphs:
+    """The diagrams of one evaluation; the band about the mean is formed once."""
+
+    def __init__(self, evaluation: Evaluation) -> None:
+        self.evaluation = evaluation
+        self.diagram = Diagram(evaluation)
+        self.statistics = evaluation.statistics
+        self.bidirectional = self.diagram.is_bidirectional
+        self.mean = mean_deviation(self.statistics)
+        self.reversal, self.spread = evaluation.column("U"), evaluation.column("Ps")
+        self.half = half_width(self.reversal, self.spread, self.statistics)
+
+    def means(self) -> Figure:
+        """Return means, reversal and spread by position, with U_j/2 and P_sj/2 where the band is widest."""
+        title = Words(
+            "Axis {axis}: mean deviations, reversal span and position spread",
+            "Achse {axis}: mittlere Abweichungen, Umkehrspanne und Positionsstreubreite",
+        )
+        if not self.bidirectional:
+            title = Words(
+                "Axis {axis}: mean deviations and position spread",
+                "Achse {axis}: mittlere Abweichungen und Positionsstreubreite",
+            )
+        shown = diagram_panel(
+            bands=[self._spread_band(), self._reversal_band()],
+            readings=self.diagram.readings(),
+            curves=self._curves(),
+            arrows=self._arrows(),
+        )
+        return self._figure("means", title, shown)
+
+    def overall(self) -> Figure:
+        """Return P, P_a and U_max at the places where they arise."""
+        title = Words(
+            "Axis {axis}: position uncertainty, position deviation and reversal span where they arise",
+            "Achse {axis}: Positionsunsicherheit, Positionsabweichung und Umkehrspanne, wo sie entstehen",
+        )
+        if not self.bidirectional:
+            title = Words(
+                "Axis {axis}: position uncertainty and position deviation where they arise",
+                "Achse {axis}: Positionsunsicherheit und Positionsabweichung, wo sie entstehen",
+            )
+        shown = diagram_panel(
+            bands=[self._spread_band()],
+            curves=self._curves(),
+            brackets=[
+                self.diagram.bracket("P", self.mean - self.half, self.mean + self.half),
+                self.diagram.bracket("Pa", self.mean, self.mean),
+                self._largest_reversal(),
+            ],
+        )
+        return self._figure("overall", title, shown)
+
+    def _curves(self) -> list[Curve | None]:
+        by_direction = [
+            self.diagram.curve(f"x̄_{{j}}{each.arrow}", MEAN_ROLES[each], self.statistics.mean[each.index])
+            for each in Approach
+        ]
+        if not self.bidirectional:
+            return list(by_direction)
+        return [*by_direction, self.diagram.curve("x̄_{j}", Role.MEAN_BIDIRECTIONAL, self.mean)]
+
+    def _reversal_band(self) -> Band | None:
+        half = self.reversal / 2
+        return self.diagram.band("x̄_{j} ± ½U_{j}", Role.REVERSAL, self.mean - half, self.mean + half)
+
+    def _spread_band(self) -> Band | None:
+        notation = "x̄_{j} ± ½(U_{j} + P_{sj})" if self.bidirectional else "x̄_{j} ± ½P_{sj}"
+        return self.diagram.band(notation, Role.SPREAD, self.mean - self.half, self.mean + self.half)
+
+    def _arrows(self) -> list[Arrow | None]:
+        """Return U_j/2 upwards from the mean and P_sj/2 upwards from there, at the widest place."""
+        if not self.bidirectional:
+            return [
+                self.diagram.arrow("P_{sj}/2", worst_position(self.spread), self.mean, self.mean + self.half)
+            ]
+        at = worst_position(self.half)
+        reversal_end = self.mean + self.reversal / 2
+        return [
+            self.diagram.arrow(
+                "U_{j}/2", worst_position(self.reversal) if at is None else at, self.mean, reversal_end
+            ),
+            self.diagram.arrow("P_{sj}/2", at, reversal_end, self.mean + self.half),
+        ]
+
+    def _largest_reversal(self) -> Bracket | None:
+        at = worst_position(self.reversal)
+        if at is None:
+            return None
+        only_there = np.where(np.arange(self.reversal.size) == at, self.statistics.mean, np.nan)
+        return self.diagram.bracket("U_max", only_there, only_there)
+
+    def _figure(self, key: str, title: Words, shown: Panel) -> Figure:
+        axis = self.diagram.axis
+        alternative = alternative_text(
+            graph_in_words(self.evaluation),
+            range_in_words(axis, _MEAN, self.mean),
+            marks_in_words(axis, (*shown.arrows, *shown.brackets)),
+        )
+        return self.diagram.figure(key, title.given(axis=axis.name), alternative, (shown,))
 
 
 @hookimpl

@@ -138,7 +138,7 @@ _SPREAD = Words("Position spread", "Positionsstreubreite")
 _REVERSAL = Words("Reversal span", "Umkehrspanne")
 
 
-def parameters(guideline: Guideline) -> tuple[Quantity, ...]:
+def quantities(guideline: Guideline) -> tuple[Quantity, ...]:
     """Return the parameters of the axis in the order of the results table."""
     k = guideline.factor
     band, mean = "½(U_{j} + P_{sj})", "x̄_{j}"
