@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import tempfile
 from pathlib import Path
+from typing import Any
 
+import pytest
+import yaml
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from job.jobs import REGISTRY, SOUND
 from zlmreport.errors import ZlmreportError
+from zlmreport.job import parse
 from zlmreport.job.loading import load
 
 unhurried = settings(deadline=None)
@@ -74,3 +78,23 @@ def test_any_value_for_any_key(number: int, indentation: int, key: str, value: s
 @given(st.integers(0, len(SOUND)), st.text(max_size=5), st.integers(0, 20))
 def test_any_damage_to_a_sound_job(start: int, inserted: str, removed: int) -> None:
     _load((SOUND[:start] + inserted + SOUND[start + removed :]).encode("utf-8", "surrogatepass"))
+
+
+def _parsed(content: str, parser: Any) -> object:
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setattr(parse, "_QUICK", parser)
+        try:
+            return parse.parse(content.encode("utf-8", "surrogatepass"), "job.yaml")
+        except ZlmreportError as error:
+            return error.problems
+
+
+@unhurried
+@given(
+    st.integers(0, len(SOUND)),
+    st.text(alphabet="ab:{}[]-'\"#&*!|>%@` \n\t,?\\\u2028", max_size=4),
+    st.integers(0, 9),
+)
+def test_a_job_reads_the_same_with_and_without_libyaml(start: int, inserted: str, removed: int) -> None:
+    damaged = SOUND[:start] + inserted + SOUND[start + removed :]
+    assert _parsed(damaged, yaml.SafeLoader) == _parsed(damaged, parse._QUICK)
