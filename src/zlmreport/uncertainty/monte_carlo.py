@@ -93,9 +93,9 @@ def propagate(
     kinds: Sequence[Drift | None] = tuple(Drift) if budget.acting(Acts.IN_TIME) else (None,)
     for kind in kinds:
         distances = _distances(budget, evaluations, kind, trials // len(kinds), generator)
-        for so_far, of_one in zip(found, distances, strict=True):
-            for symbol, values in of_one.items():
-                expanded = _expanded(np.abs(values), least)
+        for so_far, (evaluation, _), values in zip(found, evaluations, distances, strict=True):
+            symbols = (each.quantity.symbol for each in evaluation.parameters)
+            for symbol, expanded in zip(symbols, _expanded(np.abs(values), least), strict=True):
                 if symbol not in so_far or expanded.uncertainty > so_far[symbol].uncertainty:
                     so_far[symbol] = expanded
     return tuple(
@@ -110,12 +110,9 @@ def _distances(
     kind: Drift | None,
     trials: int,
     generator: np.random.Generator,
-) -> list[dict[str, FloatArray]]:
-    """Return y* − y of every parameter in simulated tests with one kind of drift."""
-    distances = [
-        {each.quantity.symbol: np.empty(trials) for each in evaluation.parameters}
-        for evaluation, _ in evaluations
-    ]
+) -> list[FloatArray]:
+    """Return y* − y in simulated tests with one kind of drift, for each evaluation: (parameter, trial)."""
+    distances = [np.empty((len(evaluation.parameters), trials)) for evaluation, _ in evaluations]
     done = 0
     for simulated in _simulated(budget, evaluations[0][0].measurements, kind, trials, generator):
         statistics = position_statistics(simulated)
@@ -123,8 +120,8 @@ def _distances(
         done = chunk.stop
         for (evaluation, arithmetic), found in zip(evaluations, distances, strict=True):
             parameters = arithmetic(statistics).parameters
-            for each in evaluation.parameters:
-                found[each.quantity.symbol][chunk] = parameters[each.quantity.symbol] - each.value
+            for each, of_one in zip(evaluation.parameters, found, strict=True):
+                of_one[chunk] = parameters[each.quantity.symbol] - each.value
     return distances
 
 
@@ -187,13 +184,15 @@ def seed_of(measurements: MeasurementSet, readings: FloatArray) -> int:
     return int.from_bytes(digest.digest())
 
 
-def _expanded(distances: FloatArray, least: float) -> Expanded:
-    standard = math.sqrt(float(np.mean(distances**2)))
-    if standard <= least:
-        return Expanded(0.0, COVERAGE_FACTOR)
-    rank = math.ceil(COVERAGE_PROBABILITY * len(distances)) - 1
-    half_width = float(np.partition(distances, rank)[rank])
-    return Expanded(shortened(half_width), shortened(half_width / standard))
+def _expanded(distances: FloatArray, least: float) -> list[Expanded]:
+    """Return the expanded uncertainty of each parameter by its distances, shape (parameter, trial)."""
+    standard = np.sqrt(np.mean(distances**2, axis=-1))
+    rank = math.ceil(COVERAGE_PROBABILITY * distances.shape[-1]) - 1
+    half_width = np.partition(distances, rank, axis=-1)[:, rank]
+    return [
+        Expanded(shortened(half), shortened(half / one)) if one > least else Expanded(0.0, COVERAGE_FACTOR)
+        for half, one in zip(half_width.tolist(), standard.tolist(), strict=True)
+    ]
 
 
 def _bounded(expanded: Expanded, budget: Budget, compares_positions: bool) -> Expanded:  # noqa: FBT001 - private
