@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from model.halaj import PRINTED
 from zlmreport.cli import main
 from zlmreport.plugins import Plugin, collect
 from zlmreport_plugins import effects
@@ -119,3 +120,50 @@ def test_positions_that_make_no_sense_are_refused(
     action, *options = arguments
     assert main(["model", action, "job.yaml", *options]) == 2
     assert message in capsys.readouterr().err
+
+
+def test_a_cubic_is_printed_for_each_direction_as_halaj_prints_it(
+    job: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Equations (11) and (12), from readings that scatter evenly about them."""
+    text = job.read_text(encoding="utf-8").replace("[0, 500]", "[0, 1000]")
+    text = text.replace("offset, scale-error, backlash", "{polynomial: {order: 3}}")
+    job.write_text(text, encoding="utf-8")
+    scatter = 3e-4 * np.random.default_rng(8).standard_normal((10, 10))
+    scatter -= scatter.mean(axis=0)  # of every target: what is left are the equations
+    rows = [
+        f"{at},{sign},{run + 1},{1000 * np.polyval(PRINTED[sign][::-1], at) + scatter[run, place]:.9f}"
+        for run in range(10)
+        for sign in "+-"
+        for place, at in enumerate(np.linspace(0, 1000, 10).round(3))
+    ]
+    (job.parent / "readings.csv").write_text("\n".join(["target,direction,run,deviation", *rows]) + "\n")
+    assert main(["model", "fit", "job.yaml"]) == 0
+    printed = capsys.readouterr().out
+    assert "Δ↑ = 0.0081716 + 2.49e−5·X − 4.7664e−8·X² + 4.6966e−11·X³\n" in printed
+    assert "Δ↓ = 0.0072729 + 2.17e−5·X − 4.2836e−8·X² + 4.5325e−11·X³\n" in printed
+    assert "Δ and X in mm, X from 0 to 1000" in printed
+
+    assert main(["model", "fit", "job.yaml", "--json"]) == 0
+    found = {each["direction"]: each for each in json.loads(capsys.readouterr().out)["polynomials"]}
+    for sign, expected in PRINTED.items():
+        assert found[sign]["coefficients"] == pytest.approx(expected, rel=1e-5)
+        assert found[sign]["unit"] == "mm"
+        assert np.linalg.eigvalsh(found[sign]["covariance"]).min() > -1e-12
+
+
+def test_scatter_that_grows_is_said_to_be_weighted(job: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    random = np.random.default_rng(5)
+    rows = [
+        f"{at},{sign},{run},{truth(at, sign) + (0.3 + 0.0034 * at) * random.standard_normal():.4f}"
+        for run in range(1, 6)
+        for sign in "+-"
+        for at in TARGETS
+    ]
+    (job.parent / "readings.csv").write_text("\n".join(["target,direction,run,deviation", *rows]) + "\n")
+    assert main(["model", "fit", "job.yaml"]) == 0
+    assert "readings are weighted, for they scatter unequally: a single one by 0." in capsys.readouterr().out
+    assert main(["model", "fit", "job.yaml", "--json"]) == 0
+    noise = json.loads(capsys.readouterr().out)["noise"]
+    assert noise["least_repeatability"] < 0.6
+    assert noise["largest_repeatability"] > 1.5

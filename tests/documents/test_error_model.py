@@ -18,7 +18,7 @@ _PAGE = " ".join((DOCS / "explanation" / "error-model.md").read_text(encoding="u
         (r"the whole contest is held (\d+) times more", null_distribution.TRIALS),
         (r"exceeds by chance in (\d+) % of these tests", 100 * null_distribution.LEVEL),
         (r"by more than ([\d.]+) robust standard deviations", outliers._LIMIT),
-        (r"refutes that they are equal \(at (\d+) %\)", 100 * repeats._LEVEL),
+        (r"The first has a level of (\d+) %", 100 * repeats._LEVEL),
         (r"must surpass them by (\d+) units", evidence.NAMED),
         (r"A difference of less than (\d+) units", evidence.MENTION),
         (r"each further name must bring (\d+) units more", evidence.FURTHER),

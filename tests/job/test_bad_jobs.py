@@ -196,6 +196,18 @@ WRONG_VALUES = {
         "14:47",
         "evaluate.tolerances.E: '0' is not a number greater than 0",
     ),
+    "tolerance with a decimal comma": (
+        14,
+        "  - {standard: 'exemplary:1', tolerances: {E: 12,5}}",
+        "14:50",
+        "a comma parts keys; write a decimal point: E: 12.5",
+    ),
+    "quoted tolerance with a decimal comma": (
+        14,
+        "  - {standard: 'exemplary:1', tolerances: {E: '12,5'}}",
+        "14:47",
+        "'12,5' is not a number; write a decimal point: 12.5",
+    ),
     "tolerance in words": (
         14,
         "  - {standard: 'exemplary:1', tolerances: {E: tight}}",

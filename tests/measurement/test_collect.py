@@ -334,6 +334,12 @@ def test_positions_of_a_rotary_axis_count_modulo_a_turn() -> None:
     assert "Whole turns were taken off 2 readings: positions were displayed modulo 360°." in remarks
 
 
+def test_a_full_turn_that_ends_at_its_beginning_is_told_where_it_ends() -> None:
+    turned = [dataclasses.replace(each, target_position=0.0) for each in (reading(2), reading(3))]
+    with pytest.raises(InputError, match="the target at the end of a full turn is 360"):
+        collected(turned, Axis("C", AxisKind.ROTARY))
+
+
 def test_missing_and_ordinary_readings_of_a_rotary_axis_are_as_they_were() -> None:
     readings = [
         dataclasses.replace(reading(2), target_position=0.0, deviation=math.nan),

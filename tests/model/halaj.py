@@ -12,6 +12,13 @@ import numpy as np
 
 from zlmreport.quantities.arrays import FloatArray
 
+#: Equations (11) and (12), "zprava" (from the right) and "zlava" (from the left): Δ and P in mm. The paper
+#: prints no readings; it names ten positions, ten runs, and an axis of 2143 mm.
+PRINTED = {
+    "-": (0.0072729, 2.17e-5, -4.2836e-8, 4.5325e-11),
+    "+": (0.0081716, 2.49e-5, -4.7664e-8, 4.6966e-11),
+}
+
 
 def columns(along: FloatArray, across: FloatArray | None = None) -> FloatArray:
     """Return the powers of equation (2), or of (13) with a second axis."""

@@ -23,6 +23,7 @@ from zlmreport.model.design import Design
 from zlmreport.model.estimate import InstrumentError, Plausibility
 from zlmreport.model.fit import Assumptions, Fit, fit
 from zlmreport.model.noise import noise_parts
+from zlmreport.model.observations import of_readings
 from zlmreport.model.repeats import Spread
 from zlmreport.quantities.arrays import FloatArray
 
@@ -239,6 +240,28 @@ def test_what_the_job_expects_is_held_against_the_estimate() -> None:
     offset = fitted.estimates[-1]
     assert offset.expected == 0.25
     assert offset.distance_from_expected == pytest.approx((offset.value - 0.25) / offset.standard_uncertainty)
+
+
+def test_where_scatter_grows_the_quiet_end_is_known_as_well_as_its_own_scatter_allows() -> None:
+    """Held against generalized least squares with the variances as they truly are."""
+    design = linear_test(targets=11)
+    model = model_of("offset", "scale-error")
+    way = (design.position - design.position.min()) / np.ptp(design.position)
+    sigma = 1e-6 * (0.3 + 1.7 * way)
+    columns = np.column_stack([np.ones_like(way), design.position])
+    known_better = np.linalg.inv(columns.T @ (columns / sigma[:, np.newaxis] ** 2))
+    first = of_readings(design, np.flatnonzero(way == 0)[:1])
+    (row,) = np.column_stack([np.ones(1), first.position])
+    least = 2 * np.sqrt(row @ known_better @ row)
+    ratios, held = [], 0
+    for seed in range(40):
+        readings = sigma * np.random.default_rng(seed).standard_normal(len(sigma))
+        predicted = fit(model, design, readings, Assumptions(parts=())).predict(first)
+        ratios.append(predicted.expanded_uncertainty[0] / least)
+        held += abs(predicted.deviation[0]) <= predicted.expanded_uncertainty[0]
+    # Three to five times where all readings weigh alike; ln σ² is no straight line here, which costs a third.
+    assert 0.9 < np.median(ratios) < 1.6
+    assert held >= 34  # 38 expected; fewer than 34 by chance in a test of a hundred
 
 
 def test_pooled_scatter_of_a_clean_test_is_its_noise() -> None:

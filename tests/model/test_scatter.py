@@ -44,8 +44,11 @@ def test_a_single_run_has_no_noise_floor() -> None:
     assert noise_floor(design, noise(design)) is None
 
 
+WIDE = (DESIGN.target >= 8) & (DESIGN.target < 14)
+
+
 def _uneven(factor: float) -> FloatArray:
-    return noise(DESIGN) * np.where(DESIGN.target >= 15, factor, 1.0)
+    return noise(DESIGN) * np.where(WIDE, factor, 1.0)
 
 
 def test_equal_scatter_has_equal_weights() -> None:
@@ -54,7 +57,7 @@ def test_equal_scatter_has_equal_weights() -> None:
 
 def test_targets_that_scatter_more_have_larger_variances() -> None:
     found = weights(DESIGN, _uneven(4.0))
-    wide, narrow = found[DESIGN.target >= 15].mean(), found[DESIGN.target < 15].mean()
+    wide, narrow = found[WIDE].mean(), found[~WIDE].mean()
     assert 6 < wide / narrow < 20  # 16 in truth, drawn to the pooled variance
     assert found.mean() == pytest.approx(1.0, rel=1e-12)
 
@@ -62,6 +65,31 @@ def test_targets_that_scatter_more_have_larger_variances() -> None:
 def test_a_direction_that_scatters_more_has_larger_variances() -> None:
     found = weights(DESIGN, noise(DESIGN) * np.where(DESIGN.direction > 0, 3.0, 1.0))
     assert found[DESIGN.direction > 0].mean() > 5 * found[DESIGN.direction < 0].mean()
+
+
+@pytest.mark.parametrize("ends", [(0.3, 2.0), (2.0, 0.3)], ids=["growing", "shrinking"])
+def test_scatter_that_grows_along_the_axis_is_known_at_both_ends(ends: tuple[float, float]) -> None:
+    first, last = ends
+    ratios = []
+    for seed in range(30):
+        design = linear_test(targets=11, seed=seed)
+        way = (design.position - design.position.min()) / np.ptp(design.position)
+        found = weights(design, noise(design, seed) * first * (last / first) ** way)
+        ratios.append(found[design.target == 10].mean() / found[design.target == 0].mean())
+    # In truth 44 times the variance, or its 44th part; the median of 30 estimates of ln σ² knows it to 15 %.
+    assert np.median(ratios) == pytest.approx((last / first) ** 2, rel=0.45)
+
+
+def test_even_scatter_grows_in_one_test_of_a_hundred() -> None:
+    p_values = [spread_tests(DESIGN, noise(DESIGN, seed))[0].p_value for seed in range(200)]
+    assert spread_tests(DESIGN, noise(DESIGN))[0].factor is SpreadFactor.GROWTH
+    assert sum(p < 0.01 for p in p_values) <= 7  # 2 expected; 8 by chance in a test of a thousand
+    assert 8 <= sum(p < 0.1 for p in p_values) <= 34  # 20 expected, with a standard deviation of 4.2
+
+
+def test_readings_without_any_scatter_are_not_weighted() -> None:
+    smooth = 10e-6 * np.cos(3 * DESIGN.position)
+    assert np.array_equal(weights(DESIGN, smooth + 1e-21 * noise(DESIGN)), np.ones(len(DESIGN.position)))
 
 
 def test_a_fan_that_opens_with_time_is_no_scatter() -> None:

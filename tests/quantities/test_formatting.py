@@ -4,7 +4,11 @@ from __future__ import annotations
 
 import pytest
 
-from zlmreport.quantities.formatting import DecimalSign, p_value, percentage, plain, spans
+from zlmreport.quantities.formatting import DecimalSign, fixed_number, p_value, percentage, plain, spans
+
+
+def test_a_number_too_large_for_its_decimals_is_written_all_the_same() -> None:
+    assert fixed_number(1e31, 2) == f"1{31 * '0'}.00"
 
 
 @pytest.mark.parametrize(

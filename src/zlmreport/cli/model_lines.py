@@ -16,7 +16,7 @@ from zlmreport.model.diagnosis import Diagnosis, ErrorNumbers, Verdict
 from zlmreport.model.estimate import Plausibility
 from zlmreport.model.fit import Fit
 from zlmreport.model.report import listed
-from zlmreport.model.study import Fitted
+from zlmreport.model.study import Fitted, one_way
 from zlmreport.planning.experiment import Experiment
 from zlmreport.presenting.diagnosis import CandidateRow, DiagnosisRows
 from zlmreport.presenting.model import (
@@ -28,7 +28,7 @@ from zlmreport.presenting.model import (
     wave_rows,
 )
 from zlmreport.presenting.writer import Writer
-from zlmreport.quantities.formatting import general_number, plain, rounded_pair
+from zlmreport.quantities.formatting import MINUS, general_number, plain, rounded_pair
 
 _ENGLISH = Language.ENGLISH
 _VERDICTS = {
@@ -39,6 +39,7 @@ _VERDICTS = {
 _DOUBTS = {Plausibility.DOUBTFUL: Colour.YELLOW, Plausibility.IMPLAUSIBLE: Colour.RED}
 _FURTHER_IN = "     "
 _BAR_WIDTH = 28
+_RAISED = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
 _EIGHTHS = " ▏▎▍▌▋▊▉█"
 
 
@@ -49,6 +50,49 @@ def fit_lines(fitted: Fitted, job: Job) -> Iterator[str]:
     yield f"  {error_line(fitted.error, fitted.fit.design.axis)}"
     yield ""
     yield from _parameters(fitted.fit)
+    yield from _weighted(fitted.fit)
+    yield from _one_way(fitted.fit)
+
+
+def _weighted(fit: Fit) -> Iterator[str]:
+    """Yield that readings have unequal weights, and why."""
+    if fit.noise.is_weighted:
+        axis = fit.design.axis
+        least, largest = (deviation(size, axis, _ENGLISH) for size in fit.noise.span)
+        unit = axis.deviation_unit.symbol
+        yield ""
+        yield from wrapped(
+            f"readings are weighted, for they scatter unequally: a single one by {least} to {largest} {unit}"
+        )
+
+
+def _one_way(fit: Fit) -> Iterator[str]:
+    """Yield the polynomial of each direction in powers of the position, as it may be given to a control."""
+    name, unit = fit.design.axis.name, fit.design.axis.position_unit.symbol
+    found = tuple(one_way(fit))
+    if found:
+        yield ""
+    for each in found:
+        powers = [(name, power) for power in range(len(each.values))]
+        yield from wrapped(f"Δ{each.approach.arrow} = {polynomial(each.values.tolist(), powers)}")
+    if found:
+        first, last = (general_number(fit.design.axis.position_unit.from_si(end)) for end in fit.design.span)
+        yield f"  Δ and {name} in {unit}, {name} from {first} to {last}; each direction by itself"
+
+
+def polynomial(coefficients: Sequence[float], powers: Sequence[tuple[str, int]]) -> str:
+    """Write a polynomial: it needs more digits than each of its terms is known to.
+
+    >>> polynomial([-0.5, 2e-5, -3e-8], [("X", 0), ("X", 1), ("X", 2)])
+    '−0.5 + 2e−5·X − 3e−8·X²'
+    """
+    terms = []
+    for value, (name, power) in zip(coefficients, powers, strict=True):
+        number = f"{abs(value):.5g}".replace("e-0", "e-").replace("-", MINUS)
+        factor = f"·{name}{str(power).translate(_RAISED) if power > 1 else ''}" if power else ""
+        terms.append(f"{MINUS if value < 0 else '+'} {number}{factor}")
+    first, *others = terms
+    return " ".join([first.removeprefix("+ ").replace(f"{MINUS} ", MINUS), *others])
 
 
 def error_line(error: ErrorNumbers, axis: Axis) -> str:

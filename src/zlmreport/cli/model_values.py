@@ -18,8 +18,14 @@ from zlmreport.measurement.axis import Axis
 from zlmreport.model.design import at_positions, outside_of_measured
 from zlmreport.model.effect import Shape
 from zlmreport.model.fit import Fit, Prediction
-from zlmreport.model.report import report_covariance, report_error, report_model, report_residuals
-from zlmreport.model.study import Fitted
+from zlmreport.model.report import (
+    report_covariance,
+    report_error,
+    report_model,
+    report_noise,
+    report_residuals,
+)
+from zlmreport.model.study import Fitted, one_way
 from zlmreport.quantities.arrays import FloatArray
 
 FIT = "zlmreport/fit/1"
@@ -101,6 +107,16 @@ def fit_values(fitted: Fitted) -> dict[str, Any]:
         "error": report_error(fitted.error, axis),
         "covariance": report_covariance(fitted.fit),
         "residuals": report_residuals(fitted.fit),
+        "noise": report_noise(fitted.fit.noise, axis),
+        "polynomials": [
+            {
+                "direction": "+" if each.approach > 0 else "-",
+                "unit": axis.position_unit.ascii,
+                "coefficients": each.values.tolist(),
+                "covariance": each.covariance.tolist(),
+            }
+            for each in one_way(fitted.fit)
+        ],
     }
 
 

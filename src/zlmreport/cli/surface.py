@@ -11,7 +11,7 @@ import numpy as np
 
 from zlmreport import pipeline
 from zlmreport.cli.jobs import load_all
-from zlmreport.cli.model_lines import error_line
+from zlmreport.cli.model_lines import error_line, polynomial
 from zlmreport.cli.terminal import Colour, print_json, said, table, wrapped
 from zlmreport.errors import InputError, Place, Problem
 from zlmreport.job.job import Job
@@ -20,11 +20,10 @@ from zlmreport.model.axis_model import ModelError
 from zlmreport.plane.plane import Plane, plane_of, report
 from zlmreport.plane.surface import Surface
 from zlmreport.plugins import Registry, find_plugins
-from zlmreport.quantities.formatting import MINUS, general_number, rounded_pair
+from zlmreport.quantities.formatting import general_number, rounded_pair
 
 #: Points of a table where none are asked for: along the axis, and across it.
 _ALONG, _ACROSS = 5, 3
-_POWERS = {1: "", 2: "²", 3: "³"}
 
 Points = Sequence[tuple[float, float]]
 
@@ -99,20 +98,10 @@ def _equation(surface: Surface) -> str:
     """Return the polynomial in printed units, as it may be given to a control."""
     axis = surface.fit.design.axis
     found = surface.coefficients().in_units(axis.position_unit, axis.deviation_unit)
-    terms = []
-    for value, (along, across) in zip(found.values.tolist(), found.powers, strict=True):
-        name = axis.name if along else surface.readings.second
-        power = along or across
-        factor = f"·{name}{_POWERS[power]}" if power else ""
-        sign = "+" if value >= 0 else MINUS
-        terms.append(f"{sign} {_digits(abs(value))}{factor}")
-    text = " ".join(terms).removeprefix("+ ").replace(f"{MINUS} ", MINUS, 1 if terms[0][0] == MINUS else 0)
-    return f"Δ = {text}"
-
-
-def _digits(value: float) -> str:
-    """Write a coefficient: a polynomial needs more digits than each of its terms is known to."""
-    return f"{value:.5g}".replace("e-0", "e-").replace("-", MINUS)
+    powers = [
+        (axis.name if along else surface.readings.second, along or across) for along, across in found.powers
+    ]
+    return f"Δ = {polynomial(found.values.tolist(), powers)}"
 
 
 def _interaction(surface: Surface) -> str:

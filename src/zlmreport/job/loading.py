@@ -248,11 +248,13 @@ def _unknown_tolerances(keys: Keys, standard: InstalledStandard) -> Iterator[Pro
     limitable = [quantity.symbol for quantity in standard.quantities if quantity.can_be_limited]
     symbols = {quantity.symbol for quantity in standard.quantities}
     printed = {plain(each.notation): each.symbol for each in standard.quantities if each.symbol in limitable}
+    before = ""
     for symbol, entry in tolerances.entries.items() if isinstance(tolerances, Keys) else ():
         spelt = symbol.replace("↑", "_fwd").replace("↓", "_bwd")
         if symbol.isdecimal():
-            yield Problem(entry.place, f"a comma parts keys: write {symbol} behind a decimal point")
+            yield Problem(entry.place, f"a comma parts keys; write a decimal point: {before}.{symbol}")
             continue
+        before = f"{symbol}: {entry.value.text}" if isinstance(entry.value, Scalar) else symbol
         written = printed.get(symbol, spelt)
         if written != symbol and written in limitable:
             yield Problem(entry.place, f"{quoted(symbol)} is written {written} in a job")

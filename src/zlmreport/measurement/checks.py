@@ -9,6 +9,7 @@ import numpy as np
 
 from zlmreport.errors import Place, Problem
 from zlmreport.measurement.approach import Approach
+from zlmreport.measurement.axis import AxisKind
 from zlmreport.measurement.measurement_set import CONDITIONS, MeasurementSet
 from zlmreport.quantities.arrays import BoolArray, IntArray
 
@@ -85,8 +86,15 @@ def _no_reading_is_there_twice(measurements: MeasurementSet, places: Sequence[Pl
         yield Problem(
             places[reading],
             f"{_named(measurements, reading)}, stands in line {earlier.line} already; "
-            "a repeated run has a number of its own",
+            f"a repeated run has a number of its own{_of_a_turn(measurements, reading)}",
         )
+
+
+def _of_a_turn(measurements: MeasurementSet, reading: int) -> str:
+    """Return what may be meant where the end of a full turn stands as its beginning."""
+    is_zero = measurements.target_positions[measurements.target[reading]] == 0
+    is_rotary = measurements.axis.kind is AxisKind.ROTARY
+    return "; the target at the end of a full turn is 360" if is_zero and is_rotary else ""
 
 
 def _no_target_is_off_the_list(measurements: MeasurementSet, places: Sequence[Place]) -> Iterator[Problem]:

@@ -168,3 +168,21 @@ def outside_of_measured(name: str, unit: Unit, positions: FloatArray, span: tupl
         for position in positions.tolist()
         if not span[0] - slack <= position <= span[1] + slack
     ]
+
+
+def of_position(order: int, span: tuple[float, float]) -> FloatArray:
+    """Return T with T·c = coefficients of 1, P, P² …, where c are those of p, which is −1 … 1 over the span.
+
+    Parameters
+    ----------
+    order
+        The highest power.
+    span
+        First and last position, m or rad.
+    """
+    middle, half = (span[0] + span[1]) / 2, (span[1] - span[0]) / 2
+    turn = np.zeros((order + 1, order + 1))
+    for power in range(order + 1):
+        for lower in range(power + 1):
+            turn[lower, power] = math.comb(power, lower) * (-middle) ** (power - lower) / half**power
+    return turn

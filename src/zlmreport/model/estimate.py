@@ -250,6 +250,11 @@ class Uncertainties:
     systematic: FloatArray
     variances: VarianceOfVariance
 
+    @property
+    def covariance(self) -> FloatArray:
+        """Of the parameters, the instrument's share in it, shape (p, p)."""
+        return np.asarray(self.sigma**2 * self.inverse + self.systematic @ self.systematic.T)
+
     def of(self, rows: FloatArray, least: float = 0.0) -> tuple[FloatArray, FloatArray]:
         """Return standard uncertainty and degrees of freedom of linear combinations, rows of shape (M, p).
 

@@ -2,11 +2,13 @@
 
 The spread of five readings says little about their scatter: taken as a weight, as it comes, it gives
 intervals that hold in 83 % of all cases instead of 95 %. So the variances are pooled; only where a test
-refutes that they are equal, each is drawn to the pooled one as far as its few degrees of freedom ask.
+refutes that they are equal they part: those that grow along the axis by that growth, others each drawn to
+the pooled one as far as its few degrees of freedom ask.
 """
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from enum import Enum
 
@@ -16,12 +18,19 @@ from zlmreport.language import Words
 from zlmreport.model.design import Design
 from zlmreport.quantities.arrays import FloatArray, IntArray
 
-#: Equality is refuted at this level: weights that are not needed cost more than those that are missing.
+#: Growth along the axis is seen at this level, which the other tests share among them: weights that are not
+#: needed cost more than those that are missing.
 _LEVEL = 0.01
 _FEWEST_READINGS = 3
+#: Scatter below this share of the largest deviation is the rounding of doubles: it is none.
+_NOTHING = 1e-9
+#: Share of a reading's variance that a line through its pass leaves at the least.
+_LEAST_KEPT = 0.1
+#: Steps by which the growth of the scatter is found, and the largest change of ln σ² in one.
+_STEPS, _LARGEST_STEP = 4, 1.0
 #: Decimal exponent of the finest step that is looked for, µm or ″, and what is a multiple of one.
 _FINEST, _MULTIPLE = -7, 1e-3
-_TRIALS = 300
+_TRIALS = 1000
 _SEED = 20_261_118
 
 
@@ -138,6 +147,7 @@ class Spread(Enum):
 class SpreadFactor(Enum):
     """By what the scatter may differ."""
 
+    GROWTH = "growth"
     POSITION = "position"
     DIRECTION = "direction"
     RUN = "run"
@@ -149,6 +159,7 @@ class SpreadFactor(Enum):
 
 
 _WORDS = {
+    SpreadFactor.GROWTH: Words(en="along the axis", de="entlang der Achse"),
     SpreadFactor.POSITION: Words(en="from position to position", de="von Position zu Position"),
     SpreadFactor.DIRECTION: Words(en="up and down", de="aufwärts und abwärts"),
     SpreadFactor.RUN: Words(en="from run to run", de="von Durchlauf zu Durchlauf"),
@@ -157,7 +168,7 @@ _WORDS = {
 
 @dataclass(frozen=True, slots=True)
 class SpreadTest:
-    """A test of equal scatter (Levene's, on absolute residuals).
+    """A test of equal scatter, on absolute residuals: Levene's by groups, or their slope along the axis.
 
     Attributes
     ----------
@@ -173,24 +184,71 @@ class SpreadTest:
     p_value: float
     widest: int
 
+    @property
+    def is_refuted(self) -> bool:
+        """Whether the scatter is so unequal that readings are weighted by it."""
+        others = len(SpreadFactor) - 1
+        return self.p_value < (_LEVEL if self.factor is SpreadFactor.GROWTH else _LEVEL / others)
+
 
 def spread_tests(design: Design, deviation: FloatArray) -> tuple[SpreadTest, ...]:
-    """Return the tests of equal scatter that the design allows.
+    """Return the tests of equal scatter that the design allows; of growth first, the others beside it.
 
     Few repeats in many cells make any such statistic larger than tables have it; so it is held against
     simulated readings of equal scatter.
     """
+    return _tested(design, deviation)[0]
+
+
+def _tested(design: Design, deviation: FloatArray) -> tuple[tuple[SpreadTest, ...], FloatArray]:
+    """Return the tests, and the variance of each reading by its growth along the axis; 1 where it is none."""
     random = np.random.default_rng(_SEED).standard_normal((len(deviation), _TRIALS))
     sizes = np.abs(_drift_free(design, np.column_stack([deviation, random])))
-    found = []
+    grown = np.ones(len(deviation))
+    found: list[SpreadTest] = []
+    if sizes[:, 0].max() <= _NOTHING * np.abs(deviation).max():
+        return (), grown
+    if len(deviation) > len(np.unique(cells(design))):
+        away = design.position - design.middle
+        slopes = away @ (sizes - sizes.mean(axis=0)) / np.linalg.norm(sizes - sizes.mean(axis=0), axis=0)
+        by_chance = math.sqrt(float(np.mean(slopes[1:] ** 2)))  # a sum of many: normal, to its far tail
+        p_value = math.erfc(abs(float(slopes[0])) / (by_chance * math.sqrt(2.0)))
+        widest = int(design.target[np.argmax(away * slopes[0])])
+        found.append(SpreadTest(SpreadFactor.GROWTH, p_value, widest))
+        if found[0].is_refuted:
+            grown = _growth(design, deviation)
+            sizes[:, 0] = np.abs(_scatter(design, deviation, grown)) / np.sqrt(grown)
     for factor, labels in _groupings(design).items():
         names, group = np.unique(labels, return_inverse=True)
-        if len(names) < 2 or np.bincount(group).min() < _FEWEST_READINGS or not sizes[:, 0].any():
+        if len(names) < 2 or np.bincount(group).min() < _FEWEST_READINGS:
             continue
         ratios, widest = _levene(sizes, group)
         reached = int(np.count_nonzero(ratios[1:] >= ratios[0]))
         found.append(SpreadTest(factor, (1 + reached) / (_TRIALS + 1), int(names[widest])))
-    return tuple(found)
+    return tuple(found), grown
+
+
+def _growth(design: Design, deviation: FloatArray) -> FloatArray:
+    """Return the variance of each reading, ln σ² being a straight line over the position: likeliest, mean 1.
+
+    Notes
+    -----
+    Fisher scoring of normal scatter; what is left of the passes is taken anew with each step's weights, or
+    the loud end of a pass would shake its quiet one.
+    """
+    line = np.column_stack([np.ones(len(deviation)), design.position - design.middle])
+    line[:, 1] /= np.abs(line[:, 1]).max()
+    logarithm = np.zeros(2)
+    grown = np.ones(len(deviation))
+    for _ in range(_STEPS):
+        squares = _scatter(design, deviation, grown) ** 2
+        squares /= squares.mean()
+        for _ in range(_STEPS):
+            step = np.linalg.lstsq(line, squares / np.exp(line @ logarithm) - 1, rcond=None)[0]
+            logarithm += np.clip(step, -_LARGEST_STEP, _LARGEST_STEP)
+        grown = np.exp(line @ logarithm)
+        grown /= grown.mean()
+    return np.asarray(grown, dtype=np.float64)
 
 
 def weights(design: Design, deviation: FloatArray, spread: Spread = Spread.SHRUNK) -> FloatArray:
@@ -205,17 +263,15 @@ def weights(design: Design, deviation: FloatArray, spread: Spread = Spread.SHRUN
     spread
         How it is taken to differ; `Spread.OWN` are the weights of Halaj's equation (10), for comparison.
     """
-    equal = np.ones(len(deviation))
     if spread is Spread.POOLED:
-        return equal
+        return np.ones(len(deviation))
     if spread is Spread.OWN:
         return _own(design, deviation)
-    scatter = _drift_free(design, deviation[:, np.newaxis])[:, 0]
-    found = equal
-    for test in spread_tests(design, deviation):
-        if test.p_value < _LEVEL:
-            labels = _groupings(design)[test.factor]
-            found = found * _shrunk(scatter / np.sqrt(found), labels)
+    tests, found = _tested(design, deviation)
+    scatter = _scatter(design, deviation, found)
+    for test in tests:
+        if test.is_refuted and test.factor in (groupings := _groupings(design)):
+            found = found * _shrunk(scatter / np.sqrt(found), groupings[test.factor])
     return np.asarray(found / found.mean(), dtype=np.float64)
 
 
@@ -227,7 +283,12 @@ def _groupings(design: Design) -> dict[SpreadFactor, IntArray]:
     }
 
 
-def _drift_free(design: Design, values: FloatArray) -> FloatArray:
+def _scatter(design: Design, deviation: FloatArray, variance: FloatArray) -> FloatArray:
+    """Return the scatter of readings of known relative variance as `_drift_free` does, shape (N,)."""
+    return _drift_free(design, deviation[:, np.newaxis], variance)[:, 0]
+
+
+def _drift_free(design: Design, values: FloatArray, variance: FloatArray | None = None) -> FloatArray:
     """Return the scatter of readings about their cells, and about offset and slope of their passes.
 
     A pass is what one run takes in one direction. Without it, an effect that grows with position and time
@@ -239,18 +300,23 @@ def _drift_free(design: Design, values: FloatArray) -> FloatArray:
         The test.
     values : (N, B) array
         Deviations of B sets.
+    variance : (N,) array or None
+        Of each reading over the mean one; the readings of a cell share it.
     """
     cell = cells(design)
     count = np.bincount(cell)
+    root = np.ones(len(cell)) if variance is None else np.sqrt(variance)
     membership = (cell == np.arange(len(count))[:, np.newaxis]) / count[:, np.newaxis]
-    left = values - (membership @ values)[cell]
+    left = (values - (membership @ values)[cell]) / root[:, np.newaxis]
+    kept = 1.0 - 1.0 / count[cell]
     _, passes = np.unique(2 * design.cycle + (design.direction > 0), return_inverse=True)
     for index in range(passes.max() + 1):
         taken = np.flatnonzero(passes == index)
         line = np.column_stack([np.ones(len(taken)), design.position[taken] - design.middle])
-        left[taken] -= line @ np.linalg.lstsq(line, left[taken], rcond=None)[0]
-    kept = (1.0 - 1.0 / count[cell]) * (1.0 - 2.0 / np.maximum(np.bincount(passes)[passes], 3))
-    return np.asarray(left / np.sqrt(np.maximum(kept, 1e-3))[:, np.newaxis], dtype=np.float64)
+        base, _ = np.linalg.qr(line / root[taken, np.newaxis])
+        left[taken] -= base @ (base.T @ left[taken])
+        kept[taken] *= np.maximum(1.0 - np.sum(base**2, axis=1), _LEAST_KEPT)
+    return np.asarray(left * (root / np.sqrt(np.maximum(kept, 1e-3)))[:, np.newaxis], dtype=np.float64)
 
 
 def _levene(sizes: FloatArray, group: IntArray) -> tuple[FloatArray, int]:

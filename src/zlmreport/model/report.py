@@ -85,7 +85,7 @@ def report(
         "schema": SCHEMA,
         "model": report_model(fitted),
         "error": report_error(diagnosis.error, axis),
-        "noise": _noise(fitted.noise, axis),
+        "noise": report_noise(fitted.noise, axis),
         "verdict": diagnosis.verdict.value,
         "p_value": diagnosis.p_value,
         "failures": [_failure(each, language) for each in diagnosis.failures],
@@ -154,8 +154,7 @@ def report_covariance(fitted: Fit) -> dict[str, Any]:
         unit_of(each.dimension, design.axis.kind, time_is_counted=design.time_is_counted)
         for _, each in listed
     ]
-    known = fitted.uncertainties
-    covariance = known.sigma**2 * known.inverse + known.systematic @ known.systematic.T
+    covariance = fitted.uncertainties.covariance
     scale = np.array([each.per_si for each in units])
     deviations = np.sqrt(np.diagonal(covariance))
     deviations = np.where(deviations > 0, deviations, 1.0)
@@ -195,13 +194,14 @@ def _in_unit(value: float | None, axis: Axis) -> float | None:
     return None if value is None else axis.deviation_unit.from_si(value)
 
 
-def _noise(noise: Noise, axis: Axis) -> dict[str, Any]:
+def report_noise(noise: Noise, axis: Axis) -> dict[str, Any]:
+    """Return what scatters: where readings are weighted, also where they scatter least and most."""
+    unit = axis.deviation_unit
+    ends = zip(("least", "largest"), noise.span, strict=True) if noise.is_weighted else ()
     return {
-        "repeatability": axis.deviation_unit.from_si(noise.sigma),
-        **{
-            source.value.replace(" ", "_"): axis.deviation_unit.from_si(noise.amount(source))
-            for source in noise.ratios
-        },
+        "repeatability": unit.from_si(noise.sigma),
+        **{f"{end}_repeatability": unit.from_si(size) for end, size in ends},
+        **{source.value.replace(" ", "_"): unit.from_si(noise.amount(source)) for source in noise.ratios},
     }
 
 

@@ -15,22 +15,26 @@ from zlmreport.job.formula_keys import FormulaKeys
 from zlmreport.job.installed import Installed
 from zlmreport.job.job import Job
 from zlmreport.language import Language, Words
+from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.model import wording
-from zlmreport.model.axis_model import AxisModel, ModelError, chosen_effect, chosen_terms
+from zlmreport.model.axis_model import AxisModel, ModelError, Term, chosen_effect, chosen_terms
+from zlmreport.model.design import of_position
 from zlmreport.model.diagnosis import Diagnosis, ErrorNumbers, diagnose, error_numbers
 from zlmreport.model.effect import Effect, Shape
 from zlmreport.model.estimate import Estimate, InstrumentError
 from zlmreport.model.fit import Assumptions, Fit, fit
 from zlmreport.model.harmonic import Harmonic, harmonics
-from zlmreport.model.observations import Observations, observations_of, thinned
+from zlmreport.model.observations import Observations, observations_of, of_readings, thinned
 from zlmreport.model.outliers import outliers
 from zlmreport.model.priors import Expected
 from zlmreport.model.sessions import held_together, of_the_job, with_zeros
-from zlmreport.quantities.arrays import read_only_floats
+from zlmreport.quantities.arrays import FloatArray, read_only_floats
 from zlmreport.quantities.formula import names_in, parse_formula
 from zlmreport.quantities.units import MICROMETRE
 
+#: The effect that is a full polynomial over the position.
+_POLYNOMIAL = "polynomial"
 #: Coverage factor of the instrument's uncertainty as a job states it.
 _COVERAGE_FACTOR = 2.0
 _AT_POSITIONS = frozenset({"at-each-position", "at-each-approach"})
@@ -322,6 +326,54 @@ def moves_with_time(fitted: Fit) -> tuple[str, ...]:
 
 
 @dataclass(frozen=True, slots=True)
+class OneWay:
+    """The polynomial of one direction in powers of the position itself.
+
+    M. Halaj, E. Kureková, R. Palenčár and T. Loebl, The positional deviation in two axes, equation (2).
+
+    Attributes
+    ----------
+    approach
+        The direction.
+    values : (n,) array
+        a, b, c, d …: deviation and position both in mm or in degrees.
+    covariance : (n, n) array
+        Of the values.
+    """
+
+    approach: Approach
+    values: FloatArray
+    covariance: FloatArray
+
+
+def one_way(fitted: Fit) -> Iterator[OneWay]:
+    """Yield the polynomial of each direction of the job's test; nothing where the model has none.
+
+    It is fitted to the readings of that direction alone, whatever else stands in the model.
+    """
+    own = fitted.of_the_job
+    unit = own.design.axis.position_unit
+    for term in fitted.model.terms:
+        for approach in Approach if term.effect.identifier == _POLYNOMIAL else ():
+            design = of_readings(own.design, np.flatnonzero(own.design.direction == approach))
+            if not len(design.position) or term.effect.untestable(design):
+                continue
+            instrument = fitted.assumptions.instrument
+            alone = fit(
+                AxisModel((Term(term.effect),)),
+                design,
+                own.deviation[own.design.direction == approach],
+                Assumptions(instrument),
+            )
+            order = len(term.effect.linear) - 1
+            turn = (
+                of_position(order, design.span) * unit.per_si ** (1.0 - np.arange(order + 1))[:, np.newaxis]
+            )
+            covariance = turn @ alone.uncertainties.covariance @ turn.T
+            yield OneWay(approach, turn @ alone.solution.coefficients[0], covariance)
+
+
+@dataclass(frozen=True, slots=True)
 class Wave:
     """A harmonic of a periodic effect.
 
@@ -346,8 +398,7 @@ def waves(fitted: Fit) -> tuple[Wave, ...]:
 
 
 def _waves(fitted: Fit) -> Iterator[Wave]:
-    known = fitted.uncertainties
-    covariance = known.sigma**2 * known.inverse + known.systematic @ known.systematic.T
+    covariance = fitted.uncertainties.covariance
     first = 0
     for term in fitted.model.terms:
         solved = int(np.count_nonzero(term.is_solved))

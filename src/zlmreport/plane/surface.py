@@ -11,14 +11,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import comb
 
 import numpy as np
 
 from zlmreport.language import same
 from zlmreport.measurement.approach import Approach
 from zlmreport.model.axis_model import AxisModel, ModelError, Term
-from zlmreport.model.design import Design, outside_of_measured
+from zlmreport.model.design import Design, of_position, outside_of_measured
 from zlmreport.model.diagnosis import ErrorNumbers
 from zlmreport.model.effect import Dimension, Effect, Parameter, Shape
 from zlmreport.model.estimate import Estimate, InstrumentError
@@ -180,10 +179,10 @@ class Surface:
     def coefficients(self) -> Coefficients:
         """Return the polynomial in powers of P and R themselves."""
         turn = _to_powers(self.powers.orders, self.along, self.across)
-        of_fit = self.fit.uncertainties
-        scaled = of_fit.sigma**2 * of_fit.inverse + of_fit.systematic @ of_fit.systematic.T
         gamma = self.fit.solution.coefficients[0]
-        return Coefficients(self.powers.orders, turn @ gamma, turn @ scaled @ turn.T)
+        return Coefficients(
+            self.powers.orders, turn @ gamma, turn @ self.fit.uncertainties.covariance @ turn.T
+        )
 
 
 def surface(readings: Readings, instrument: InstrumentError) -> Surface:
@@ -251,11 +250,8 @@ def _to_powers(
     turn = np.zeros((1 + sum(orders), 1 + sum(orders)))
     turn[0, 0] = 1.0
     first = 1
-    for order, (low, high) in zip(orders, (along, across), strict=True):
-        middle, half = (low + high) / 2, (high - low) / 2
-        for power in range(1, order + 1):
-            for lower in range(power + 1):
-                row = 0 if lower == 0 else first + lower - 1
-                turn[row, first + power - 1] = comb(power, lower) * (-middle) ** (power - lower) / half**power
+    for order, span in zip(orders, (along, across), strict=True):
+        own = slice(first, first + order)
+        turn[0, own], turn[own, own] = np.split(of_position(order, span)[:, 1:], [1])
         first += order
     return turn

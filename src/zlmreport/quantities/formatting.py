@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
-from decimal import ROUND_HALF_EVEN, Decimal
+from decimal import ROUND_HALF_EVEN, Context, Decimal
 from enum import StrEnum
 from math import ceil, floor, isfinite, log10
 
@@ -25,6 +25,8 @@ _DIGITS = 2
 _DECIMALS = 3
 #: An uncertainty that would lose more by rounding down is rounded up (EA-4/02 M:2022, 6.3).
 _MOST_LOST = 0.05
+#: Room for every double, the largest too.
+_ANY_DOUBLE = Context(prec=800, rounding=ROUND_HALF_EVEN)
 _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 _SUBSCRIPT = re.compile(r"_\{([^}]*)\}")
@@ -54,7 +56,7 @@ def fixed_number(value: float, decimals: int, sign: DecimalSign = DecimalSign.PO
     >>> fixed_number(5678.9, -1)
     '5680'
     """
-    rounded = Decimal(repr(float(value))).quantize(Decimal(1).scaleb(-decimals), ROUND_HALF_EVEN)
+    rounded = Decimal(repr(float(value))).quantize(Decimal(1).scaleb(-decimals), context=_ANY_DOUBLE)
     text = f"{abs(rounded):.{max(decimals, 0)}f}".replace(".", sign)
     return f"{MINUS}{text}" if rounded < 0 else text
 
