@@ -14,7 +14,7 @@ _JOB = """\
 schema: zlmreport/job/1
 certificate:
   number: {number}
-  layout: full
+  layout: {layout}
   issued: 2026-11-20
   authorised_by: {{name: Erika Example, function: Head of laboratory}}
 laboratory:
@@ -52,12 +52,12 @@ output: {{formats: [pdf]}}
 """
 
 
-def write_job(folder: Path, number: str) -> Path:
+def write_job(folder: Path, number: str, layout: str = "full") -> Path:
     """Write a job and its readings, simulated; another number gives other readings."""
     rows = ["target,direction,run,deviation", *_readings(random.Random(number))]
     (folder / f"{number}.csv").write_text("\n".join(rows), encoding="utf-8")
     job = folder / f"{number}.yaml"
-    job.write_text(_JOB.format(number=number), encoding="utf-8")
+    job.write_text(_JOB.format(number=number, layout=layout), encoding="utf-8")
     return job
 
 

@@ -17,7 +17,7 @@ from zlmreport.figures.canvas import Face
 from zlmreport.figures.figure import Figure
 from zlmreport.figures.metrics import font_file
 from zlmreport.language import Language
-from zlmreport_plugins.renderers.pdf.graphs import FAMILY, PageGraph
+from zlmreport_plugins.renderers.pdf.press import FAMILY, PageGraph
 
 ALTERNATIVE = "Abweichung x̄i↑ über der Position"
 

@@ -12,17 +12,17 @@ from jinja2.exceptions import SecurityError
 
 from zlmreport.certificate import document
 from zlmreport.quantities.formatting import Span
-from zlmreport.typesetting import contexts, overview
+from zlmreport.typesetting import overview, templates
 from zlmreport.typesetting.resources import PACKAGE
 from zlmreport.typesetting.templates import environment
 
-CONTEXTS = get_args(contexts.Context)
+CONTEXTS = get_args(templates.Context)
 TEMPLATES = sorted(file.name for file in (files(PACKAGE) / "templates").iterdir())
 
 #: What templates may look into, beside the contexts themselves.
 PARTS = (
-    contexts.CellContext,
-    contexts.RowGroupContext,
+    templates.CellContext,
+    templates.RowGroupContext,
     document.Facts,
     document.Letterhead,
     document.Party,

@@ -16,7 +16,7 @@ from model.hidden_effect import CONFIG, job, registry
 from zlmreport import pipeline
 from zlmreport.certificate.document import Certificate
 from zlmreport.certificate.linked import Linked
-from zlmreport.typesetting import linked
+from zlmreport.typesetting import resources
 from zlmreport.typesetting.compose import compose
 from zlmreport_plugins.renderers.html import HtmlRenderer
 
@@ -63,28 +63,28 @@ def test_the_page_names_no_address_elsewhere() -> None:
 
 
 def test_no_module_of_the_script_is_left_to_load() -> None:
-    assert re.search(r"^\s*(import|export)\b", linked.script(), re.MULTILINE) is None
+    assert re.search(r"^\s*(import|export)\b", resources.linked_script(), re.MULTILINE) is None
 
 
 @pytest.mark.parametrize("end", ["</script", "<!--"])
 def test_nothing_in_the_script_ends_it(end: str) -> None:
-    assert end not in linked.script().lower()
+    assert end not in resources.linked_script().lower()
 
 
 def test_nothing_in_the_script_ends_its_section_of_xml() -> None:
-    assert linked.script().count("]]>") == 1
+    assert resources.linked_script().count("]]>") == 1
 
 
 @pytest.mark.parametrize("text", ["</script><script>alert(1)</script>", "<!--", "&amp;", "]]>", "\x00\u2028"])
 def test_hostile_text_is_text(text: str) -> None:
     hostile = replace(graphs(), texts={**graphs().texts, "measured": text})
-    written = linked.values(hostile)
+    written = resources.linked_values(hostile)
     assert not set(written) & set("<>&\x00\u2028")
     assert json.loads(written)["texts"]["measured"] == text
 
 
 def test_it_is_the_same_twice() -> None:
-    linked.script.cache_clear()
+    resources.linked_script.cache_clear()
     again = pipeline.compose(job(CONFIG / "job.yaml"), registry())
     assert HtmlRenderer().render(again).decode() == page()
 

@@ -20,7 +20,6 @@ from zlmreport.fleet.state import SOON, Failure, FleetState, Night, Term
 from zlmreport.fleet.steps import LEAST_BEFORE, SEEN, SMALL
 from zlmreport.fleet.trend import Calibration, Series, line_through
 from zlmreport.language import Language, Words
-from zlmreport.typesetting.linked import fingerprint
 from zlmreport.typesetting.overview import (
     OverviewCellContext,
     OverviewContext,
@@ -34,6 +33,7 @@ from zlmreport.typesetting.overview import (
     overview_script,
     overview_style,
 )
+from zlmreport.typesetting.resources import fingerprint
 from zlmreport.typesetting.templates import render
 from zlmreport.version import __version__
 

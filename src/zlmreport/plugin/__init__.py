@@ -125,9 +125,9 @@ _ROOMS = {
         "TIME_UNITS Unit above_reference_temperature=above_reference unit_named"
     ),
     "zlmreport.typesetting.compose": "GRAPH_ADDRESS HtmlSetting=Setting LOGO_ADDRESS compose_html=compose",
-    "zlmreport.typesetting.linked": "linked_script=script linked_style=style script_fingerprint=fingerprint",
     "zlmreport.typesetting.resources": (
-        "FONT_FACES=FACES font_face_rules=font_faces font_file=font style_sheet"
+        "FONT_FACES=FACES font_face_rules=font_faces font_file=font linked_script linked_style "
+        "script_fingerprint=fingerprint style_sheet"
     ),
     "zlmreport.uncertainty.budget": "Budget COVERAGE_PROBABILITY NoBudget",
     "zlmreport.uncertainty.contribution": "Acts Contribution Distribution",

@@ -11,31 +11,41 @@ from itertools import count
 
 from markupsafe import Markup
 
+from zlmreport.certificate import columns
 from zlmreport.certificate.columns import GatheredBlock, gather_facts, side_by_side
 from zlmreport.certificate.document import (
+    Align,
     Block,
+    Cell,
     Certificate,
+    Explained,
     Formulas,
     Graph,
+    Mark,
     Notice,
     Paragraph,
     Section,
     Table,
+    Verdict,
 )
-from zlmreport.typesetting.contexts import (
+from zlmreport.typesetting.resources import linked_values
+from zlmreport.typesetting.templates import (
+    CellContext,
     Context,
     DocumentContext,
     FactsContext,
+    FormulasContext,
     GraphContext,
     LetterheadContext,
     LinkedContext,
     NoticeContext,
     ParagraphContext,
+    RowGroupContext,
     SectionContext,
+    TableContext,
+    render,
+    symbol,
 )
-from zlmreport.typesetting.linked import values
-from zlmreport.typesetting.tables import formulas_context, table_context
-from zlmreport.typesetting.templates import render
 
 #: Where a renderer finds a drawing by its number from 0, and the logo.
 GRAPH_ADDRESS = "graph:{}"
@@ -146,7 +156,7 @@ class _Compositor:
         first = next(at for at, block in enumerate(section.blocks) if isinstance(block, Graph))
         return (
             *self.blocks(section.blocks[:first]),
-            render(LinkedContext(values(linked))),
+            render(LinkedContext(linked_values(linked))),
             *self.blocks(section.blocks[first:]),
         )
 
@@ -182,3 +192,89 @@ class _Compositor:
 
     def _table_label(self) -> str:
         return f"{self._certificate.page_words.table} {next(self._tables)}".strip()
+
+
+_SHAPE = {Mark.MET: "met", Mark.NOT_MET: "not-met", Mark.OPEN: "open"}
+_ALIGNMENT = {Align.LEFT: "", Align.RIGHT: "right", Align.CENTRE: "centre"}
+
+
+def table_context(table: Table, label: str, page: str, *, is_for_screens: bool = False) -> TableContext:
+    """Return the context of a table.
+
+    Parameters
+    ----------
+    table
+        The table.
+    label
+        Its number: ``Table 2``.
+    page
+        Word before the number of a page.
+    is_for_screens
+        Whether it says of a cell what stands above it, and can be scrolled by keys.
+    """
+    layout = columns.table_layout(table)
+    styles = tuple(
+        "apart" if apart else _ALIGNMENT[column.align]
+        for column, apart in zip(table.columns, layout.apart, strict=True)
+    )
+    padding = iter(columns.decimal_padding(table))
+    return TableContext(
+        label=label,
+        caption=table.caption,
+        size=layout.size,
+        whole=layout.is_whole,
+        in_fives=layout.in_fives,
+        widths=_per_cent(layout.widths),
+        headings=tuple(
+            CellContext(columns.text_of(column.heading, symbol), style, column.unit)
+            for column, style in zip(table.columns, styles, strict=True)
+        ),
+        is_for_screens=is_for_screens,
+        labels=_labels(table) if is_for_screens else (),
+        groups=tuple(
+            RowGroupContext(
+                heading=group.heading,
+                note=group.note,
+                section=group.section,
+                rows=tuple(tuple(map(_cell, row, styles, next(padding))) for row in group.rows),
+            )
+            for group in table.groups
+        ),
+        page=page,
+    )
+
+
+def formulas_context(formulas: Formulas, label: str) -> FormulasContext:
+    """Return the context of definitions, which are set as a table without headings."""
+    layout = columns.table_layout(formulas)
+    return FormulasContext(
+        label=label,
+        caption=formulas.caption,
+        whole=layout.is_whole,
+        widths=_per_cent(layout.widths),
+        rows=tuple(
+            (symbol(letter.notation), symbol(formula.notation), name)
+            for letter, formula, name in formulas.rows
+        ),
+    )
+
+
+def _labels(table: Table) -> tuple[str, ...]:
+    """Return what stands above the cells of a table of words; nothing of one of numbers: it is scrolled."""
+    if table.columns[0].align is Align.RIGHT:
+        return ()
+    return tuple(
+        f"{columns.text_of(each.heading)} ({each.unit})" if each.unit else columns.text_of(each.heading)
+        for each in table.columns
+    )
+
+
+def _per_cent(widths: Iterable[float]) -> tuple[str, ...]:
+    return tuple(f"{width:.2f}" for width in widths)
+
+
+def _cell(cell: Cell, style: str, padding: str) -> CellContext:
+    if isinstance(cell, Verdict):
+        return CellContext(cell.word, f"verdict {_SHAPE[cell.mark]} {style}".strip())
+    note = cell.meaning if isinstance(cell, Explained) else ""
+    return CellContext(columns.text_of(cell, symbol), f"{style} {padding}".strip(), note=note)

@@ -1,18 +1,293 @@
-"""The Jinja environment: sandboxed, every value escaped, a missing one an error."""
+"""What each template is given, one dataclass a template (a test compares the two), and the Jinja environment.
+
+It is sandboxed, every value is escaped, and a missing one is an error.
+"""
 
 from __future__ import annotations
 
 import re
-from dataclasses import fields
+from dataclasses import dataclass, fields
 from functools import cache, lru_cache
+from typing import ClassVar, TypeAlias
 
 from jinja2 import PackageLoader, StrictUndefined
 from jinja2.sandbox import ImmutableSandboxedEnvironment
 from markupsafe import Markup
 
-from zlmreport.quantities.formatting import spans
-from zlmreport.typesetting.contexts import Context, SymbolContext
+from zlmreport.certificate.document import Facts, Letterhead
+from zlmreport.quantities.formatting import Span, spans
+from zlmreport.typesetting.overview import (
+    OverviewContext,
+    OverviewLegendContext,
+    OverviewSectionContext,
+    OverviewTableContext,
+    OverviewToolsContext,
+)
 from zlmreport.typesetting.resources import PACKAGE
+
+
+@dataclass(frozen=True, slots=True)
+class CellContext:
+    """A table's cell or heading.
+
+    Attributes
+    ----------
+    content
+        Text, or a symbol that is set already.
+    style
+        Class names: alignment, distance from the decimal sign, shape of a verdict.
+    unit
+        Below a heading; empty elsewhere.
+    note
+        Below the content, in small type; empty for most.
+    """
+
+    content: str
+    style: str
+    unit: str = ""
+    note: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class SymbolContext:
+    """A symbol or formula, each stretch with its way of being set."""
+
+    template: ClassVar[str] = "symbol.html"
+    spans: tuple[Span, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class RowGroupContext:
+    """Rows under a heading of their own, which may lead to a section; no heading for plain rows."""
+
+    heading: str
+    note: str
+    section: str
+    rows: tuple[tuple[CellContext, ...], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class TableContext:
+    """A table.
+
+    Attributes
+    ----------
+    label
+        ``Table 2``.
+    caption
+        What it shows.
+    size
+        Class name of its type size.
+    whole
+        Whether it is short enough to stay on one page.
+    in_fives
+        Whether its rows are read in fives.
+    widths
+        Of the columns, in per cent of the page's.
+    headings
+        One for each column.
+    groups
+        The rows.
+    page
+        Word before the number of a page that the table refers to.
+    is_for_screens
+        Whether keys can scroll it.
+    labels
+        What stands above each column, for a screen on which the cells of a row stand below each other; empty
+        where they never do.
+    """
+
+    template: ClassVar[str] = "table.html"
+    label: str
+    caption: str
+    size: str
+    whole: bool
+    in_fives: bool
+    widths: tuple[str, ...]
+    headings: tuple[CellContext, ...]
+    groups: tuple[RowGroupContext, ...]
+    page: str
+    is_for_screens: bool = False
+    labels: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class FormulasContext:
+    """Definitions: symbol and formula, set already, and name of each; the rest as in a table."""
+
+    template: ClassVar[str] = "formulas.html"
+    label: str
+    caption: str
+    whole: bool
+    widths: tuple[str, ...]
+    rows: tuple[tuple[Markup, Markup, str], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class FactsContext:
+    """Groups of names and values, in one column or two."""
+
+    template: ClassVar[str] = "facts.html"
+    columns: tuple[tuple[Facts, ...], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class ParagraphContext:
+    """A paragraph."""
+
+    template: ClassVar[str] = "paragraph.html"
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class NoticeContext:
+    """A statement that nobody may overlook."""
+
+    template: ClassVar[str] = "notice.html"
+    heading: str
+    items: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class GraphContext:
+    """A graph with its caption.
+
+    Attributes
+    ----------
+    label
+        ``Figure 3``.
+    caption
+        Its title.
+    alternative
+        What it shows, for those who cannot see it.
+    address
+        Where the renderer finds the drawing: ``graph:2``.
+    drawing
+        The drawing itself as markup; empty where it stands at its address.
+    """
+
+    template: ClassVar[str] = "graph.html"
+    label: str
+    caption: str
+    alternative: str
+    address: str
+    drawing: Markup
+
+
+@dataclass(frozen=True, slots=True)
+class SectionContext:
+    """A section: its anchor, number, title, and its blocks as markup."""
+
+    template: ClassVar[str] = "section.html"
+    key: str
+    number: int
+    title: str
+    new_page: bool
+    blocks: tuple[Markup, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class LinkedContext:
+    """The place of the linked graphs, which a script fills; `values` is what they show, as JSON."""
+
+    template: ClassVar[str] = "linked.html"
+    values: Markup
+
+
+@dataclass(frozen=True, slots=True)
+class LetterheadContext:
+    """Who issues the document; `logo` is the address of the logo, empty without one."""
+
+    template: ClassVar[str] = "letterhead.html"
+    letterhead: Letterhead
+    logo: str
+
+
+@dataclass(frozen=True, slots=True)
+class DocumentContext:
+    """The whole document.
+
+    Attributes
+    ----------
+    language
+        ISO 639-1 code.
+    is_compact
+        Whether it is set in smaller type, with less room between its parts.
+    title, subtitle, number
+        As printed on the cover.
+    author, description, keywords, generator, issued
+        Metadata of the file; `issued` as ISO 8601, empty where not stated.
+    logo
+        On which side of the letterhead the logo stands: ``left`` or ``right``.
+    head, foot
+        What stands above every page but the first, and below the number at its foot.
+    running_number, page, of, end
+        Words of the page margins, and of the mark at the end.
+    style
+        Style sheets in the document's head; empty where the renderer hands them over otherwise.
+    policy, script
+        The only script and the content security policy that names it; empty where nothing is run.
+    letterhead, cover, sections
+        Markup, in this order.
+    """
+
+    template: ClassVar[str] = "document.html"
+    language: str
+    is_compact: bool
+    title: str
+    subtitle: str
+    number: str
+    author: str
+    description: str
+    keywords: str
+    generator: str
+    issued: str
+    logo: str
+    head: str
+    foot: str
+    running_number: str
+    page: str
+    of: str
+    end: str
+    style: Markup
+    policy: str
+    script: Markup
+    letterhead: Markup
+    cover: tuple[Markup, ...]
+    sections: tuple[Markup, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class WorkbenchContext:
+    """The page of the workbench, which its scripts fill: language, title, and what it says without them."""
+
+    template: ClassVar[str] = "workbench.html"
+    language: str
+    title: str
+    needs_script: str
+
+
+#: What a template is rendered with.
+Context: TypeAlias = (
+    DocumentContext
+    | LetterheadContext
+    | SectionContext
+    | TableContext
+    | FormulasContext
+    | FactsContext
+    | ParagraphContext
+    | NoticeContext
+    | GraphContext
+    | LinkedContext
+    | SymbolContext
+    | OverviewContext
+    | OverviewSectionContext
+    | OverviewTableContext
+    | OverviewToolsContext
+    | OverviewLegendContext
+    | WorkbenchContext
+)
+
 
 #: Characters that XML 1.0 has no place for, not even escaped.
 _NOT_IN_XML = re.compile(r"[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")

@@ -20,9 +20,8 @@ from starlette.routing import Route
 from zlmreport.errors import AccessError, InputError, Place, ZlmreportError
 from zlmreport.language import Language, Words
 from zlmreport.plugins import Registry
-from zlmreport.typesetting.contexts import WorkbenchContext
 from zlmreport.typesetting.resources import page_file
-from zlmreport.typesetting.templates import render
+from zlmreport.typesetting.templates import WorkbenchContext, render
 from zlmreport.web.bench import PLACE, Bench
 from zlmreport.web.changes import ConflictError, NothingToUndoError, Request, change
 from zlmreport.web.commands import Commands, Wanted

@@ -22,6 +22,7 @@ from typesetting import samples
 from zlmreport.certificate.document import Certificate
 from zlmreport.errors import AccessError
 from zlmreport.language import Language
+from zlmreport_plugins.renderers.pdf import PdfRenderer
 from zlmreport_plugins.renderers.pdf_typst import TypstRenderer
 
 TESTS = Path(samples.__file__).parents[1]
@@ -128,6 +129,17 @@ def test_a_viewer_finds_nothing_to_run_or_to_load() -> None:
     with pikepdf.open(BytesIO(TypstRenderer().render(samples.certificate()))) as pdf:
         assert "/OpenAction" not in pdf.Root
         assert "/JavaScript" not in pdf.Root.get("/Names", {})
+
+
+def test_its_structure_is_compressed_and_no_object_is_lost() -> None:
+    certificate = samples.certificate()
+    pdf = TypstRenderer().render(certificate)
+    assert len(pdf) < 1.1 * len(PdfRenderer().render(certificate))
+    with pikepdf.open(BytesIO(pdf)) as opened:
+        assert opened.check_pdf_syntax() == []
+        kinds = [each.get("/Type") for each in opened.objects if isinstance(each, pikepdf.Dictionary)]
+    assert kinds.count("/StructElem") > 800
+    assert b"/StructElem" not in pdf
 
 
 def test_the_order_of_documents_does_not_matter() -> None:

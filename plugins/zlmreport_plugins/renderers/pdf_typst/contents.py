@@ -5,31 +5,49 @@ Everything here is text, numbers and lists of them: nothing is ever read as Typs
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from itertools import count
+from collections.abc import Iterable, Sequence
+from functools import cache
+from itertools import count, repeat
+from math import inf
 from typing import Any, TypeAlias
 
 from zlmreport.plugin import (
+    Align,
     Attachment,
     Block,
+    Cell,
     Certificate,
+    Colour,
+    Explained,
     Facts,
+    Figure,
+    Fill,
     FontFace,
     Formulas,
     GatheredBlock,
     Graph,
+    Language,
     Letterhead,
+    Mark,
     Notice,
     PageWords,
     Paragraph,
     Section,
+    Segment,
+    Stroke,
+    Symbol,
     Table,
+    TextRun,
+    Verdict,
+    decimal_padding,
+    draw_figure,
     facts_side_by_side,
+    figure_size,
     gather_facts,
+    hexadecimal_colour,
+    table_layout,
 )
-from zlmreport_plugins.renderers.pdf_typst.graphs import graph_data
-from zlmreport_plugins.renderers.pdf_typst.tables import formulas_data, table_data
-from zlmreport_plugins.renderers.pdf_typst.words import fitted
+from zlmreport_plugins.renderers.pdf_typst.words import fitted, parted, symbol_data
 
 #: What JSON knows.
 Data: TypeAlias = dict[str, Any]
@@ -206,3 +224,189 @@ def _bytes(content: bytes) -> str | list[int]:
         return content.decode()
     except UnicodeDecodeError:
         return list(content)
+
+
+#: Width of a figure, and of a decimal sign, in em: all figures of the typeface are of one width.
+_FIGURE = 0.6
+_DECIMAL_SIGN = 0.272
+
+#: Space at both sides of a cell, further space before words after numbers, and the mark of a verdict, in em.
+_PADDING = 0.9
+_APART = 1.15
+_BADGE = 1.5
+#: Size of the small type below a name.
+_SMALL = 0.9
+#: Width of a group's heading.
+_GROUP = 50.0
+#: Characters of a cell that fits on a page for certain.
+_LONG_CELL = 400
+
+_SHAPE = {Mark.MET: "met", Mark.NOT_MET: "not-met", Mark.OPEN: "open"}
+
+
+def table_data(table: Table) -> dict[str, Any]:
+    """Return the columns and rows of a table."""
+    columns_data = _columns(
+        table, [group.rows for group in table.groups], [column.align for column in table.columns]
+    )
+    rooms = columns_data.pop("rooms")
+    padding = iter(decimal_padding(table))
+    return {
+        **columns_data,
+        "align": [column.align.value for column in table.columns],
+        "headings": [
+            {"content": _cell(column.heading, room, face=FontFace.SEMIBOLD), "unit": column.unit}
+            for column, room in zip(table.columns, rooms, strict=True)
+        ],
+        "groups": [
+            {
+                "heading": fitted(group.heading, _GROUP, FontFace.SEMIBOLD),
+                "note": fitted(group.note, _GROUP),
+                "section": group.section,
+                "rows": [_row(row, rooms, next(padding)) for row in group.rows],
+            }
+            for group in table.groups
+        ],
+    }
+
+
+def formulas_data(formulas: Formulas) -> dict[str, Any]:
+    """Return definitions, which are set as a table without headings."""
+    columns_data = _columns(formulas, [formulas.rows], [Align.LEFT] * 3)
+    rooms = columns_data.pop("rooms")
+    return {**columns_data, "rows": [_row(row, rooms) for row in formulas.rows]}
+
+
+def _columns(
+    block: Table | Formulas, groups: Sequence[Sequence[Sequence[Cell]]], alignments: Sequence[Align]
+) -> dict[str, Any]:
+    """Return how columns share the page, and `rooms`: the width that each leaves for words, in em.
+
+    Columns of numbers were made wide enough for each of them, and never part one.
+    """
+    layout = table_layout(block)
+    return {
+        "size": layout.size,
+        "widths": layout.widths,
+        "apart": layout.apart,
+        "whole": layout.is_whole,
+        "in-fives": layout.in_fives,
+        "breakable": any(_is_long(cell) for rows in groups for row in rows for cell in row),
+        "rooms": [
+            inf if align is Align.RIGHT else room - _PADDING - (_APART if apart else 0.0)
+            for room, align, apart in zip(layout.rooms, alignments, layout.apart, strict=True)
+        ],
+    }
+
+
+def _is_long(cell: Cell) -> bool:
+    """Return whether a row with this cell might fill more than a page."""
+    match cell:
+        case str():
+            return len(cell) > _LONG_CELL
+        case Explained(name, meaning):
+            return len(name) + len(meaning) > _LONG_CELL
+        case _:
+            return False
+
+
+def _row(row: Sequence[Cell], rooms: Sequence[float], padding: Iterable[str] = repeat("")) -> list[Any]:
+    return [_cell(cell, room, lacking) for cell, room, lacking in zip(row, rooms, padding, strict=False)]
+
+
+def _cell(cell: Cell, room: float, padding: str = "", face: FontFace = FontFace.REGULAR) -> Any:
+    """Return a cell: a text as it stands, and what is more than a text with its kind."""
+    match cell:
+        case Symbol(notation):
+            return symbol_data(notation)
+        case Verdict(mark, word):
+            return {"kind": "verdict", "shape": _SHAPE[mark], "word": fitted(word, room - _BADGE)}
+        case Explained(name, meaning):
+            return {
+                "kind": "explained",
+                "name": fitted(name, room),
+                "meaning": fitted(meaning, room / _SMALL),
+            }
+        case text if padding:
+            return {"kind": "number", "text": text, "gap": _gap(padding)}
+        case text:
+            return fitted(text, room, face)
+
+
+def _gap(padding: str) -> float:
+    """Return how far left of the column's end a number stands, in em, for the decimals that it lacks."""
+    kind, _, lacking = padding.partition("-")
+    return int(lacking) * _FIGURE + (_DECIMAL_SIGN if kind == "whole" else 0.0)
+
+
+_FACES = {FontFace.REGULAR: "regular", FontFace.ITALIC: "italic", FontFace.SEMIBOLD: "semibold"}
+# A hundredth of a point is 4 µm of paper.
+_OPERATORS = {"M": "M%.2f %.2f", "L": "L%.2f %.2f", "C": "C%.2f %.2f %.2f %.2f %.2f %.2f", "Z": "Z"}
+
+
+def graph_data(figure: Figure, language: Language) -> Data:
+    """Return a figure's drawing: its size in points, all outlines as one SVG image, and over it the labels.
+
+    Typst sets the labels as it sets every other text, so a symbol such as x̄ is one letter to whoever searches
+    or copies it. In an SVG image its bar would be a shape without a meaning.
+    """
+    width, height = figure_size(figure)
+    canvas = GraphCanvas()
+    draw_figure(figure, language, canvas)
+    return {
+        "width": width,
+        "height": height,
+        "drawing": canvas.image(width, height),
+        "labels": canvas.labels,
+    }
+
+
+class GraphCanvas:
+    """A canvas that keeps outlines and text apart.
+
+    Attributes
+    ----------
+    labels
+        Each line of text in the order in which it was set: x and y of its beginning, angle, colour, and its
+        runs, each with face, size, how far it lies below the first, and a stretch of text.
+    """
+
+    def __init__(self) -> None:
+        self._paths: list[str] = []
+        self.labels: list[list[Any]] = []
+
+    def outline(
+        self, kind: str, segments: Sequence[Segment], stroke: Stroke | None, fill: Fill | None
+    ) -> None:
+        """Add a path."""
+        del kind
+        data = "".join([_OPERATORS[operator] % points for operator, points in segments])
+        self._paths.append(f'<path d="{data}"{_look(stroke, fill)}/>')
+
+    def text(self, kind: str, runs: Sequence[TextRun], colour: Colour, angle: float) -> None:
+        """Keep a line of text."""
+        del kind
+        first = runs[0]
+        spans = [
+            [_FACES[run.face], run.size, run.y - first.y, *stretch]
+            for run in runs
+            for stretch in parted(run.text, run.face)
+        ]
+        self.labels.append([first.x, first.y, angle, hexadecimal_colour(colour), spans])
+
+    def image(self, width: float, height: float) -> str:
+        """Return the outlines as an SVG image of a size in points."""
+        size = f'width="{width}pt" height="{height}pt" viewBox="0 0 {width} {height}"'
+        return "".join((f'<svg xmlns="http://www.w3.org/2000/svg" {size}>', *self._paths, "</svg>"))
+
+
+@cache
+def _look(stroke: Stroke | None, fill: Fill | None) -> str:
+    """Return the attributes of a path: a drawing has a few looks, and they come again and again."""
+    inside = (
+        f' fill="{hexadecimal_colour(fill.colour)}" fill-opacity="{fill.opacity}"' if fill else ' fill="none"'
+    )
+    if stroke is None:
+        return inside
+    dashes = f' stroke-dasharray="{" ".join(map(str, stroke.dashes))}"' if stroke.dashes else ""
+    return f'{inside} stroke="{hexadecimal_colour(stroke.colour)}" stroke-width="{stroke.width}"{dashes}'
