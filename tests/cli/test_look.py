@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from io import BytesIO
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from openpyxl import Workbook
 
 from cli.commands import Shop
 from environments import ROOT
@@ -23,11 +25,20 @@ GERMAN = (
     "0,0;auf;1;0,0015;kalt\n100,0;auf;1;0,0025;\n100,0;ab;1;0,0005;warm\n0,0;ab;1;-0,0005;\n"
     "Ende des Protokolls\n"
 )
-WIDE = "Position\tRun 1 fwd\tRun 1 bwd\tMean\n0\t1.5\t-0.5\t0.5\n100\t2.5\t0.5\t1.5\n".replace(
-    "Position", "Target"
-)
+WIDE = "Target\tRun 1 fwd\tRun 1 bwd\tMean\n0\t1.5\t-0.5\t0.5\n100\t2.5\t0.5\t1.5\n"
 POSITIONS = "Soll;1+;1-\n0;0,0015;-0,0005\n100;100,0025;100,0005\n"
 ACTUAL = "nominal,actual,dir,cycle\n0,0.0015,up,1\n100,100.0025,up,1\n100,100.0005,down,1\n0,-0.0005,down,1\n"
+
+
+def workbook(table: str) -> bytes:
+    """Return a table of tabs as a spreadsheet saves it, its numbers as numbers."""
+    book, saved = Workbook(), BytesIO()
+    for line in table.splitlines():
+        book.active.append([float(cell) if cell[-1].isdigit() else cell for cell in line.split("\t")])
+    book.save(saved)
+    return saved.getvalue()
+
+
 TABLES: dict[str, tuple[bytes, dict[str, Any]]] = {
     "the usual": (LONG.encode(), {}),
     "a German protocol": (
@@ -46,6 +57,11 @@ TABLES: dict[str, tuple[bytes, dict[str, Any]]] = {
     ),
     "UTF-16": (LONG.replace(",", "\t").encode("utf-16"), {"encoding": "utf-16"}),
     "a wide table": (WIDE.encode(), {"layout": "wide", "ignore": ["Mean"]}),
+    "a wide table whose targets are called positions": (
+        WIDE.replace("Target", "Position").encode(),
+        {"layout": "wide", "columns": {"target": "Position"}, "ignore": ["Mean"]},
+    ),
+    "a workbook": (workbook(WIDE), {"layout": "wide", "ignore": ["Mean"]}),
     "a wide table of positions": (
         POSITIONS.encode(),
         {"layout": "wide", "values": "position", "columns": {"target": "Soll"}},

@@ -93,8 +93,8 @@ def test_an_empty_file_is_refused(tmp_path: Path, content: bytes) -> None:
 @pytest.mark.parametrize(
     ("beginning", "kind"),
     [
-        (b"PK\x03\x04", "a spreadsheet or an archive"),
-        (b"\xd0\xcf\x11\xe0", "a spreadsheet"),
+        (b"PK\x03\x04", "an archive"),
+        (b"\xd0\xcf\x11\xe0", "a workbook of old Excel, .xls"),
         (b"%PDF-1.7", "a PDF document"),
         (b"\x1f\x8b", "a compressed file"),
     ],

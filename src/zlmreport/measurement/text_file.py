@@ -13,6 +13,7 @@ from pathlib import Path
 from zlmreport.errors import AccessError, InputError, Place, quoted
 from zlmreport.files import read, unreadable
 from zlmreport.measurement.provenance import SourceFile
+from zlmreport.measurement.workbook import SEPARATOR, is_workbook, sheet_lines
 from zlmreport.quantities.formatting import MINUS, DecimalSign
 
 #: Of a measurement file, in bytes.
@@ -24,8 +25,8 @@ LONGEST_LINE = 100_000
 #: The first bytes of files that people take for tables.
 _NO_TEXT = {
     b"\x1f\x8b": "a compressed file",
-    b"PK\x03\x04": "a spreadsheet or an archive",
-    b"\xd0\xcf\x11\xe0": "a spreadsheet",
+    b"PK\x03\x04": "an archive",
+    b"\xd0\xcf\x11\xe0": "a workbook of old Excel, .xls",
     b"%PDF": "a PDF document",
 }
 #: Byte order marks; the longer one first where one begins like another.
@@ -56,19 +57,24 @@ class TextFile:
         Its lines without their ends; the first line of the file is ``lines[0]``.
     source
         Its name, digest and bytes, for the provenance.
+    of_cells
+        Whether the lines are the rows of a workbook, apart by tabs.
     """
 
     name: str
     lines: tuple[str, ...]
     source: SourceFile
+    of_cells: bool = False
 
     def place(self, line: int = 0, column: int = 0) -> Place:
-        """Return a place in this file; lines and columns count from 1."""
+        """Return a place in this file, both from 1: line and character, in a workbook row and column."""
+        if self.of_cells and column:
+            column = self.lines[line - 1].count(SEPARATOR, 0, column - 1) + 1
         return Place(self.name, line, column)
 
 
 def read_text(path: Path, encoding: str | None = None) -> TextFile:
-    """Read a text file of measurements.
+    """Read a text file of measurements; a workbook with one sheet is read as the lines of that sheet.
 
     Parameters
     ----------
@@ -89,6 +95,9 @@ def read_text(path: Path, encoding: str | None = None) -> TextFile:
     content = _content(path, file)
     if not content.strip():
         raise InputError.at(file, "is empty; a measurement file holds readings")
+    if is_workbook(content):
+        rows = sheet_lines(content, file, 4 * LARGEST)
+        return TextFile(file.file, tuple(rows), SourceFile.of(path, content), of_cells=True)
     for beginning, kind in _NO_TEXT.items():
         if content.startswith(beginning):
             raise InputError.at(file, f"is {kind}, not text; export the readings as text (CSV, UTF-8)")

@@ -137,7 +137,7 @@ class LaserCsv:
     identifier = "laser-csv"
     title = Words(en="Table of readings (CSV)", de="Messwerttabelle (CSV)")
     options: type[Options] = LaserCsvOptions
-    suffixes = (".csv", ".tsv", ".txt")
+    suffixes = (".csv", ".tsv", ".txt", ".xlsx")
 
     def proposals(self, file: Path) -> Iterable[SourceProposal]:
         """Return the keys by which a table that somebody else laid out may be read."""
@@ -238,6 +238,8 @@ def _proposal(keys: dict[str, Any], lines: Sequence[str], header: _Header) -> So
     meanings = [_meaning(cell) for cell in header.cells]
     rows = _rows(lines, header)
     is_wide = meanings.count("reading") > 1
+    if is_wide and "target" not in meanings:  # beside a column for each run, "position" is where the axis was sent
+        meanings = ["target" if meaning == "position" else meaning for meaning in meanings]
     columns = _columns(header, meanings, is_wide=is_wide)
     asked = []
     if is_wide:
@@ -252,9 +254,7 @@ def _proposal(keys: dict[str, Any], lines: Sequence[str], header: _Header) -> So
             asked.append(_UNIT_ASKED)
     if not is_wide and "direction" not in meanings:
         keys["direction"] = "+"
-        asked.append(
-            "Were all readings taken upwards? The table names no direction; else say direction: '-'."
-        )
+        asked.append(_DIRECTION_ASKED)
     if columns:
         keys["columns"] = columns
     ignored = _words(header, meanings, rows, is_wide=is_wide)

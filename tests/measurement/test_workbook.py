@@ -1,0 +1,79 @@
+"""A workbook is a measurement file when one of its sheets, and only one, holds something."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+import pytest
+from openpyxl import Workbook
+
+from zlmreport.errors import InputError
+from zlmreport.measurement.text_file import read_text
+from zlmreport.measurement.workbook import sheet_lines
+
+_READINGS = [["target", "1+", "1-"], [0, 0.1, -1e-05], [100, "1,3", None]]
+
+
+def _saved(folder: Path, sheets: Mapping[str, Sequence[Sequence[object]]]) -> Path:
+    book = Workbook()
+    book.remove(book.active)
+    for title, rows in sheets.items():
+        sheet = book.create_sheet(title)
+        for row in rows:
+            sheet.append(row)
+    path = folder / "readings.xlsx"
+    book.save(path)
+    return path
+
+
+def _complaint(path: Path) -> str:
+    with pytest.raises(InputError) as caught:
+        read_text(path)
+    return str(caught.value).removeprefix(f"{path.parent}/")
+
+
+def test_its_rows_are_lines_with_all_digits_and_empty_cells(tmp_path: Path) -> None:
+    text = read_text(_saved(tmp_path, {"Notes": [], "Readings": _READINGS}))
+    assert text.lines == ("target\t1+\t1-", "0\t0.1\t-1e-05", "100\t1,3")
+
+
+def test_a_place_in_it_is_row_and_column(tmp_path: Path) -> None:
+    text = read_text(_saved(tmp_path, {"Readings": _READINGS}))
+    assert text.place(2, len("0\t0.1\t") + 1).column == 3
+
+
+def test_the_workbook_itself_is_the_file_that_is_identified(tmp_path: Path) -> None:
+    path = _saved(tmp_path, {"Readings": _READINGS})
+    assert read_text(path).source.content == path.read_bytes()
+
+
+def test_of_two_sheets_with_content_none_is_chosen(tmp_path: Path) -> None:
+    path = _saved(tmp_path, {"Before": _READINGS, "After": _READINGS})
+    assert _complaint(path) == (
+        "readings.xlsx: has 2 sheets with content: 'Before', 'After'; a measurement file has one: save the "
+        "sheet with the readings as a file of its own"
+    )
+
+
+def test_a_workbook_without_content_is_refused(tmp_path: Path) -> None:
+    assert "has no content" in _complaint(_saved(tmp_path, {"Readings": []}))
+
+
+def test_a_cell_with_a_line_break_has_its_place(tmp_path: Path) -> None:
+    path = _saved(tmp_path, {"Readings": [["target", "two\nlines"]]})
+    assert _complaint(path).startswith("readings.xlsx:1:2: the cell holds a line break")
+
+
+def test_a_damaged_workbook_is_refused(tmp_path: Path) -> None:
+    path = _saved(tmp_path, {"Readings": _READINGS})
+    content = bytearray(path.read_bytes())
+    content[200:260] = b"\xff" * 60
+    path.write_bytes(content)
+    assert "is a damaged workbook" in _complaint(path)
+
+
+def test_a_workbook_that_unpacks_to_too_much_is_refused(tmp_path: Path) -> None:
+    path = _saved(tmp_path, {"Readings": _READINGS})
+    with pytest.raises(InputError, match="unpacks to more than"):
+        sheet_lines(path.read_bytes(), read_text(path).place(), largest=100)
