@@ -12,6 +12,7 @@ from html.parser import HTMLParser
 from pathlib import Path
 from typing import Any
 
+import notebooks
 from mkdocs.exceptions import PluginError
 from mkdocs.structure.files import File, Files
 
@@ -29,14 +30,13 @@ _FACES = {
     "reference/python.md": ("zlmreport", "In Python"),
     "reference/plugin-door.md": ("zlmreport.plugin", "The door for plugins, name by name"),
 }
-#: Wide tables of a notebook scroll in their own frame.
-_STYLE = ".jp-RenderedHTMLCommon table { display: block; overflow-x: auto; max-width: 100% }\n"
 #: A link that leaves the documentation: what stands before its target, and the target in the project.
 _OUTWARD = re.compile(
     r"(\]\()((?:\.\./)+)((?:configs|plugins|src|tests)/[^)#]+|LICENSE|README\.md|CHANGELOG\.md)(?=\))"
 )
 #: A fence that names its file, as the pages write it: the site prints the name above the code.
 _NAMED_FENCE = re.compile(r"^(```[a-z]+) ([^\s`]+)$", re.MULTILINE)
+_NOTEBOOK = re.compile(r"(notebooks/\w+)\.py(\))")
 _FETCHED = {"script": "src", "img": "src", "iframe": "src", "source": "src", "link": "href"}
 
 
@@ -44,7 +44,9 @@ def on_config(config: Any) -> Any:
     """Order the pages as a reader comes to them, and give each version a folder of its own."""
     docs = Path(config.docs_dir)
     found = {
-        title: sorted(str(page.relative_to(docs)) for page in (docs / folder).glob("*.[mp][dy]"))
+        title: sorted(
+            str(page.relative_to(docs).with_suffix(".md")) for page in (docs / folder).glob("*.[mp][dy]")
+        )
         for title, folder in _FOLDERS.items()
     }
     found["Reference"] += _FACES
@@ -62,7 +64,10 @@ def on_files(files: Files, config: Any) -> Files:
     """Add the faces for Python, and every file outside the documentation to which a page links."""
     for page, (module, title) in _FACES.items():
         files.append(File.generated(config, page, content=f"# {title}\n\n::: {module}\n"))
-    files.append(File.generated(config, "site.css", content=_STYLE))
+    for notebook in sorted(Path(config.docs_dir).glob("notebooks/*.py")):
+        name = f"notebooks/{notebook.stem}.md"
+        files.remove(files.src_uris[f"notebooks/{notebook.name}"])
+        files.append(File.generated(config, name, content=notebooks.page(notebook)))
     linked = {
         match[3] for page in files.documentation_pages() for match in _OUTWARD.finditer(page.content_string)
     }
@@ -75,7 +80,8 @@ def on_page_markdown(markdown: str, page: Any, **_: Any) -> str:
     """Write the names of files as the site has them; lead what leaves the pages to copies."""
     up = "../" * page.file.src_uri.count("/")
     titled = _NAMED_FENCE.sub(r'\1 title="\2"', markdown)
-    return _OUTWARD.sub(lambda match: f"{match[1]}{up}files/{match[3]}", titled)
+    local = _OUTWARD.sub(lambda match: f"{match[1]}{up}files/{match[3]}", titled)
+    return _NOTEBOOK.sub(r"\1.md\2", local)
 
 
 def on_post_build(config: Any) -> None:

@@ -138,7 +138,8 @@ def test_every_library_that_is_imported_comes_with_the_dependencies(project: Pat
 def test_every_library_that_development_imports_comes_with_the_group_test() -> None:
     declared = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
     available = declared["project"]["dependencies"] + declared["dependency-groups"]["test"]
-    lacking = undeclared([ROOT / folder for folder in ("tests", "benchmarks", "docs/generate")], available)
+    folders = [ROOT / folder for folder in ("tests", "benchmarks", "docs/generate")]
+    lacking = undeclared(folders, available) - {"mkdocs"}  # of the group docs: one hook needs it
     lacking -= {"sklearn"}  # one of the other ways that a benchmark compares with, where it is installed
     lacking -= {"hal", "linuxcnc"}  # of the control itself, whose own Python runs what imports them
     assert not lacking, f"imported, but not in the dependency group 'test': {lacking}"

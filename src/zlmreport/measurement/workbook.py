@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import zipfile
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from datetime import date
 from io import BytesIO
-from typing import Any
 
 from zlmreport.errors import InputError, Place, quoted
 
@@ -34,26 +33,27 @@ def sheet_lines(content: bytes, file: Place, largest: int) -> list[str]:
     Raises
     ------
     InputError
-        If it is damaged, unpacks to more than `largest` bytes, holds several sheets with content or none, or a
-        cell that no line can hold.
+        If it is damaged, unpacks to more than `largest` bytes, holds several sheets with content or none, or
+        a cell that no line can hold.
     """
     from openpyxl import load_workbook  # noqa: PLC0415 (slow to load)
 
     try:
         with zipfile.ZipFile(BytesIO(content)) as archive:
-            if sum(part.file_size for part in archive.infolist()) > largest:
-                raise InputError.at(
-                    file, f"unpacks to more than {largest >> 20} MiB; is this a test's workbook?"
-                )
-        book = load_workbook(BytesIO(content), read_only=True, data_only=True)
-        sheets = {sheet.title: list(_lines(sheet, file)) for sheet in book.worksheets}
-    except InputError:
-        raise
+            size = sum(part.file_size for part in archive.infolist())
+        book = load_workbook(BytesIO(content), read_only=True, data_only=True) if size <= largest else None
+        sheets = (
+            {sheet.title: [*sheet.iter_rows(values_only=True)] for sheet in book.worksheets} if book else {}
+        )
     except Exception as error:  # openpyxl raises whatever its XML parser meets
         raise InputError.at(
             file, "is a damaged workbook; save it again, or export the sheet as CSV"
         ) from error
-    filled = {title: lines for title, lines in sheets.items() if any(line.strip() for line in lines)}
+    if book is None:
+        raise InputError.at(file, f"unpacks to more than {largest >> 20} MiB; is this a test's workbook?")
+    filled = {
+        title: rows for title, rows in sheets.items() if any(cell is not None for row in rows for cell in row)
+    }
     if len(filled) != 1:
         found = (
             f"{len(filled)} sheets with content: {', '.join(map(quoted, filled))}" if filled else "no content"
@@ -62,11 +62,11 @@ def sheet_lines(content: bytes, file: Place, largest: int) -> list[str]:
             file,
             f"has {found}; a measurement file has one: save the sheet with the readings as a file of its own",
         )
-    return next(iter(filled.values()))
+    return list(_lines(next(iter(filled.values())), file))
 
 
-def _lines(sheet: Any, file: Place) -> Iterator[str]:
-    for row, cells in enumerate(sheet.iter_rows(values_only=True), 1):
+def _lines(rows: Iterable[tuple[object, ...]], file: Place) -> Iterator[str]:
+    for row, cells in enumerate(rows, 1):
         texts = [_text(value) for value in cells]
         for column, text in enumerate(texts, 1):
             if not text.isprintable():
@@ -78,7 +78,7 @@ def _lines(sheet: Any, file: Place) -> Iterator[str]:
 
 
 def _text(value: object) -> str:
-    """Return a cell as text: numbers with all their digits and a decimal point, times as ISO 8601 writes them."""
+    """Return a cell as text: numbers with all their digits and a decimal point, times as in ISO 8601."""
     if value is None:
         return ""
     return value.isoformat() if isinstance(value, date) else str(value)

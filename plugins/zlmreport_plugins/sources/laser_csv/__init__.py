@@ -238,7 +238,7 @@ def _proposal(keys: dict[str, Any], lines: Sequence[str], header: _Header) -> So
     meanings = [_meaning(cell) for cell in header.cells]
     rows = _rows(lines, header)
     is_wide = meanings.count("reading") > 1
-    if is_wide and "target" not in meanings:  # beside a column for each run, "position" is where the axis was sent
+    if is_wide and "target" not in meanings:  # beside readings of runs, "position" is where the axis was sent
         meanings = ["target" if meaning == "position" else meaning for meaning in meanings]
     columns = _columns(header, meanings, is_wide=is_wide)
     asked = []
