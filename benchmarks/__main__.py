@@ -24,24 +24,27 @@ BENCHMARKS = {
     "capture": ("Live capture", capturing.measure),
     "memory": ("Memory of a process that makes many certificates", memory.measure),
 }
-#: With words of their own: the modules that hold them, which would weigh on the others.
+#: With words of their own: the modules that hold them, which would weigh on the others, and what begins them.
 OTHERS = {
-    "hidden-effects": "hidden_effects.command",
-    "coverage": "coverage_of_u",
-    "closed-loops": "closed_loops",
-    "step-gauge": "step_gauge_coverage",
-    "kills": "kills",
-    "fleet": "fleet_nights",
-    "trends": "fleet_trends",
-    "unchanged": "fleet_unchanged",
+    "hidden-effects": ("hidden_effects.command", "main"),
+    "experiments": ("hidden_effects.command", "main_of_experiments"),
+    "priors": ("hidden_effects.command", "main_of_priors"),
+    "coverage": ("coverage_of_u", "main"),
+    "closed-loops": ("closed_loops", "main"),
+    "step-gauge": ("step_gauge_coverage", "main"),
+    "kills": ("kills", "main"),
+    "fleet": ("fleet_nights", "main"),
+    "trends": ("fleet_trends", "main"),
+    "unchanged": ("fleet_unchanged", "main"),
 }
 
 
 def main() -> None:
     """Measure what the command line names, print tables, and write JSON if asked to."""
-    module = OTHERS.get(sys.argv[1] if len(sys.argv) > 1 else "")
-    if module:
-        import_module(module).main(sys.argv[2:])
+    other = OTHERS.get(sys.argv[1] if len(sys.argv) > 1 else "")
+    if other:
+        module, function = other
+        getattr(import_module(module), function)(sys.argv[2:])
         return
     arguments = _parser().parse_args()
     sizes = Sizes(arguments.rounds, arguments.tests, arguments.certificates)
@@ -59,8 +62,8 @@ def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="./run benchmark",
         description="Measure zlmreport against a plain recipe.",
-        epilog="./run benchmark hidden-effects, coverage, step-gauge, kills have options of their own: see "
-        "their --help.",
+        epilog="./run benchmark hidden-effects, experiments, priors, coverage, step-gauge, kills have "
+        "options of their own: see their --help.",
     )
     parser.add_argument("names", nargs="*", type=_benchmark, metavar="NAME", help=", ".join(BENCHMARKS))
     parser.add_argument(

@@ -13,12 +13,15 @@ from zlmreport.model.axis_model import AxisModel, ModelError
 from zlmreport.model.diagnosis import Diagnosis, Verdict, diagnose
 from zlmreport.model.observations import Observations, observations_of
 
-_INSTALLED = tuple(EFFECTS.values())
+INSTALLED = tuple(EFFECTS.values())
 #: Effects that a user who believes the first candidate would add to find a pair, and one more.
 _MOST_ADDED = 4
 
 
-def judged(case: Case, *, slow_ways: bool = False) -> dict[str, Any]:
+def judged(
+    case: Case,
+    slow_ways: bool = False,  # noqa: FBT001, FBT002 - a pool hands it over by its place
+) -> dict[str, Any]:
     """Return what comes of a case.
 
     Parameters
@@ -29,21 +32,13 @@ def judged(case: Case, *, slow_ways: bool = False) -> dict[str, Any]:
         Whether the generic ways that take half a minute are tried as well.
     """
     trial = drawn_trial(case)
-    record: dict[str, Any] = {
-        "key": case.key,
-        "kind": case.kind,
-        "hidden": list(case.hidden),
-        "method": case.method,
-        "scatter": case.scatter,
-        "size": case.size,
-        "draw": case.draw,
-    }
+    record: dict[str, Any] = named(case)
     if trial is None:
         return record | {"outcome": "not visible"}
     started = time.process_time()
     observed = observations_of(trial.first.measurements, overrun=trial.description.plan.overrun)
     try:
-        diagnosis = diagnose(trial.model, observed, _INSTALLED)
+        diagnosis = diagnose(trial.model, observed, INSTALLED)
     except ModelError as error:
         return record | {"outcome": "refused", "message": str(error)}
     record |= {"outcome": "judged", "seconds": time.process_time() - started, **_said(diagnosis)}
@@ -60,6 +55,19 @@ def judged(case: Case, *, slow_ways: bool = False) -> dict[str, Any]:
     if case.kind is Kind.PAIR:
         record["added"] = _added(trial, observed, diagnosis)
     return record
+
+
+def named(case: Case) -> dict[str, Any]:
+    """Return a record that says which case it is of."""
+    return {
+        "key": case.key,
+        "kind": case.kind,
+        "hidden": list(case.hidden),
+        "method": case.method,
+        "scatter": case.scatter,
+        "size": case.size,
+        "draw": case.draw,
+    }
 
 
 def _said(diagnosis: Diagnosis) -> Mapping[str, Any]:
@@ -93,7 +101,7 @@ def _added(trial: Trial, observed: Observations, diagnosis: Diagnosis) -> list[l
         added.append([first.identifier, *first.equals])
         model = model.with_effect(first.effect)
         try:
-            diagnosis = diagnose(model, observed, _INSTALLED)
+            diagnosis = diagnose(model, observed, INSTALLED)
         except ModelError:
             break
     return added

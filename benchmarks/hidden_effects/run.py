@@ -4,16 +4,17 @@ from __future__ import annotations
 
 import os
 import time
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import FIRST_COMPLETED, ProcessPoolExecutor, wait
 from itertools import islice
 from multiprocessing import get_context
 from pathlib import Path
+from typing import Any
 
 from hidden_effects import records
 from hidden_effects.cases import Case, Kind
 from hidden_effects.generic import is_tried_on
-from hidden_effects.judge import judged
+from hidden_effects.records import Record
 
 #: One process, one core: two that share cores through a library's threads are slower than each by itself.
 _SINGLE_THREADED = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
@@ -22,13 +23,21 @@ _SLOW_EVERY, _MOST_SLOW = 10, 18
 _AHEAD = 4
 
 
-def run(cases: Iterable[Case], file: Path, processes: int, seconds: float) -> int:
+def run(
+    cases: Iterable[tuple[Any, ...]],
+    judge: Callable[..., Record],
+    file: Path,
+    processes: int,
+    seconds: float,
+) -> int:
     """Judge every case that has no result yet; return how many were judged.
 
     Parameters
     ----------
     cases
-        In the order in which they are judged.
+        In the order in which they are judged, each with what else the judge takes.
+    judge
+        A function of a module.
     file
         Results are appended to it.
     processes
@@ -39,18 +48,18 @@ def run(cases: Iterable[Case], file: Path, processes: int, seconds: float) -> in
     state = records.state_of_code()
     records.mend(file)
     done = {record["key"] for record in records.of_state(records.read(file), state)}
-    open_cases = (case for case in _with_slow_ways(cases) if case[0].key not in done)
+    open_cases = (case for case in cases if case[0].key not in done)
     count = 0
     file.parent.mkdir(parents=True, exist_ok=True)
     with file.open("a", encoding="utf-8") as lines:
-        for line in _judged(open_cases, state, processes, time.monotonic() + seconds):
+        for line in _judged(open_cases, judge, state, processes, time.monotonic() + seconds):
             lines.write(line)
             lines.flush()
             count += 1
     return count
 
 
-def _with_slow_ways(cases: Iterable[Case]) -> Iterator[tuple[Case, bool]]:
+def with_slow_ways(cases: Iterable[Case]) -> Iterator[tuple[Case, bool]]:
     """Yield each case, and whether the slow ways are tried on it."""
     tried = 0
     for case in cases:
@@ -59,20 +68,17 @@ def _with_slow_ways(cases: Iterable[Case]) -> Iterator[tuple[Case, bool]]:
         tried += is_tried
 
 
-def _judged(cases: Iterator[tuple[Case, bool]], state: str, processes: int, end: float) -> Iterator[str]:
+def _judged(
+    cases: Iterator[tuple[Any, ...]], judge: Callable[..., Record], state: str, processes: int, end: float
+) -> Iterator[str]:
     for name in _SINGLE_THREADED:
         os.environ[name] = "1"
     with ProcessPoolExecutor(processes, get_context("spawn")) as pool:
-        running = {pool.submit(_line, case, state) for case in islice(cases, _AHEAD * processes)}
+        running = {pool.submit(judge, *case) for case in islice(cases, _AHEAD * processes)}
         while running:
             finished, running = wait(running, return_when=FIRST_COMPLETED)
             for future in finished:
-                yield future.result()
+                yield records.line_of(future.result(), state)
             if time.monotonic() < end:
-                following: Sequence[tuple[Case, bool]] = list(islice(cases, len(finished)))
-                running |= {pool.submit(_line, case, state) for case in following}
-
-
-def _line(case_and_slow: tuple[Case, bool], state: str) -> str:
-    case, slow = case_and_slow
-    return records.line_of(judged(case, slow_ways=slow), state)
+                following = list(islice(cases, len(finished)))
+                running |= {pool.submit(judge, *case) for case in following}

@@ -38,8 +38,8 @@ _TRIES = 10
 _IS_THE_SAME = 1 - 1e-6
 
 EFFECTS: Mapping[str, Effect] = {effect.identifier: effect for effect in zlmreport_effects()}
-_ROTARY = frozenset({"eccentricity", "ellipticity", "gear-mesh"})
-_OF_A_GAUGE = frozenset({"probe-radius", "gauge-misalignment"})
+ROTARY = frozenset({"eccentricity", "ellipticity", "gear-mesh"})
+OF_A_GAUGE = frozenset({"probe-radius", "gauge-misalignment"})
 
 #: The job's model: a cubic and backlash, but for hidden effects that these contain or imitate.
 _USUAL = ("polynomial", "backlash")
@@ -52,7 +52,7 @@ _MODELS: Mapping[str, Sequence[str]] = {
     "polynomial": ("offset", "scale-error", "backlash"),
     "backlash": ("polynomial",),
     "probe-radius": ("polynomial",),
-    **dict.fromkeys(_ROTARY, _STRAIGHT),
+    **dict.fromkeys(ROTARY, _STRAIGHT),
 }
 
 
@@ -167,13 +167,21 @@ class Trial:
         description = replace(self.description, plan=plan, seed=another.seed, conditions=another.conditions)
         design = replace(_design(self.case, description, random), span=self.first.design.span)
         known = base_columns([term.effect for term in self.model.terms], design) @ self.coefficients
-        return _measured(description, design, known, _sum_of(self.effects, design))
+        return measured(description, design, known, sum_of(self.effects, design))
 
 
-def drawn_trial(case: Case) -> Trial | None:
-    """Return the test of a case; None if this test cannot show what should be hidden."""
+def drawn_trial(case: Case, sizes: tuple[int, int] | None = None) -> Trial | None:
+    """Return the test of a case; None if this test cannot show what should be hidden.
+
+    Parameters
+    ----------
+    case
+        The case.
+    sizes
+        Targets and runs; None for the usual ones.
+    """
     random = case.random()
-    test = _drawn_test(case, random)
+    test = _drawn_test(case, random, sizes)
     description = replace(test, noise=_noise(case.scatter, test.axis.kind, random))
     design = _design(case, description, random)
     model = _model(case)
@@ -188,7 +196,7 @@ def drawn_trial(case: Case) -> Trial | None:
     if drawn is None:
         return None
     effects, hidden, imitated = drawn
-    first = _measured(description, design, base @ coefficients, hidden)
+    first = measured(description, design, base @ coefficients, hidden)
     return Trial(case, description, model, coefficients, effects, first, imitated)
 
 
@@ -206,7 +214,7 @@ def _inside(
         if effect is None:
             return None
         effects.append(effect)
-    hidden = _sum_of(effects, design)
+    hidden = sum_of(effects, design)
     imitated = imitations(hidden, EFFECTS.values(), design, base) if len(effects) == 1 else ()
     return tuple(effects), hidden, imitated
 
@@ -226,9 +234,9 @@ def _outside(
     return None
 
 
-def _drawn_test(case: Case, random: np.random.Generator) -> Description:
-    draw = drawn_rotary_test if _ROTARY.intersection(case.hidden) else drawn_linear_test
-    return draw(random, case.method)
+def _drawn_test(case: Case, random: np.random.Generator, sizes: tuple[int, int] | None = None) -> Description:
+    draw = drawn_rotary_test if ROTARY.intersection(case.hidden) else drawn_linear_test
+    return draw(random, case.method, *(sizes or ()))
 
 
 def _model(case: Case) -> AxisModel:
@@ -240,7 +248,7 @@ def _model(case: Case) -> AxisModel:
 
 def _design(case: Case, description: Description, random: np.random.Generator) -> Design:
     design = wandering(design_of(description), random)
-    if not _OF_A_GAUGE.intersection(case.hidden):
+    if not OF_A_GAUGE.intersection(case.hidden):
         return design
     # In both directions the probe touches the face that it meets; in one it reaches over every second block.
     one_way = np.where(design.target % 2, 1.0, -1.0)
@@ -248,7 +256,8 @@ def _design(case: Case, description: Description, random: np.random.Generator) -
     return replace(design, conditions={**design.conditions, "face": read_only_floats(face)})
 
 
-def _measured(description: Description, design: Design, known: FloatArray, hidden: FloatArray) -> Measured:
+def measured(description: Description, design: Design, known: FloatArray, hidden: FloatArray) -> Measured:
+    """Return what an instrument gives of two deviations, with the face that a probe touched."""
     measurements = observed(description, design, known + hidden)
     if "face" in design.conditions:
         logged = {**measurements.conditions, "face": design.conditions["face"]}
@@ -256,7 +265,8 @@ def _measured(description: Description, design: Design, known: FloatArray, hidde
     return Measured(measurements, design, known, hidden)
 
 
-def _sum_of(effects: Sequence[Term], design: Design) -> FloatArray:
+def sum_of(effects: Sequence[Term], design: Design) -> FloatArray:
+    """Return the deviation that effects with their values make, shape (N,), m or rad."""
     deviations = [deviation_by(each.effect, design, each.fixed) for each in effects]
     return np.sum(deviations, axis=0) if deviations else np.zeros(len(design.position))
 

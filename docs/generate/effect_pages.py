@@ -57,6 +57,8 @@ def _section(effect: Effect) -> Iterator[str]:
     yield symbol(effect.equation)
     yield _doc(effect)
     yield f"**Look.** {effect.look.in_language(_EN)}"
+    if effect.remedy:
+        yield f"**Remedy.** {effect.remedy.in_language(_EN)}"
     yield table(("Parameter", "Printed", "Meaning", "Plausible", "Found"), _parameters(effect))
     if any((each.smallest, each.largest) != (None, None) for each in (*effect.linear, *effect.searched)):
         yield f"Plausible ranges: {effect.ranges_from.in_language(_EN)}."

@@ -62,6 +62,13 @@ class ProbeRadius(Effect):
         en="The two kinds of faces stand apart by the same amount everywhere.",
         de="Die beiden Arten von Flächen liegen überall um denselben Betrag auseinander.",
     )
+    remedy = Words(
+        en="The probe, not the machine: qualify it at a calibrated sphere or ring with the force and speed "
+        "of the test, enter its effective radius and evaluate anew. Never compensate it as backlash.",
+        de="Der Taster, nicht die Maschine: mit Kraft und Geschwindigkeit der Prüfung an kalibrierter Kugel "
+        "oder Ring einmessen, den wirksamen Radius eintragen und neu auswerten. Nie als Lose "
+        "kompensieren.",
+    )
     confusions = (Confusion("backlash", _CALIBRATED_BLOCK),)
 
     def untestable(self, design: Design) -> Words | None:
@@ -100,6 +107,12 @@ class GaugeMisalignment(Effect):
     look = Words(
         en="The residuals fall in proportion to the position.",
         de="Die Residuen fallen im Verhältnis zur Position.",
+    )
+    remedy = Words(
+        en="The set-up, not the machine: align the gauge to the axis, or take the lengths along its own "
+        "measured direction. Never compensate it.",
+        de="Der Messaufbau, nicht die Maschine: den Prüfkörper zur Achse ausrichten oder die Längen entlang "
+        "seiner eigenen, gemessenen Richtung nehmen. Nie kompensieren.",
     )
     confusions = (
         Confusion("cosine-error", _GAUGE_REPLACED_BY_LASER),

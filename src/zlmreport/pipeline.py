@@ -180,6 +180,7 @@ def modelled(job: Job, measurements: MeasurementSet, registry: Registry) -> Mode
     from zlmreport.certificate.forecast import forecasts  # noqa: PLC0415 - only for a job with a model
     from zlmreport.certificate.model_annex import Modelled  # noqa: PLC0415
     from zlmreport.model.study import Fitted, Study  # noqa: PLC0415
+    from zlmreport.planning.deciding import experiment_of_tie  # noqa: PLC0415
 
     study = Study.of(job, measurements, registry.effects, read_sessions(job, registry))
     diagnosis = study.diagnosis(registry.effects)
@@ -190,6 +191,7 @@ def modelled(job: Job, measurements: MeasurementSet, registry: Registry) -> Mode
         forecasts(standards(job, registry), study, history),
         study.titles(registry.effects),
         study,
+        experiment_of_tie(study, diagnosis, registry.effects),
     )
 
 

@@ -11,9 +11,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from hidden_effects import records
+from hidden_effects import experiments, learned, records
 from hidden_effects.cases import Case, Kind, Scatter, cases, effects
 from hidden_effects.generic import is_tried_on
+from hidden_effects.judge import judged
 from hidden_effects.prediction import errors
 from hidden_effects.run import run
 from hidden_effects.sizes import base_columns, beyond
@@ -150,7 +151,7 @@ NOTHING = case("", kind=Kind.NOTHING, method=Method.UNIDIRECTIONAL)
 @pytest.fixture(scope="module")
 def fixed_part(tmp_path_factory: pytest.TempPathFactory) -> dict[str, records.Record]:
     file = tmp_path_factory.mktemp("fixed") / "results.jsonl"
-    run([*LARGE, STRANGER, NOTHING], file, 1, math.inf)
+    run([(each,) for each in (*LARGE, STRANGER, NOTHING)], judged, file, 1, math.inf)
     return {record["key"]: record for record in records.read(file)}
 
 
@@ -162,7 +163,7 @@ class TestRecords:
         return file
 
     def test_a_case_is_judged_once(self, judged_once: Path) -> None:
-        assert run([NOTHING], judged_once, 1, math.inf) == 0
+        assert run([(NOTHING,)], judged, judged_once, 1, math.inf) == 0
 
     def test_a_line_that_was_cut_off_is_taken_away(self, judged_once: Path) -> None:
         whole = judged_once.read_text("utf-8")
@@ -253,3 +254,20 @@ class TestFixedPart:
 
     def test_a_large_stranger_is_left_without_a_name(self, fixed_part: dict[str, records.Record]) -> None:
         assert fixed_part[STRANGER.key]["verdict"] == "unexplained"
+
+
+class TestExperiments:
+    def test_a_tie_that_the_advised_test_decides_is_counted_as_right(self) -> None:
+        tie = Case(Kind.EFFECT, ("backlash-gradient",), Method.QUASI_PILGRIM, Scatter.CLEAN, 1.0, 0)
+        found = experiments.judged(tie)
+        assert found["followed"]["decision"] == "right"
+        assert "| ≥ 0.95 | 1 | 95 | 100.0" in experiments.report([found], "state")
+
+
+class TestLearned:
+    def test_each_test_is_diagnosed_without_and_with_earlier_tests(self) -> None:
+        quiet = case("", kind=Kind.NOTHING, method=Method.UNIDIRECTIONAL, scatter=Scatter.REALISTIC, size=0.0)
+        assert list(learned.chosen([quiet])) == [(quiet,)]
+        found = learned.judged(quiet)
+        assert found["without"]["verdict"] == found["with"]["verdict"] == "adequate"
+        assert "| false alarms | ≤ 5 % | 1 | 0.0" in learned.report([found], "state")

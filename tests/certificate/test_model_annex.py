@@ -109,17 +109,34 @@ def test_the_graphs_that_every_annex_has() -> None:
     assert figures(with_diagnosis(failures=()))[:3] == ["model", "estimate", "fall"]
 
 
+def test_a_last_bar_shows_the_error_with_what_the_model_lacks() -> None:
+    missing = modelled().diagnosis.candidates[0]
+    (fall,) = (
+        block.figure
+        for block in section(modelled()).blocks
+        if isinstance(block, Graph) and block.figure.key == "fall"
+    )
+    *_, last = fall.panels[0].bars
+    assert last.label.in_language(Language.ENGLISH) == f"with {missing.identifier}"
+    assert last.y == pytest.approx(1e6 * missing.error.rms)
+
+
+def test_a_remedy_is_only_of_what_the_verdict_names() -> None:
+    assert "What to do" in text(modelled())
+    assert "What to do" not in text(with_diagnosis(verdict=Verdict.UNEXPLAINED))
+
+
 @pytest.mark.parametrize(
-    ("failed", "graph"),
+    ("failed", "graphs"),
     [
-        (failure(ResidualTest.RUNS), "residuals-run"),
-        (failure(ResidualTest.TIME_ORDER), "residuals-time"),
-        (failure(ResidualTest.PERIOD_IN_TIME), "residuals-time"),
-        (failure(ResidualTest.CONDITION, "air_pressure"), "residuals-air-pressure"),
+        (failure(ResidualTest.RUNS), ["residuals-run"]),
+        (failure(ResidualTest.TIME_ORDER), ["residuals-time", "slopes-time"]),
+        (failure(ResidualTest.PERIOD_IN_TIME), ["residuals-time", "slopes-time"]),
+        (failure(ResidualTest.CONDITION, "air_pressure"), ["residuals-air-pressure"]),
     ],
 )
-def test_a_test_that_fails_brings_the_graph_that_shows_it(failed: Failure, graph: str) -> None:
-    assert figures(with_diagnosis(failures=(failed,))) == ["model", "estimate", "fall", graph]
+def test_a_test_that_fails_brings_the_graph_that_shows_it(failed: Failure, graphs: list[str]) -> None:
+    assert figures(with_diagnosis(failures=(failed,))) == ["model", "estimate", "fall", *graphs]
 
 
 def test_an_effect_that_no_table_takes_away_is_named(tmp_path: Path) -> None:

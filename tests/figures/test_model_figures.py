@@ -23,7 +23,14 @@ from figures.model_samples import (
 from figures.samples import drawn
 from zlmreport.figures.figure import Figure, Panel, Role
 from zlmreport.figures.model_diagram import ModelDiagram, estimate
-from zlmreport.figures.model_residuals import fall_chart, over_condition, over_position, over_run, over_time
+from zlmreport.figures.model_residuals import (
+    fall_chart,
+    over_condition,
+    over_position,
+    over_run,
+    over_time,
+    slopes_over_time,
+)
 from zlmreport.language import Language
 from zlmreport.measurement.approach import Approach
 from zlmreport.quantities.arrays import FloatArray
@@ -201,6 +208,17 @@ def test_the_fall_chart_has_a_bar_for_each_effect_and_the_noise_floor() -> None:
     floor = history()[-1].error.noise_rms
     assert floor is not None
     assert level.y == pytest.approx(floor * MICROMETRE)
+
+
+def test_the_slope_of_a_pass_is_that_of_the_line_through_its_residuals() -> None:
+    shown = diagram()
+    design, residual = shown.design, shown.fit.residual
+    own = (design.direction > 0) & (design.run == 1)
+    from_mean = design.position[own] - design.position[own].mean()
+    slope = from_mean @ residual[own] / (from_mean @ from_mean)
+    upwards = slopes_over_time(shown).panels[0].curves[0]
+    assert upwards.y[0] == pytest.approx(1e6 * slope)  # µm/m
+    assert len(upwards.y) == len(np.unique(design.run))
 
 
 def test_a_test_in_one_direction_has_one_curve() -> None:

@@ -31,6 +31,7 @@ class ExemplaryEffect(Effect):
     )
     shape: Any = Shape.POSITION
     look = Words(en="a wave", de="eine Welle")
+    remedy: Any = Words(en="straighten it", de="richten")
     confusions: Any = (Confusion("periodic", Words(en="more targets", de="mehr Zielpositionen")),)
     options: Any = ExemplaryOptions
 

@@ -54,6 +54,7 @@ SINS: list[tuple[str, dict[str, Any], str]] = [
     ("is_described", {"equation": " "}, "equation must be what is printed"),
     ("is_described", {"shape": "position"}, "shape must be a Shape"),
     ("is_described", {"look": "a wave"}, "look must be Words"),
+    ("says_what_to_do", {"remedy": None}, "remedy must be Words"),
     (
         "names_what_it_is_taken_for",
         {"confusions": (Confusion("exemplary-wave", same("x")),)},

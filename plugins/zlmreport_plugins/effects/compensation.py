@@ -57,6 +57,14 @@ class CompensationSign(Effect):
         en="The residuals look like the compensation table.",
         de="Die Residuen sehen aus wie die Kompensationstabelle.",
     )
+    remedy = Words(
+        en="The table acts with the wrong sign (a factor near 2), not at all (1), or twice (−1). Read it "
+        "back, correct the sign or the switch, and measure anew. Mend this table; do not write a second "
+        "one over it.",
+        de="Die Tabelle wirkt mit falschem Vorzeichen (Faktor nahe 2), gar nicht (1) oder doppelt (−1). "
+        "Zurücklesen, Vorzeichen oder Schalter berichtigen und neu messen. Diese Tabelle berichtigen, "
+        "keine zweite darüberschreiben.",
+    )
     confusions = (
         Confusion("periodic", experiments.TABLE_OFF),
         Confusion("polynomial", experiments.TABLE_OFF),
@@ -109,6 +117,12 @@ class CompensationShift(Effect):
     look = Words(
         en="The residuals look like the slope of the compensation table.",
         de="Die Residuen sehen aus wie die Steigung der Kompensationstabelle.",
+    )
+    remedy = Words(
+        en="The table lies a row beside the axis: check the position of its first row, its interval and the "
+        "reference point. Enter it anew and measure anew; then there is nothing left to compensate.",
+        de="Die Tabelle liegt eine Zeile neben der Achse: Position der ersten Zeile, Intervall und "
+        "Referenzpunkt prüfen. Neu eingeben und neu messen; dann bleibt nichts zu kompensieren.",
     )
     confusions = (Confusion("compensation-sign", experiments.TABLE_READ_BACK),)
     options = ShiftOptions

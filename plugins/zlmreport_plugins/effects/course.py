@@ -60,6 +60,15 @@ class Backlash(Effect):
         en="The two directions stand apart by the same amount everywhere.",
         de="Die beiden Richtungen liegen überall um denselben Betrag auseinander.",
     )
+    remedy = Words(
+        en="Play of nut, bearing, coupling or gear: re-tension bearing and nut, tighten the coupling, "
+        "replace what is worn. The backlash value of the control, or a table for each direction, removes "
+        "a constant gap; use one of them, never both. Play that changes under load stays.",
+        de="Spiel von Mutter, Lager, Kupplung oder Getriebe: Lager und Mutter nachspannen, Kupplung "
+        "festziehen, Verschlissenes ersetzen. Der Losewert der Steuerung oder eine Tabelle je Richtung "
+        "beseitigt eine feste Umkehrspanne; eines von beiden, nie beides. Spiel, das sich unter Last "
+        "ändert, bleibt.",
+    )
     confusions = (
         Confusion("probe-radius", experiments.CALIBRATED_BLOCK),
         Confusion("reversal-relaxation", experiments.OTHER_OVERRUN),
@@ -99,6 +108,14 @@ class BacklashGradient(Effect):
         en="The two directions draw apart along the axis.",
         de="Die beiden Richtungen laufen längs der Achse auseinander.",
     )
+    remedy = Words(
+        en="The screw winds up against friction that grows with its free length: check lubrication, wipers "
+        "and pre-load along the travel. One backlash value removes only the mean gap; a table for each "
+        "direction removes it all.",
+        de="Die Spindel verdrillt sich gegen Reibung, mit wachsender freier Länge mehr: Schmierung, "
+        "Abstreifer und Vorspannung über den Verfahrweg prüfen. Ein Losewert beseitigt nur die mittlere "
+        "Umkehrspanne; eine Tabelle je Richtung beseitigt alles.",
+    )
     confusions = (Confusion("reversal-relaxation", experiments.OTHER_OVERRUN),)
 
     def untestable(self, design: Design) -> Words | None:
@@ -130,6 +147,14 @@ class BacklashBow(Effect):
     look = Words(
         en="The two directions stand apart most in the middle of the travel.",
         de="Die beiden Richtungen liegen in der Mitte des Verfahrwegs am weitesten auseinander.",
+    )
+    remedy = Words(
+        en="A screw held at both ends gives most in its middle: check its tension and both bearings, and "
+        "lubricate. One backlash value removes only the mean gap; a table for each direction removes it "
+        "all.",
+        de="Eine beidseitig gelagerte Spindel gibt in der Mitte am meisten nach: Spannung und beide Lager "
+        "prüfen, schmieren. Ein Losewert beseitigt nur die mittlere Umkehrspanne; eine Tabelle je "
+        "Richtung beseitigt alles.",
     )
     confusions = (Confusion("reversal-relaxation", experiments.OTHER_OVERRUN),)
 
@@ -180,6 +205,15 @@ class ReversalRelaxation(Effect):
         en="The first targets after each reversal stand off.",
         de="Die ersten Zielpositionen nach jeder Umkehr liegen daneben.",
     )
+    remedy = Words(
+        en="Friction and elasticity let the axis settle only some way after each reversal: lubricate, check "
+        "nut, wipers and pre-load of the guides. A longer overrun in the program avoids it. No table of "
+        "positions removes it, for it depends on the way since the reversal.",
+        de="Reibung und Nachgiebigkeit lassen die Achse erst ein Stück nach jeder Umkehr zur Ruhe kommen: "
+        "schmieren, Mutter, Abstreifer und Vorspannung der Führungen prüfen. Ein längerer Überlauf im "
+        "Programm vermeidet es. Keine Positionstabelle beseitigt es, denn es hängt vom Weg seit der "
+        "Umkehr ab.",
+    )
     confusions = (
         Confusion("backlash", experiments.OTHER_OVERRUN),
         Confusion("backlash-bow", experiments.OTHER_OVERRUN),
@@ -217,6 +251,14 @@ class TimePeriodic(Effect):
     look = Words(
         en="The residuals repeat in the order of time, at all positions alike.",
         de="Die Residuen wiederholen sich in der zeitlichen Folge, an allen Positionen gleich.",
+    )
+    remedy = Words(
+        en="Something comes and goes with this period: cooler, air conditioning, hydraulics, a door. Switch "
+        "it off or shield beam and machine from it while measuring; for the work, smooth its cycle. No "
+        "table removes it.",
+        de="Etwas kommt und geht mit dieser Periode: Kühler, Klimaanlage, Hydraulik, ein Tor. Beim Messen "
+        "abschalten oder Strahl und Maschine davor abschirmen; für die Arbeit seinen Takt glätten. Keine "
+        "Tabelle beseitigt es.",
     )
     confusions = (
         Confusion("periodic", experiments.LINEAR_METHOD),
@@ -265,6 +307,13 @@ class DatumStep(Effect):
     look = Words(
         en="The residuals jump at one moment, at all positions alike.",
         de="Die Residuen springen zu einem Zeitpunkt, an allen Positionen gleich.",
+    )
+    remedy = Words(
+        en="Something slipped or broke off: the beam, a magnetic base, optics, a reference run. Fasten it, "
+        "check the preset and repeat the test. There is nothing to compensate.",
+        de="Etwas ist verrutscht oder abgerissen: der Strahl, ein Magnetfuß, eine Optik, eine neue "
+        "Referenzfahrt. Befestigen, Nullung prüfen und die Prüfung wiederholen. Zu kompensieren ist "
+        "nichts.",
     )
     confusions = (
         Confusion("scale-joint", experiments.LINEAR_METHOD),
@@ -315,6 +364,13 @@ class FirstRun(Effect):
     look = Words(
         en="The residuals of the first run stand off, those of the others do not.",
         de="Die Residuen des ersten Durchlaufs liegen daneben, die der übrigen nicht.",
+    )
+    remedy = Words(
+        en="The axis was still running in, or the zero was set after the first run: move it to and fro along"
+        " the travel some times before the first reading, and repeat. There is nothing to compensate.",
+        de="Die Achse lief noch ein, oder der Nullpunkt wurde nach dem ersten Durchlauf gesetzt: vor dem "
+        "ersten Messwert einige Male über den Verfahrweg fahren und wiederholen. Zu kompensieren ist "
+        "nichts.",
     )
     confusions = (
         Confusion("datum-step", experiments.PRESET_CHECKED),

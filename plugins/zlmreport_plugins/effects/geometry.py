@@ -53,6 +53,12 @@ class Offset(Effect):
         en="The residuals stand off zero by the same amount everywhere.",
         de="Die Residuen liegen überall um denselben Betrag neben null.",
     )
+    remedy = Words(
+        en="A choice of zero, no error of the machine: preset the instrument at the reference point of the "
+        "axis. There is nothing to mend; a compensation table begins with zero there.",
+        de="Eine Wahl des Nullpunkts, kein Fehler der Maschine: das Messgerät am Referenzpunkt der Achse "
+        "nullen. Zu beheben ist nichts; eine Kompensationstabelle beginnt dort mit null.",
+    )
     confusions = (
         Confusion("dead-path", experiments.DEAD_PATH_CHANGED),
         Confusion("thermal-drift", experiments.PRESET_AGAIN),
@@ -88,6 +94,16 @@ class ScaleError(Effect):
         en="The residuals lie on a straight line over the position, the same in both directions.",
         de="Die Residuen liegen über der Position auf einer Geraden, in beiden Richtungen auf derselben.",
     )
+    remedy = Words(
+        en="Mostly the lead of the screw, a scale mounted under strain, or the set-up. Check the "
+        "compensation of wavelength and material and the alignment of the beam first, then mounting and "
+        "tension of scale or screw. A slope in the pitch table removes what is left, at this temperature "
+        "only.",
+        de="Meist die Steigung der Spindel, ein unter Zwang montierter Maßstab oder der Messaufbau. Zuerst "
+        "die Kompensation von Wellenlänge und Material und die Ausrichtung des Strahls prüfen, dann "
+        "Montage und Spannung von Maßstab oder Spindel. Eine Steigung in der Spindelfehlertabelle "
+        "beseitigt den Rest, nur bei dieser Temperatur.",
+    )
     confusions = (
         Confusion("cosine-error", experiments.BEAM_REALIGNED),
         Confusion("gauge-misalignment", experiments.GAUGE_REALIGNED),
@@ -122,6 +138,14 @@ class Polynomial(Effect):
     look = Words(
         en="The residuals follow a smooth bow over the position, the same in both directions.",
         de="Die Residuen folgen über der Position einem glatten Bogen, in beiden Richtungen demselben.",
+    )
+    remedy = Words(
+        en="It names no cause: the lead of the screw, bent guideways and the bow of a mounted scale look "
+        "like this. Check level, straightness and tension. A pitch table with rows at the targets removes"
+        " what stays, in the measured line.",
+        de="Es nennt keine Ursache: Spindelsteigung, krumme Führungen und der Bogen eines montierten "
+        "Maßstabs sehen so aus. Aufstellung, Geradheit und Spannung prüfen. Eine Spindelfehlertabelle mit"
+        " Zeilen an den Zielpositionen beseitigt, was bleibt, in der gemessenen Linie.",
     )
     confusions = (
         Confusion("abbe", experiments.OTHER_HEIGHT),
@@ -202,6 +226,12 @@ class CosineError(Effect):
         en="The residuals fall in proportion to the position.",
         de="Die Residuen fallen im Verhältnis zur Position.",
     )
+    remedy = Words(
+        en="The set-up, not the machine: align the beam along the whole travel and measure anew. Never "
+        "compensate it, for the table would carry the error of the set-up into the machine.",
+        de="Der Messaufbau, nicht die Maschine: den Strahl über den ganzen Verfahrweg ausrichten und neu "
+        "messen. Nie kompensieren, denn die Tabelle trüge den Fehler des Aufbaus in die Maschine.",
+    )
     confusions = (
         Confusion("scale-error", experiments.BEAM_REALIGNED),
         Confusion("gauge-misalignment", experiments.GAUGE_REPLACED_BY_LASER),
@@ -240,6 +270,14 @@ class Abbe(Effect):
     look = Words(
         en="The residuals have the shape of the axis's pitch or yaw.",
         de="Die Residuen haben den Verlauf des Nick- oder Gierwinkels der Achse.",
+    )
+    remedy = Words(
+        en="The axis pitches or yaws, and the line lies beside the scale: adjust carriages, gibs or "
+        "counterweight so that the angle gets less, or measure closer to the working line. A table "
+        "removes it in this line only, and is wrong beside it.",
+        de="Die Achse nickt oder giert, und die Messlinie liegt neben dem Maßstab: Führungswagen, Leisten "
+        "oder Gegengewicht einstellen, damit der Winkel kleiner wird, oder näher an der Arbeitslinie "
+        "messen. Eine Tabelle beseitigt es nur in dieser Linie und ist daneben falsch.",
     )
     confusions = (
         Confusion("polynomial", experiments.OTHER_HEIGHT),
@@ -291,6 +329,14 @@ class ScaleJoint(Effect):
         en="The residuals step at one position, in all runs and both directions.",
         de="Die Residuen springen an einer Position, in allen Durchläufen und beiden Richtungen.",
     )
+    remedy = Words(
+        en="Two pieces of scale or rack that do not butt as they should, or a count missed there: clean the "
+        "place, and set the joint as its maker says. A table removes the step if it has a row close to "
+        "either side.",
+        de="Zwei Stücke Maßstab oder Zahnstange, die nicht richtig stoßen, oder ein dort verlorener "
+        "Zählschritt: die Stelle reinigen und den Stoß nach Herstellerangabe einstellen. Eine Tabelle "
+        "beseitigt den Sprung, wenn beiderseits dicht daneben eine Zeile steht.",
+    )
     confusions = (
         Confusion("datum-step", experiments.LINEAR_METHOD),
         Confusion("scale-kink", experiments.STEP_SEARCHED),
@@ -335,6 +381,15 @@ class ScaleKink(Effect):
     look = Words(
         en="The residuals lie on two straight lines that meet at one position.",
         de="Die Residuen liegen auf zwei Geraden, die sich an einer Position treffen.",
+    )
+    remedy = Words(
+        en="The end of a segment in an older compensation table, a worn stretch of the screw, or a scale "
+        "that is held at one place: read the table back, check wear and mounting. A table with a row at "
+        "the kink removes it, as long as the wear does not go on.",
+        de="Das Ende eines Abschnitts in einer älteren Kompensationstabelle, ein verschlissenes Stück der "
+        "Spindel oder ein an einer Stelle festgehaltener Maßstab: Tabelle zurücklesen, Verschleiß und "
+        "Montage prüfen. Eine Tabelle mit einer Zeile am Knick beseitigt ihn, solange der Verschleiß "
+        "nicht fortschreitet.",
     )
     confusions = (
         Confusion("polynomial", experiments.DENSER_TARGETS),

@@ -89,6 +89,15 @@ class ScrewPitch(Effect):
         en="The residuals repeat with the pitch: folded at it, they lie on one wave.",
         de="Die Residuen wiederholen sich mit der Steigung: über ihr gefaltet liegen sie auf einer Welle.",
     )
+    remedy = Words(
+        en="Mostly wobble of the screw in its bearings, a coupling out of line or a bent shaft: check run-"
+        "out, bearings and coupling, then the screw. A pitch table carries it only with four or more rows"
+        " a pitch, else leave it out. A linear scale as feedback removes it.",
+        de="Meist Taumeln der Spindel in ihren Lagern, eine fluchtungsfehlerhafte Kupplung oder eine krumme "
+        "Welle: Rundlauf, Lager und Kupplung prüfen, dann die Spindel. Eine Spindelfehlertabelle trägt es"
+        " nur mit vier oder mehr Zeilen je Steigung, sonst weglassen. Ein Linearmaßstab als Messsystem "
+        "beseitigt es.",
+    )
     confusions = (Confusion("periodic", experiments.FINE_RUN),)
     options = HarmonicOptions
 
@@ -146,6 +155,14 @@ class DirectionalPitch(Effect):
         en="The gap between the directions repeats with the pitch.",
         de="Der Abstand der beiden Richtungen wiederholt sich mit der Steigung.",
     )
+    remedy = Words(
+        en="A bent screw or an axial run-out of its bearing that changes sides with the direction: check "
+        "run-out, bearing and alignment of the nut. Only a table for each direction with four or more "
+        "rows a pitch removes it.",
+        de="Eine krumme Spindel oder ein Axialschlag ihres Lagers, der mit der Richtung die Seite wechselt: "
+        "Schlag, Lager und Flucht der Mutter prüfen. Nur eine Tabelle je Richtung mit vier oder mehr "
+        "Zeilen je Steigung beseitigt es.",
+    )
 
     def untestable(self, design: Design) -> Words | None:
         """Demand both directions, the pitch, and a travel of one turn."""
@@ -192,6 +209,14 @@ class EncoderInterpolation(Effect):
         en="The residuals look like noise over the travel; folded at the signal period they lie on a wave.",
         de="Die Residuen sehen über dem Verfahrweg wie Rauschen aus; über der Signalperiode gefaltet "
         "liegen sie auf einer Welle.",
+    )
+    remedy = Words(
+        en="Dirt, a wrong gap or badly adjusted signals of the reading head: clean the scale, set gap and "
+        "tilt, adjust amplitude, offset and phase of the signals. No table of a control is fine enough "
+        "for it.",
+        de="Schmutz, ein falscher Spalt oder schlecht abgeglichene Signale des Abtastkopfs: Maßstab "
+        "reinigen, Spalt und Neigung einstellen, Amplitude, Offset und Phase der Signale abgleichen. "
+        "Keine Tabelle einer Steuerung ist fein genug dafür.",
     )
     options = HarmonicOptions
 
@@ -250,6 +275,14 @@ class Periodic(Effect):
         en="The residuals repeat along the axis, the same in both directions.",
         de="Die Residuen wiederholen sich längs der Achse, in beiden Richtungen gleich.",
     )
+    remedy = Words(
+        en="The period tells the part: motor poles, coupling, gear, rack, guide carriages, the spacing of "
+        "mounting screws. Mend that part. A table with four or more rows a period removes what is fixed "
+        "in position.",
+        de="Die Periode verrät das Bauteil: Motorpole, Kupplung, Getriebe, Zahnstange, Führungswagen, "
+        "Abstand der Befestigungsschrauben. Dieses Teil instand setzen. Eine Tabelle mit vier oder mehr "
+        "Zeilen je Periode beseitigt, was an die Position gebunden ist.",
+    )
     confusions = (
         Confusion("screw-pitch", experiments.FINE_RUN),
         Confusion("gear-mesh", experiments.FULL_TURN),
@@ -289,6 +322,14 @@ class Eccentricity(Effect):
         en="The residuals make one wave a turn.",
         de="Die Residuen bilden eine Welle je Umdrehung.",
     )
+    remedy = Words(
+        en="The graduation is not centred on the axis: centre the disc or ring with a dial gauge, or read it"
+        " with two heads 180° apart. A table of the control removes the wave as long as nobody touches "
+        "the mounting.",
+        de="Die Teilung ist nicht zur Achse zentriert: Scheibe oder Ring mit der Messuhr zentrieren oder mit"
+        " zwei um 180° versetzten Köpfen ablesen. Eine Tabelle der Steuerung beseitigt die Welle, solange"
+        " niemand die Montage verändert.",
+    )
     confusions = (
         Confusion("polynomial", experiments.FULL_TURN),
         Confusion("ellipticity", experiments.TWO_HEADS),
@@ -314,6 +355,13 @@ class Ellipticity(Effect):
     look = Words(
         en="The residuals make two waves a turn.",
         de="Die Residuen bilden zwei Wellen je Umdrehung.",
+    )
+    remedy = Words(
+        en="A coupling between shafts at an angle, a ring distorted by its screws, or a wobbling disc: align"
+        " the coupling, tighten the ring evenly. A table removes what stays fixed to the angle.",
+        de="Eine Kupplung zwischen winkligen Wellen, ein von seinen Schrauben verzogener Ring oder eine "
+        "taumelnde Scheibe: Kupplung ausrichten, Ring gleichmäßig anziehen. Eine Tabelle beseitigt, was "
+        "an den Winkel gebunden bleibt.",
     )
     confusions = (
         Confusion("polynomial", experiments.FULL_TURN),
@@ -354,6 +402,13 @@ class GearMesh(Effect):
     look = Words(
         en="The residuals make a whole number of waves a turn.",
         de="Die Residuen bilden eine ganze Zahl von Wellen je Umdrehung.",
+    )
+    remedy = Words(
+        en="Worm or gear repeat with each tooth: check run-out, pre-load and wear of the worm. A table "
+        "carries it only with four or more rows a tooth; an encoder on the table itself removes it.",
+        de="Schnecke oder Rad wiederholen sich mit jedem Zahn: Rundlauf, Vorspannung und Verschleiß der "
+        "Schnecke prüfen. Eine Tabelle trägt es nur mit vier oder mehr Zeilen je Zahn; ein Messsystem am "
+        "Tisch selbst beseitigt es.",
     )
     confusions = (Confusion("periodic", experiments.FULL_TURN),)
 

@@ -80,6 +80,14 @@ class ScaleExpansion(Effect):
         en="The residuals fan out over the position, and the slope follows the temperature of the scale.",
         de="Die Residuen fächern über der Position auf, und die Steigung folgt der Temperatur des Maßstabs.",
     )
+    remedy = Words(
+        en="The scale is warmer or colder than 20 °C: run a warm-up cycle, and put covers between the scale "
+        "and coolant, sun and draught. A control that knows the temperature and coefficient of the scale "
+        "follows it; a table holds at the temperature of its test only.",
+        de="Der Maßstab ist wärmer oder kälter als 20 °C: Warmlauf fahren und den Maßstab gegen Kühlmittel, "
+        "Sonne und Zugluft abdecken. Eine Steuerung, die Temperatur und Koeffizient des Maßstabs kennt, "
+        "folgt; eine Tabelle gilt nur bei der Temperatur ihrer Prüfung.",
+    )
     confusions = (
         Confusion("thermal-growth", experiments.TURNING_TEMPERATURE),
         Confusion("screw-expansion", experiments.SCREW_SENSOR),
@@ -129,6 +137,14 @@ class ScrewExpansion(Effect):
     look = Words(
         en="The residuals fan out from one end of the travel as the screw warms up.",
         de="Die Residuen fächern von einem Ende des Verfahrwegs her auf, während die Spindel warm wird.",
+    )
+    remedy = Words(
+        en="Nut, bearings and motor heat the screw: run a warm-up cycle, check lubrication and pre-load of "
+        "the nut, the tension of the screw and its cooling. Compensation by a sensor at nut or bearing "
+        "follows it in part, a linear scale as feedback removes it, a table does not.",
+        de="Mutter, Lager und Motor erwärmen die Spindel: Warmlauf fahren, Schmierung und Vorspannung der "
+        "Mutter, Reckung und Kühlung der Spindel prüfen. Eine Kompensation mit Fühler an Mutter oder "
+        "Lager folgt teilweise, ein Linearmaßstab als Messsystem beseitigt es, eine Tabelle nicht.",
     )
     confusions = (
         Confusion("thermal-growth", experiments.TURNING_TEMPERATURE),
@@ -196,6 +212,14 @@ class ThermalGrowth(Effect):
         en="The residuals fan out over the position while time passes, ever slower.",
         de="Die Residuen fächern mit der Zeit über der Position auf, immer langsamer.",
     )
+    remedy = Words(
+        en="The axis grows while it warms up: work and measure after a warm-up cycle, keep pauses short, and"
+        " lead off the heat of motor, nut and hydraulics. A table holds for one state only; compensation "
+        "by temperature follows.",
+        de="Die Achse wächst beim Warmlaufen: nach einem Warmlauf arbeiten und messen, Pausen kurz halten, "
+        "Wärme von Motor, Mutter und Hydraulik abführen. Eine Tabelle gilt nur für einen Zustand; eine "
+        "Kompensation nach Temperatur folgt.",
+    )
     confusions = (
         Confusion("screw-expansion", experiments.TURNING_TEMPERATURE),
         Confusion("scale-expansion", experiments.TURNING_TEMPERATURE),
@@ -249,6 +273,14 @@ class ThermalDrift(Effect):
         en="The residuals move with time, at all positions alike, ever slower.",
         de="Die Residuen wandern mit der Zeit, an allen Positionen gleich, immer langsamer.",
     )
+    remedy = Words(
+        en="Structure, spindle or tripod warm up: let machine and instrument settle, fix the optics at tool "
+        "and table, and shield them. Setting the zero anew before the work removes it; a table of "
+        "positions does not.",
+        de="Gestell, Hauptspindel oder Stativ werden warm: Maschine und Messgerät zur Ruhe kommen lassen, "
+        "die Optiken an Werkzeug und Tisch befestigen und abschirmen. Den Nullpunkt vor der Arbeit neu zu"
+        " setzen beseitigt es; eine Positionstabelle nicht.",
+    )
     confusions = (
         Confusion("datum-temperature", experiments.TURNING_TEMPERATURE),
         Confusion("first-run", experiments.MORE_RUNS),
@@ -289,6 +321,15 @@ class DatumTemperature(Effect):
     look = Words(
         en="The residuals follow the logged temperature, at all positions alike.",
         de="Die Residuen folgen der aufgezeichneten Temperatur, an allen Positionen gleich.",
+    )
+    remedy = Words(
+        en="The place where scale or optics are held moves with the temperature: check the fixed point of "
+        "the scale, fix the optics at tool and table, and hold the temperature. Setting the zero anew, or"
+        " a shift of the zero by temperature in the control, removes it; a table of positions does not.",
+        de="Die Stelle, an der Maßstab oder Optiken gehalten sind, wandert mit der Temperatur: Festpunkt des"
+        " Maßstabs prüfen, Optiken an Werkzeug und Tisch befestigen, Temperatur halten. Neues Nullen oder"
+        " eine Nullpunktverschiebung nach Temperatur in der Steuerung beseitigt es; eine Positionstabelle"
+        " nicht.",
     )
     confusions = (Confusion("thermal-drift", experiments.TURNING_TEMPERATURE),)
 
@@ -336,6 +377,14 @@ class AirIndex(Effect):
         en="The residuals fan out over the position, and the slope follows the air.",
         de="Die Residuen fächern über der Position auf, und die Steigung folgt der Luft.",
     )
+    remedy = Words(
+        en="The instrument, not the machine: switch on its environmental compensation, put the sensors "
+        "beside the beam and have them calibrated, then measure anew. Never compensate it in the control;"
+        " readings whose air was logged can be corrected.",
+        de="Das Messgerät, nicht die Maschine: dessen Umweltkompensation einschalten, die Fühler neben den "
+        "Strahl setzen und kalibrieren lassen, dann neu messen. Nie in der Steuerung kompensieren; "
+        "Messwerte mit aufgezeichneter Luft lassen sich korrigieren.",
+    )
     confusions = (
         Confusion("dead-path", experiments.DEAD_PATH_CHANGED),
         Confusion("scale-expansion", experiments.OTHER_AIR),
@@ -382,6 +431,12 @@ class DeadPath(Effect):
     look = Words(
         en="The residuals follow the air, at all positions alike.",
         de="Die Residuen folgen der Luft, an allen Positionen gleich.",
+    )
+    remedy = Words(
+        en="The instrument, not the machine: set the fixed optics close to the zero of the axis, preset "
+        "there, or state the dead path to the correction. Never compensate it in the control.",
+        de="Das Messgerät, nicht die Maschine: die feste Optik dicht an den Nullpunkt der Achse setzen, dort"
+        " nullen oder die Totstrecke der Korrektur angeben. Nie in der Steuerung kompensieren.",
     )
     confusions = (
         Confusion("air-index", experiments.DEAD_PATH_CHANGED),

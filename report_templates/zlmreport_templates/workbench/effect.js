@@ -20,6 +20,7 @@ export async function showEffect(texts, effect) {
     h("header", {}, h("h1", {}, found.effect, h("span", {}, found.title)), back(texts)),
     h("main", { class: "effect" },
       h("section", { class: "panel" }, h("h2", {}, texts.look), h("p", {}, found.look),
+        found.remedy && h("p", {}, h("strong", {}, `${texts.remedy}: `), found.remedy),
         plot && [plot.element, h("p", { class: "hint" }, found.sketch.words)]),
       h("div", {},
         h("section", { class: "panel" }, h("h2", {}, texts.equation), h("p", { class: "equation" }, symbol(found.equation)), table(texts, found),

@@ -109,6 +109,7 @@ function candidate(texts, each, actions) {
     h("div", { class: "gauge" }, h("span", {}, texts.probability), bar(each.share, "probability"), h("strong", {}, each.probability)),
     h("p", { class: "predicted" }, `${texts.errorAfter}: `, each.rmsBefore, " → ", h("strong", {}, each.rmsAfter), h("span", { class: "quiet" }, ` · ${each.p}`)),
     h("p", {}, sentence(each.explains), "."),
+    each.remedy && h("p", { class: "tell" }, h("strong", {}, `${texts.remedy}: `), each.remedy),
     h("ul", { class: "parameters" }, each.parameters.map((own) => h("li", {}, symbol(own.symbol), ` = ${amount(own)} `, doubt(texts, own)))),
   );
 }

@@ -14,7 +14,14 @@ from zlmreport.certificate.linked import Linked, linked
 from zlmreport.certificate.model_tables import ModelTables
 from zlmreport.certificate.statements import OPINION
 from zlmreport.figures.model_diagram import ModelDiagram, estimate
-from zlmreport.figures.model_residuals import fall_chart, over_condition, over_position, over_run, over_time
+from zlmreport.figures.model_residuals import (
+    fall_chart,
+    over_condition,
+    over_position,
+    over_run,
+    over_time,
+    slopes_over_time,
+)
 from zlmreport.language import Words
 from zlmreport.model.diagnosis import Diagnosis, Verdict
 from zlmreport.model.residuals import Failure, ResidualTest
@@ -25,6 +32,7 @@ if TYPE_CHECKING:
     from zlmreport.certificate.forecast import Forecast
     from zlmreport.figures.figure import Figure
     from zlmreport.model.study import Fitted, Study
+    from zlmreport.planning.experiment import Experiment
     from zlmreport.presenting.writer import Writer
 
 _KEY = "model"
@@ -54,6 +62,12 @@ _NO_FAILURE = Words(
 _NOT_TRIED = Words(
     en="Effects that this test could not try", de="Einflüsse, die mit dieser Messung nicht prüfbar sind"
 )
+_REMEDY = Words(en="What to do if this is the cause", de="Was zu tun ist, wenn dies die Ursache ist")
+_EXPERIMENT = Words(en="The next experiment", de="Der nächste Versuch")
+_NOT_EXCLUDED = Words(
+    en="Not excluded, for this test could not try them: {effects}.",
+    de="Nicht ausgeschlossen, weil mit dieser Messung nicht prüfbar: {effects}.",
+)
 _ASSUMED = Words(en="Taken for granted", de="Angenommen")
 
 
@@ -73,6 +87,8 @@ class Modelled:
         What all installed effects are called, by identifier.
     study
         The model and the readings that it was held against.
+    experiment
+        What to measure next; None where nothing is to be decided.
     """
 
     history: tuple[Fitted, ...]
@@ -80,6 +96,7 @@ class Modelled:
     forecasts: tuple[Forecast, ...]
     titles: Mapping[str, Words]
     study: Study
+    experiment: Experiment | None = None
 
 
 def section(modelled: Modelled, writer: Writer) -> Section:
@@ -98,14 +115,14 @@ def section(modelled: Modelled, writer: Writer) -> Section:
         tables.parameters(whole),
         Graph(over_position(diagram)),
         Graph(estimate(diagram)),
-        Graph(fall_chart(modelled.history)),
+        Graph(fall_chart(modelled.history, next(iter(diagnosis.candidates), None))),
         tables.history(modelled.history, modelled.forecasts[0]),
         tables.compensation(modelled.forecasts),
         *([Paragraph(moving)] if moving else []),
         *_failures(rows, diagram, writer),
     ]
     if diagnosis.verdict is not Verdict.ADEQUATE and diagnosis.candidates:
-        blocks.append(tables.candidates(rows.candidates))
+        blocks += [tables.candidates(rows.candidates), *_what_to_do(rows, modelled, writer)]
     blocks.append(tables.visibility(diagnosis.visibility))
     if rows.not_tested:
         not_tried = (f"{', '.join(each.effects)}: {each.reason}" for each in rows.not_tested)
@@ -118,6 +135,17 @@ def section(modelled: Modelled, writer: Writer) -> Section:
 def linked_graphs(modelled: Modelled, writer: Writer) -> Linked:
     """Return the annex's graphs as values, for documents in which readings can be pointed at."""
     return linked(_KEY, modelled.study, modelled.history[-1], modelled.diagnosis, writer.language)
+
+
+def _what_to_do(rows: DiagnosisRows, modelled: Modelled, writer: Writer) -> Iterator[Block]:
+    """Yield the remedies of the leading candidates and what they are taken for, and the next experiment."""
+    if rows.not_excluded:
+        yield Paragraph(writer.say(_NOT_EXCLUDED.given(effects=", ".join(rows.not_excluded))))
+    items = tuple(f"{each.effect}: {each.remedy}" for each in rows.leading if each.remedy)
+    if items:
+        yield Notice(writer.say(_REMEDY), items)
+    if modelled.experiment:
+        yield Notice(writer.say(_EXPERIMENT), (writer.say(modelled.experiment.statement),))
 
 
 def _error(whole: Fitted, writer: Writer) -> Facts:
@@ -142,4 +170,5 @@ def _graphs(failures: Sequence[Failure], diagram: ModelDiagram) -> Iterator[Figu
         yield over_run(diagram)
     if failed & {ResidualTest.TIME_ORDER, ResidualTest.PERIOD_IN_TIME}:
         yield over_time(diagram)
+        yield slopes_over_time(diagram)
     yield from (over_condition(diagram, each.condition) for each in failures if each.condition)

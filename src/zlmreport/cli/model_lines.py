@@ -274,6 +274,8 @@ def _candidates(found: DiagnosisRows, axis: Axis) -> Iterator[str]:
         yield line
         if each.is_serious:
             yield from _details(each)
+            if each.remedy and each in found.leading:
+                yield from wrapped(said(f"remedy: {each.remedy}"), _FURTHER_IN)
             if found.not_excluded and each is found.candidates[0]:
                 names = ", ".join(found.not_excluded)
                 yield from wrapped(f"not excluded, for they could not be tried: {names}", _FURTHER_IN)

@@ -8,14 +8,16 @@ from math import floor, log10
 import numpy as np
 
 from zlmreport.figures import alternatives
-from zlmreport.figures.figure import Bar, Figure, Level, Panel, Role
+from zlmreport.figures.figure import Bar, Curve, Figure, Level, Panel, Role
 from zlmreport.figures.model_diagram import MODEL, RESIDUAL_TITLE, ModelDiagram
 from zlmreport.figures.prescribed import MEANS, POSITION_TITLE
 from zlmreport.language import Words, same
 from zlmreport.measurement.measurement_set import CONDITION_NAMES, CONDITIONS
 from zlmreport.model import wording
+from zlmreport.model.diagnosis import Candidate
+from zlmreport.model.effect import Dimension, unit_of
 from zlmreport.model.study import Fitted
-from zlmreport.quantities.arrays import FloatArray, IntArray
+from zlmreport.quantities.arrays import FloatArray, IntArray, read_only_floats
 
 #: Groups of readings that follow one another, through whose means a curve leads.
 _GROUPS = 12
@@ -31,6 +33,14 @@ _AGAINST_MODEL = Words(
 _OVER = Words(
     en="Residuals over {quantity}, with twice the scatter of single readings",
     de="Residuen über {quantity}, mit dem Doppelten der Streuung einzelner Messwerte",
+)
+_SLOPE = Words(en="Slope of the residuals", de="Steigung der Residuen")
+_SLOPES = Words(
+    en="Slope over the position of what the model leaves of each pass, over {quantity}",
+    de="Steigung über der Position dessen, was das Modell von jedem Durchgang übrig lässt, über {quantity}",
+)
+_SLOPES_RANGE = Words(
+    en="{caption}: from {low} to {high} {unit}.", de="{caption}: von {low} bis {high} {unit}."
 )
 _MEASURED = Words(en="Measured and model", de="Gemessen und Modell")
 _RUN = (Words(en="Run", de="Durchlauf"), Words(en="the run", de="dem Durchlauf"))
@@ -93,12 +103,48 @@ def over_run(diagram: ModelDiagram) -> Figure:
 
 def over_time(diagram: ModelDiagram) -> Figure:
     """Return the residuals over time, or in their order where the source tells no times."""
+    time, quantity, unit = _time_of(diagram)
+    return _residuals(diagram, "time", quantity, unit, _panel(diagram, time))
+
+
+def _time_of(diagram: ModelDiagram) -> tuple[FloatArray, tuple[Words, Words], str]:
     design = diagram.design
     if design.time_is_counted:
-        return _residuals(diagram, "time", _COUNTED, "", _panel(diagram, 1.0 + design.time))
+        return 1.0 + design.time, _COUNTED, ""
     in_minutes = design.duration > _LONG
-    time = design.time / _MINUTE if in_minutes else design.time
-    return _residuals(diagram, "time", _TIME, "min" if in_minutes else "s", _panel(diagram, time))
+    return design.time / _MINUTE if in_minutes else design.time, _TIME, "min" if in_minutes else "s"
+
+
+def slopes_over_time(diagram: ModelDiagram) -> Figure:
+    """Return the slope over the position of what the model leaves of each pass, at the mean time of the pass.
+
+    Whatever warms turns the straight line from pass to pass.
+    """
+    design, residual = diagram.design, diagram.fit.residual
+    time, (title, in_sentence), unit_of_time = _time_of(diagram)
+    slope = unit_of(Dimension.SLOPE, diagram.axis.kind)
+    curves = []
+    for approach in diagram.approaches:
+        passes = [(diagram.of(approach)) & (design.run == run) for run in np.unique(design.run)]
+        seen = [each for each in passes if len(np.unique(design.position[each])) > 1]
+        slopes = [np.polyfit(design.position[each], residual[each], 1)[0] * slope.per_si for each in seen]
+        times = [float(time[each].mean()) for each in seen]
+        curves.append(
+            Curve(f"b{approach.arrow}", MEANS[approach], read_only_floats(times), read_only_floats(slopes))
+        )
+    values = np.concatenate([each.y for each in curves])
+    ends = {"low": wording.significant(values.min()), "high": wording.significant(values.max())}
+    caption = _SLOPES.given(quantity=in_sentence)
+    return Figure(
+        key="slopes-time",
+        title=caption,
+        alternative=alternatives.text(_SLOPES_RANGE.given(caption=caption, unit=slope.symbol, **ends)),
+        x_title=title,
+        y_title=_SLOPE,
+        x_unit=unit_of_time,
+        y_unit=slope.symbol,
+        panels=(Panel(curves=tuple(curves)),),
+    )
 
 
 def over_condition(diagram: ModelDiagram, condition: str) -> Figure:
@@ -156,20 +202,32 @@ _TITLE = Words(
 )
 _WITHOUT = Words(en="without model", de="ohne Modell")
 _ADDED = Words(en="+ {effect}", de="+ {effect}")
+_WITH = Words(en="with {effect}", de="mit {effect}")
 _BAR = Words(en="{label}: {value} {unit}.", de="{label}: {value} {unit}.")
 _FLOOR = Words(en="Noise floor: {value} {unit}.", de="Grundrauschen: {value} {unit}.")
 _X_TITLE = Words(en="Effects, one after another", de="Einflüsse, einer nach dem anderen")
 _Y_TITLE = Words(en="Root mean square error", de="Quadratischer Mittelwert")
 
 
-def fall_chart(history: Sequence[Fitted]) -> Figure:
-    """Return the fall chart of a model, from the readings without a model to the whole of it."""
+def fall_chart(history: Sequence[Fitted], missing: Candidate | None = None) -> Figure:
+    """Return the fall chart of a model, from the readings without a model to the whole of it.
+
+    Parameters
+    ----------
+    history
+        Fits, effect by effect.
+    missing
+        What the model lacks: a last bar shows the error with it.
+    """
     axis = history[-1].fit.design.axis
     unit = axis.deviation_unit
-    values = [unit.from_si(each.error.rms) for each in history]
+    further = [missing] if missing else []
+    errors = [*(each.error for each in history), *(each.error for each in further)]
+    values = [unit.from_si(each.rms) for each in errors]
     noise = history[-1].error.noise_rms
     decimals = _decimals(min(values))
     labels = [_WITHOUT, *(_ADDED.given(effect=name) for name in history[-1].fit.model.identifiers)]
+    labels += [_WITH.given(effect=each.identifier) for each in further]
     bars = tuple(
         Bar(label, value, wording.number(value, decimals))
         for label, value in zip(labels, values, strict=True)

@@ -115,10 +115,11 @@ class FormulaKeys(Options):
         description="Its parameters, each with its unit and its range.", min_length=1, max_length=20
     )
     title: Text | None = Field(None, description="In words.")
+    remedy: Text | None = Field(None, description="What to do about it, and what a compensation can do.")
 
     def __hash__(self) -> int:
         """Let a fit be kept by what its model means."""
-        return hash((self.name, self.formula, self.title, *sorted(self.parameters)))
+        return hash((self.name, self.formula, self.title, self.remedy, *sorted(self.parameters)))
 
     @model_validator(mode="after")
     def _is_sound(self) -> FormulaKeys:

@@ -185,6 +185,9 @@ class Effect(Protocol):
         Along what it changes.
     look
         What it looks like in the residuals.
+    remedy
+        What the cause usually is, what a service engineer does, and what a compensation can and cannot do;
+        None of a formula that says nothing of it.
     confusions
         What it is taken for, nearest first.
     ranges_from
@@ -205,6 +208,7 @@ class Effect(Protocol):
     searched: tuple[Parameter, ...] = ()
     shape: Shape
     look: Words
+    remedy: Words | None = None
     confusions: tuple[Confusion, ...] = ()
     ranges_from: Words = CHOSEN_RANGES
     contains: tuple[str, ...] = ()

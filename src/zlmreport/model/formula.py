@@ -49,6 +49,7 @@ class FormulaEffect(Effect):
         self.identifier = keys.name
         self.title = same(keys.title or keys.name)
         self.equation = keys.formula
+        self.remedy = same(keys.remedy) if keys.remedy else None
         self.look = _LOOK.given(formula=keys.formula)
         self.linear = tuple(self._parameter(name, dimensions) for name in self._formula.linear)
         self.searched = tuple(self._parameter(name, dimensions) for name in self._formula.searched)

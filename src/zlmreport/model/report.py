@@ -234,7 +234,7 @@ def _failure(failure: Failure, language: Language) -> dict[str, Any]:
 
 def _candidate(candidate: Candidate, design: Design, language: Language) -> dict[str, Any]:
     after = report_error(candidate.error, design.axis)
-    discriminate_by = candidate.discriminate_by
+    discriminate_by, remedy = candidate.discriminate_by, candidate.effect.remedy
     return {
         "effect": candidate.identifier,
         "settings": candidate.effect.settings.model_dump(mode="json"),
@@ -250,6 +250,7 @@ def _candidate(candidate: Candidate, design: Design, language: Language) -> dict
         "explains": candidate.explains.in_language(language),
         "indistinguishable_from": list(candidate.equals),
         "discriminate_by": "" if discriminate_by is None else discriminate_by.in_language(language),
+        "remedy": remedy.in_language(language) if remedy else "",
     }
 
 

@@ -55,6 +55,12 @@ def experiment_of_tie(study: Study, diagnosis: Diagnosis, effects: Sequence[Effe
     effects
         All that are installed.
     """
+    question = question_of_tie(diagnosis)
+    return None if question is None else _of_study(study, diagnosis.fit, question, effects)
+
+
+def question_of_tie(diagnosis: Diagnosis) -> Question | None:
+    """Return which of the first candidate and its equals it is; None without any."""
     leading = diagnosis.candidates[0] if diagnosis.candidates else None
     if leading is None or not leading.equals:
         return None
@@ -65,7 +71,7 @@ def experiment_of_tie(study: Study, diagnosis: Diagnosis, effects: Sequence[Effe
         _rival(after, each.effect, each.probability, _size(base, after))
         for after, each in zip(fits, tied, strict=True)
     ]
-    return _of_study(study, base, rivals, fits, effects)
+    return question_of(base, rivals, fits)
 
 
 def deciding_experiment(
@@ -115,7 +121,7 @@ def deciding_experiment(
         _rival(after, each, 1.0, size) if after else Rival.of_size(each, 1.0, size)
         for after, each in zip(fits, chosen, strict=True)
     ]
-    return _of_study(study, base, rivals, [each for each in fits if each], effects)
+    return _of_study(study, base, question_of(base, rivals, [each for each in fits if each]), effects)
 
 
 def _refuse_names(names: Sequence[str], known: Mapping[str, Effect]) -> None:
@@ -163,10 +169,7 @@ def _rival(after: Fit, effect: Effect, probability: float, size: float) -> Rival
     return found if found.stands_out and not is_counted else Rival.of_size(effect, probability, size)
 
 
-def _of_study(
-    study: Study, base: Fit, rivals: Sequence[Rival], fits: Sequence[Fit], effects: Sequence[Effect]
-) -> Experiment:
-    question = question_of(base, rivals, fits)
+def _of_study(study: Study, base: Fit, question: Question, effects: Sequence[Effect]) -> Experiment:
     job = study.job
     scale = base.design.conditions.get("axis_temperature")
     rise = job.keys.plan.temperature_change if scale is None else float(np.ptp(scale))

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from zlmreport.language import Language, Words
 from zlmreport.measurement.measurement_set import CONDITION_NAMES
 from zlmreport.model import wording
-from zlmreport.model.diagnosis import Candidate, Diagnosis
+from zlmreport.model.diagnosis import Candidate, Diagnosis, Verdict
 from zlmreport.model.effect import Effect
 from zlmreport.model.report import serious_candidates, verdict_statement
 from zlmreport.model.residuals import Failure
@@ -66,6 +66,8 @@ class CandidateRow:
         As fitted.
     explains, tell_apart_by
         What it explains; what would tell it from its equals, empty if it has none.
+    remedy
+        What to do about it; empty if nobody says.
     equals
         Effects that these readings cannot tell from it.
     is_serious
@@ -85,6 +87,7 @@ class CandidateRow:
     parameters: tuple[ParameterRow, ...]
     explains: str
     tell_apart_by: str
+    remedy: str
     equals: tuple[str, ...]
     is_serious: bool
     candidate: Candidate
@@ -122,6 +125,8 @@ class DiagnosisRows:
         Those among them that nothing speaks against.
     remarks
         What was taken for granted.
+    names_candidates
+        Whether the verdict is that the first candidate, or one of its equals, is missing.
     """
 
     statement: str
@@ -133,6 +138,15 @@ class DiagnosisRows:
     not_tested: tuple[HiddenRow, ...]
     not_excluded: tuple[str, ...]
     remarks: tuple[str, ...]
+    names_candidates: bool
+
+    @property
+    def leading(self) -> tuple[CandidateRow, ...]:
+        """The first candidate and its equals, where the verdict names them; else none."""
+        if not self.names_candidates:
+            return ()
+        first = self.candidates[0]
+        return tuple(each for each in self.candidates if each is first or each.effect in first.equals)
 
     @classmethod
     def of(
@@ -168,6 +182,7 @@ class DiagnosisRows:
             not_tested=_not_tested(diagnosis, language),
             not_excluded=tuple(diagnosis.not_excluded),
             remarks=tuple(each.in_language(language) for each in diagnosis.remarks),
+            names_candidates=diagnosis.verdict is Verdict.MISSING,
         )
 
 
@@ -201,6 +216,7 @@ def _candidate(
     if candidate.p_value_is_extrapolated:
         p = _EXTRAPOLATED.given(p=p).in_language(language)
     title, tell = titles.get(candidate.identifier), candidate.discriminate_by
+    remedy = candidate.effect.remedy
     return CandidateRow(
         effect=candidate.identifier,
         argument=argument(candidate.effect),
@@ -213,6 +229,7 @@ def _candidate(
         parameters=tuple(ParameterRow.of(each, design, language) for each in candidate.estimates),
         explains=candidate.explains.in_language(language),
         tell_apart_by=tell.in_language(language) if tell else "",
+        remedy=remedy.in_language(language) if remedy else "",
         equals=tuple(candidate.equals),
         is_serious=is_serious,
         candidate=candidate,

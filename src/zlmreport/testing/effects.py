@@ -30,7 +30,18 @@ Designs = Mapping[str, Design]
 #: m or rad: what no effect of a plausible size does to an axis; micrometres given as metres do.
 _NO_DEVIATION = 0.01
 _MEMBERS = (
-    *("identifier", "title", "equation", "linear", "searched", "shape", "look", "confusions", "contains"),
+    *(
+        "identifier",
+        "title",
+        "equation",
+        "linear",
+        "searched",
+        "shape",
+        "look",
+        "remedy",
+        "confusions",
+        "contains",
+    ),
     *("options", "settings", "with_settings", "forms", "untestable", "grid", "columns", "expected"),
 )
 
@@ -52,6 +63,12 @@ def is_described(effect: Effect, _: Designs) -> None:
     expect(plain(effect.equation).strip(), f"{effect.identifier}: equation must be what is printed")
     expect(isinstance(effect.shape, Shape), f"{effect.identifier}: shape must be a Shape")
     expect_words(effect.look, f"{effect.identifier}: look")
+
+
+@check
+def says_what_to_do(effect: Effect, _: Designs) -> None:
+    """Check that it says in every language what to do about it, and what a compensation can do."""
+    expect_words(effect.remedy, f"{effect.identifier}: remedy")
 
 
 @check
@@ -261,6 +278,7 @@ def _some(grid: FloatArray) -> FloatArray:
 EFFECT_CHECKS = (
     is_complete,
     is_described,
+    says_what_to_do,
     names_what_it_is_taken_for,
     parameters_are_described,
     keys_are_described,

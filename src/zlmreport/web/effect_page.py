@@ -56,6 +56,7 @@ def effect_page(bench: Bench, loaded: Loaded, identifier: str, language: Languag
         "title": effect.title.in_language(language),
         "equation": symbol(effect.equation),
         "look": effect.look.in_language(language),
+        "remedy": effect.remedy.in_language(language) if effect.remedy else "",
         "parameters": [
             _described(each, loaded.job.axis, language) for each in (*effect.linear, *effect.searched)
         ],

@@ -226,4 +226,5 @@ def _candidate(row: CandidateRow, diagnosed: DiagnosisRows) -> dict[str, Any]:
         "explains": row.explains,
         "equals": list(row.equals),
         "tell": row.tell_apart_by,
+        "remedy": row.remedy,
     }
