@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pypdf
+import pypdfium2
 import pytest
 
 from certificate.documents import COMPLETE, certificate, having, registry
@@ -88,9 +89,9 @@ def test_its_graph_has_the_brackets_and_fills_what_is_left(tmp_path: Path) -> No
 
 
 def test_a_table_by_position_that_fits_stands_below_the_graph(tmp_path: Path) -> None:
-    (section,) = certificate(tmp_path, having("evaluate", ["vdi-vde-2617"], SHEET)).sections
-    kinds = [type(block) for block in section.blocks]
-    assert kinds[kinds.index(Graph) + 1] is Table
+    (section,) = certificate(tmp_path, having("evaluate", ["nmtba"], SHEET)).sections
+    graph = next(at for at, block in enumerate(section.blocks) if isinstance(block, Graph))
+    assert isinstance(section.blocks[graph + 1], Table)
 
 
 def test_a_table_by_position_that_does_not_fit_is_left_out(tmp_path: Path) -> None:
@@ -148,6 +149,16 @@ def _lowest(of: Certificate, renderer: str) -> float:
 
     page.extract_text(visitor_text=visit)
     return 842 - 21 * 72 / 25.4 - min(found)
+
+
+@pytest.mark.parametrize("paper", ["A4", "Letter"])
+@pytest.mark.parametrize("renderer", ["pdf", "pdf-typst"])
+def test_its_graph_leaves_no_empty_foot(tmp_path: Path, renderer: str, paper: str) -> None:
+    keys = {**having("certificate.paper", paper, SHEET), "evaluate": list(SEVEN)}
+    pdf = pypdfium2.PdfDocument(registry().renderer(renderer).render(certificate(tmp_path, keys)))
+    for page in pdf:
+        inked = page.render(grayscale=True).to_numpy().squeeze()[: -round(19 * 72 / 25.4)].min(axis=1) < 200
+        assert inked[::-1].argmax() < 50  # points above the margin at the foot
 
 
 @pytest.mark.parametrize("renderer", ["pdf", "pdf-typst"])

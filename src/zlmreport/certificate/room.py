@@ -24,8 +24,12 @@ from zlmreport.certificate.document import (
 
 #: In points.
 MILLIMETRE = 72 / 25.4
-#: What stands between the margins of a page of each paper, but for the mark at the end of a document.
-PAGES = {paper: (height - 21 - 19) * MILLIMETRE - 22 for paper, height in (("A4", 297.0), ("Letter", 279.4))}
+#: The mark at the end of a document.
+END_MARK = 22.0
+#: What stands between the margins of a page of each paper, but for that mark.
+PAGES = {
+    paper: (height - 21 - 19) * MILLIMETRE - END_MARK for paper, height in (("A4", 297.0), ("Letter", 279.4))
+}
 #: What the first page has besides, for it has no running head.
 OF_FIRST = 6 * MILLIMETRE
 

@@ -28,8 +28,8 @@ from zlmreport.errors import InputError, Problem
 if TYPE_CHECKING:
     from zlmreport.figures.figure import Figure
 
-#: Heights of the graph, mm.
-_LEAST_GRAPH, _LARGEST_GRAPH = 38.0, 92.0
+#: Heights of the graph, mm: the least, that with a table by position below it, and the most.
+_LEAST_GRAPH, _LEAST_ABOVE_TABLE, _LARGEST_GRAPH = 38.0, 50.0, 130.0
 #: Of its caption and of the space around it, mm.
 _BESIDE_GRAPH = 8.0
 
@@ -53,9 +53,10 @@ def lay_out(of: Material) -> LaidOut:
     """
     beyond = dict(_of_no_sheet(of))
     sections: list[Section] = []
-    for page in together(of.evaluated, of.writer):
-        above = 0.0 if sections else room.head(of.letterhead, of.title)
-        section, left_over = _sheet(of, page, above)
+    pages = together(of.evaluated, of.writer)
+    for page in pages:
+        beside = 0.0 if sections else room.head(of.letterhead, of.title)
+        section, left_over = _sheet(of, page, beside if page is pages[-1] else beside - room.END_MARK)
         beyond |= left_over
         sections.append(section)
     if beyond and of.job.keys.certificate.kind == "certificate":
@@ -100,18 +101,21 @@ def _beside_as_found(of: Material, sections: Sequence[Section]) -> Iterator[Sect
     )
 
 
-def _sheet(of: Material, page: tuple[Evaluated, ...], above: float) -> tuple[Section, dict[str, str]]:
-    """Return a page, and what of it does not fit below what stands `above` (points)."""
+def _sheet(of: Material, page: tuple[Evaluated, ...], beside: float) -> tuple[Section, dict[str, str]]:
+    """Return a page, and what of it does not fit beside what else stands there (points)."""
     writer = of.writer
     evaluation = page[0].evaluation
     title = results.title_of([each.evaluation for each in page], writer)
     before, after = _before_graph(of, page), _after_graph(of, page)
     main = main_graph(page[0].figures)
-    free = room.PAGES[of.job.keys.certificate.paper] - above - room.heading(title)
+    free = room.PAGES[of.job.keys.certificate.paper] - beside - room.heading(title)
     free -= sum(room.height(each.blocks) for each in (*before, *after))
     table = results.positions(evaluation, writer)
-    graph = (_LEAST_GRAPH + _BESIDE_GRAPH) * room.MILLIMETRE if main else 0.0
-    holds_table = room.height([table]) <= free - graph
+    graph, above_table = (
+        (each + _BESIDE_GRAPH) * room.MILLIMETRE if main else 0.0
+        for each in (_LEAST_GRAPH, _LEAST_ABOVE_TABLE)
+    )
+    holds_table = room.height([table]) <= free - above_table
     if holds_table:
         free -= room.height([table])
     blocks = (
