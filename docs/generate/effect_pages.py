@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 from markdown import code, symbol, table
 
-from zlmreport.job.fields import keys_in
+from zlmreport.job.types import keys_in
 from zlmreport.language import Language, Words
 from zlmreport.measurement.axis import AxisKind
 from zlmreport.model.design import Design

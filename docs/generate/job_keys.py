@@ -10,12 +10,11 @@ from typing import Any, TypeAlias
 from markdown import code, table
 from pydantic import BaseModel
 
-from zlmreport.job.extensions import group_model
-from zlmreport.job.fields import field_at
+from zlmreport.job.choices import group_model
 from zlmreport.job.fleet import FleetKeys
 from zlmreport.job.keys import JobKeys
 from zlmreport.job.schema import job_schema
-from zlmreport.job.types import Options
+from zlmreport.job.types import Options, field_at
 from zlmreport.language import Language
 from zlmreport.plugin.protocols import PartProgram
 from zlmreport.plugins import find_plugins

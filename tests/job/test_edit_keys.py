@@ -10,7 +10,7 @@ import pytest
 
 from zlmreport.errors import InputError
 from zlmreport.job.edit import Edit
-from zlmreport.job.edit_keys import edit_keys
+from zlmreport.job.edit_items import edit_keys
 from zlmreport.job.loading import load
 from zlmreport.plugins import Registry, find_plugins
 

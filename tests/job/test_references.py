@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from zlmreport.job.references import Enclosure, enclosed, path_from_job, path_named
+from zlmreport.job.types import Enclosure, enclosed, path_from_job, path_named
 
 UNPACKED = Path("/unpacked")
 ENCLOSURE = Enclosure(

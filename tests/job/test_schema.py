@@ -120,7 +120,7 @@ def test_every_example_is_taken_by_its_own_key() -> None:
 
 
 def _parts(model: type[BaseModel]) -> set[type[BaseModel]]:
-    from zlmreport.job.fields import model_in
+    from zlmreport.job.types import model_in
 
     found = {model}
     for field in model.model_fields.values():

@@ -11,9 +11,9 @@ from pydantic import Field
 
 from job.jobs import loaded, mistakes, with_line, with_lines
 from zlmreport.errors import Place, Problem
+from zlmreport.job.contradictions import validate
 from zlmreport.job.parse import parse
 from zlmreport.job.types import Finite, InWords, JobPath, Options
-from zlmreport.job.validate import validate
 
 TEXTS = [
     "00123",

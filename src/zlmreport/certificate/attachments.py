@@ -12,8 +12,8 @@ from pathlib import PurePosixPath
 from typing import TYPE_CHECKING
 
 from zlmreport.errors import InputError, Place
-from zlmreport.job.references import path_from_job
 from zlmreport.job.tree import texts
+from zlmreport.job.types import path_from_job
 from zlmreport.language import Language, Words
 
 if TYPE_CHECKING:

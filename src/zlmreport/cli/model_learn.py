@@ -14,7 +14,7 @@ from zlmreport.files import Document, read, reason, write
 from zlmreport.job.evaluation_keys import PriorsKeys
 from zlmreport.job.extends import JOB
 from zlmreport.job.loading import load
-from zlmreport.job.text import LARGEST
+from zlmreport.job.parse import LARGEST
 from zlmreport.model.diagnosis import Verdict
 from zlmreport.model.fit import Fit
 from zlmreport.model.priors import learned

@@ -17,7 +17,8 @@ from zlmreport.cli.plan_lines import plan_lines
 from zlmreport.cli.terminal import Colour, print_json, said, shown_path, wrapped
 from zlmreport.errors import AccessError, InputError, Place
 from zlmreport.files import Document, demand_free, write
-from zlmreport.job.job import ExtensionChoice, Job
+from zlmreport.job.choices import ExtensionChoice
+from zlmreport.job.job import Job
 from zlmreport.job.loading import load
 from zlmreport.language import Language
 from zlmreport.measurement.axis import Axis

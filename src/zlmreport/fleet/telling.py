@@ -9,10 +9,10 @@ from pathlib import Path
 
 from zlmreport.errors import InputError, Problem, ZlmreportError
 from zlmreport.fleet.records import About, Notice
+from zlmreport.job.contradictions import validate
 from zlmreport.job.fleet import FleetFile
 from zlmreport.job.tree import Keys, Scalar, found_at
 from zlmreport.job.types import Options
-from zlmreport.job.validate import validate
 from zlmreport.plugin.kinds import NOTIFIER
 from zlmreport.plugin.protocols import Message, Notifier, Occasion
 from zlmreport.plugins import Registry, find_plugins

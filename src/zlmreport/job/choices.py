@@ -1,21 +1,21 @@
-"""The plugins that a file names: live instruments, effects and programs, each with its own keys."""
+"""The plugins that a file names, each with its own keys: instruments, effects, programs, extensions."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import partial
 from typing import Any, Self, TypeAlias
 
-from pydantic import Field, create_model, model_validator
+from pydantic import BaseModel, Field, create_model, model_validator
 
 from zlmreport.errors import InputError, Place, Problem
-from zlmreport.job.fields import keys_in, model_in
+from zlmreport.job.contradictions import validate
 from zlmreport.job.formula_keys import FormulaKeys, ParameterName
-from zlmreport.job.installed import Installed, InstalledEffect, InstalledProgram
+from zlmreport.job.installed import Installed, InstalledEffect, InstalledExtension, InstalledProgram
 from zlmreport.job.sentences import shown
-from zlmreport.job.tree import Entry, Items, Keys, Node, Scalar, keys_of
-from zlmreport.job.types import Finite, JobPart, LiveInstrumentKeys, Options
-from zlmreport.job.validate import validate
+from zlmreport.job.tree import Entry, Items, Keys, Node, Scalar, found_at, keys_of
+from zlmreport.job.types import Finite, JobPart, LiveInstrumentKeys, Options, keys_in, model_in
 
 
 @dataclass(frozen=True, slots=True)
@@ -375,3 +375,42 @@ def controller_choice(
     own = replace(stated.without("controller"), place=place)
     options = validate(controller.options, own, problems, within="compensation", also_known=["controller"])
     return ControllerChoice(controller.identifier, options, place, own) if options else None
+
+
+@dataclass(frozen=True, slots=True)
+class ExtensionChoice:
+    """A group of job keys that belongs to an extension: its name, its keys, and the part programs in it."""
+
+    identifier: str
+    options: Any
+    programs: tuple[ProgramChoice, ...] = ()
+
+
+def group_model(extension: InstalledExtension) -> type[BaseModel]:
+    """Return a model whose one key is the group of an extension: as a job has it."""
+    field: Any = Field(None, description=extension.description, examples=[dict(extension.example)])
+    group: Any = (extension.options | None, field)
+    model: type[BaseModel] = create_model(
+        f"{extension.options.__name__}Group", __base__=JobPart, **{extension.identifier: group}
+    )
+    return model
+
+
+def extension_choices(tree: Keys, registry: Installed, problems: list[Problem]) -> Iterator[ExtensionChoice]:
+    """Yield the groups of a job, each with its keys and its part programs; mistakes are added to problems."""
+    for name in registry.extension_keys:
+        entry = tree.entries.get(name)
+        if entry is None:
+            continue
+        extension = registry.extension(name, entry.place)
+        group = validate(group_model(extension), keys_of(tree.place, (entry,)), problems)
+        path = (name, *extension.programs)
+        programs = program_choices(
+            found_at(tree, path) if extension.programs else None,
+            partial(registry.part_program, takes=extension.takes),
+            problems,
+            within=".".join(path),
+        )
+        options = getattr(group, name, None)
+        if options is not None:
+            yield ExtensionChoice(name, options, programs)

@@ -31,8 +31,7 @@ from zlmreport.job.list_edits import (
     without_item,
 )
 from zlmreport.job.loading import load
-from zlmreport.job.parse import parse
-from zlmreport.job.text import LARGEST, decoded
+from zlmreport.job.parse import LARGEST, decoded, parse
 from zlmreport.job.tree import Items, Node, Scalar, walk
 
 #: The list of a model.

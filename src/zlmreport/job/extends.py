@@ -11,10 +11,9 @@ from pathlib import Path
 
 from zlmreport.errors import AccessError, InputError, Place, Problem, quoted
 from zlmreport.files import read, reason, unreadable
-from zlmreport.job.parse import parse
-from zlmreport.job.references import path_named
-from zlmreport.job.text import LARGEST
+from zlmreport.job.parse import LARGEST, parse
 from zlmreport.job.tree import Items, Keys, Node, Scalar, keys_of, merged
+from zlmreport.job.types import path_named
 from zlmreport.measurement.provenance import SourceFile
 
 

@@ -14,16 +14,13 @@ from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Fie
 
 from zlmreport.errors import InputError, Place, Problem, did_you_mean, quoted
 from zlmreport.files import confined, outside, read, unreadable
+from zlmreport.job.contradictions import problems_in_part, validate
 from zlmreport.job.extends import FLEET, Defaults, compose, refuse_other_format
-from zlmreport.job.fields import keys_in
 from zlmreport.job.installed import InstalledExtension
 from zlmreport.job.keys import JobKeys
-from zlmreport.job.parse import parse
-from zlmreport.job.references import LocatedText, path_named
-from zlmreport.job.text import LARGEST
+from zlmreport.job.parse import LARGEST, parse
 from zlmreport.job.tree import Items, Keys, Scalar, key_place, place_of, walk
-from zlmreport.job.types import JobPart, JobPath, Text
-from zlmreport.job.validate import problems_in_part, validate
+from zlmreport.job.types import JobPart, JobPath, LocatedText, Text, keys_in, path_named
 
 #: What a layout can be made of.
 PLACEHOLDERS = ("machine", "manufacturer", "model", "serial", "axis", "number")

@@ -8,7 +8,13 @@ from pathlib import Path
 from typing import Any
 
 from zlmreport.errors import Place
-from zlmreport.job.choices import ControllerChoice, EffectChoice, InstrumentChoice, ProgramChoice
+from zlmreport.job.choices import (
+    ControllerChoice,
+    EffectChoice,
+    ExtensionChoice,
+    InstrumentChoice,
+    ProgramChoice,
+)
 from zlmreport.job.evaluation_keys import PriorsKeys
 from zlmreport.job.keys import JobKeys
 from zlmreport.job.tree import Keys, Step, keys_of, place_of
@@ -47,15 +53,6 @@ class SourceChoice:
     options: Options
     place: Place
     instrument: InstrumentChoice | None = None
-
-
-@dataclass(frozen=True, slots=True)
-class ExtensionChoice:
-    """A group of job keys that belongs to an extension: its name, its keys, and the part programs in it."""
-
-    identifier: str
-    options: Any
-    programs: tuple[ProgramChoice, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

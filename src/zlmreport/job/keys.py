@@ -22,7 +22,14 @@ from zlmreport.job.document_keys import (
     OpinionKeys,
     Output,
 )
-from zlmreport.job.evaluation_keys import DecisionRuleKeys, Model, StandardKeys, UncertaintyKeys
+from zlmreport.job.evaluation_keys import (
+    ControllerKeys,
+    DecisionRuleKeys,
+    Model,
+    PlanKeys,
+    StandardKeys,
+    UncertaintyKeys,
+)
 from zlmreport.job.measurement_keys import (
     AsFound,
     AxisKeys,
@@ -32,7 +39,6 @@ from zlmreport.job.measurement_keys import (
     Machine,
     Measurement,
 )
-from zlmreport.job.plan_keys import ControllerKeys, PlanKeys
 from zlmreport.job.types import JobPart, Lines, Text
 
 

@@ -14,19 +14,18 @@ from zlmreport.job.choices import (
     candidate_choices,
     controller_choice,
     effect_choices,
+    extension_choices,
     instrument_choice,
     program_choices,
 )
-from zlmreport.job.contradictions import contradictions
+from zlmreport.job.contradictions import contradictions, validate
 from zlmreport.job.evaluation_keys import PriorsKeys
 from zlmreport.job.extends import JOB, PRIORS, Defaults, FileFormat, compose, refuse_other_format
-from zlmreport.job.extensions import extension_choices
 from zlmreport.job.installed import Installed, InstalledStandard
 from zlmreport.job.job import Job, SourceChoice, StandardChoice
 from zlmreport.job.keys import JobKeys
 from zlmreport.job.measurement_keys import AxisKeys
 from zlmreport.job.tree import Entry, Items, Keys, Node, Scalar, found_at, keys_of, place_of
-from zlmreport.job.validate import validate
 from zlmreport.measurement.axis import Axis, position_units
 from zlmreport.measurement.position_table import TableColumn, read_position_table
 from zlmreport.measurement.provenance import SourceFile

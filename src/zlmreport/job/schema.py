@@ -8,16 +8,14 @@ from typing import Any, TypeAlias
 from pydantic import BaseModel
 from pydantic.errors import PydanticInvalidForJsonSchema
 
-from zlmreport.job.evaluation_keys import DecisionRuleKeys, StandardKeys
-from zlmreport.job.extensions import group_model
-from zlmreport.job.fields import model_at
+from zlmreport.job.choices import group_model
+from zlmreport.job.evaluation_keys import ControllerKeys, DecisionRuleKeys, ProgramKeys, StandardKeys
 from zlmreport.job.formula_keys import FormulaKeys
 from zlmreport.job.installed import Installed, InstalledEffect, InstalledStandard, WithKeys
 from zlmreport.job.keys import JobKeys
 from zlmreport.job.measurement_keys import SourceKeys
-from zlmreport.job.plan_keys import ControllerKeys, ProgramKeys
 from zlmreport.job.tree import Step
-from zlmreport.job.types import LiveInstrumentKeys
+from zlmreport.job.types import LiveInstrumentKeys, model_at
 from zlmreport.language import Language
 
 Schema: TypeAlias = dict[str, Any]

@@ -12,10 +12,9 @@ from pydantic.fields import FieldInfo
 from pydantic_core import ErrorDetails
 
 from zlmreport.errors import Place, Problem, did_you_mean, quoted
-from zlmreport.job.fields import choices_in, field_at, keys_in, model_at
-from zlmreport.job.text import counted
+from zlmreport.job.parse import counted
 from zlmreport.job.tree import Items, Keys, Node, Scalar, Step, key_place, place_of, walk
-from zlmreport.job.types import with_decimal_point
+from zlmreport.job.types import choices_in, field_at, keys_in, model_at, with_decimal_point
 
 #: Kinds of mistakes that a value makes which is no text, no group, and so on.
 TEXT_EXPECTED = frozenset({"string_type", "literal_error", "enum", "path_type", "value_error"})

@@ -11,6 +11,7 @@ from pydantic import AfterValidator, Field
 
 from zlmreport.errors import InputError, Place, Problem, quoted
 from zlmreport.job.choices import EffectChoice, effect_choices
+from zlmreport.job.contradictions import validate
 from zlmreport.job.document_keys import Number
 from zlmreport.job.evaluation_keys import Model
 from zlmreport.job.extends import SIMULATION, compose, refuse_other_format
@@ -19,7 +20,6 @@ from zlmreport.job.loading import axis_in_si
 from zlmreport.job.measurement_keys import AxisKeys
 from zlmreport.job.tree import Keys, Node, key_place, place_of
 from zlmreport.job.types import JobPart, Text
-from zlmreport.job.validate import validate
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.provenance import SourceFile
 

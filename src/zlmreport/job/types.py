@@ -6,15 +6,26 @@ spelt where a key takes text: so ``serial: 00123`` stays what it is.
 
 from __future__ import annotations
 
+import contextlib
 import datetime as dt
+import posixpath
 import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextvars import ContextVar
+from dataclasses import dataclass
+from enum import Enum
 from pathlib import Path
-from typing import Annotated, Any
+from types import UnionType
+from typing import Annotated, Any, Literal, Self, Union, get_args, get_origin
 
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, StringConstraints
+from pydantic.fields import FieldInfo
 
-from zlmreport.errors import quoted
-from zlmreport.job.references import LocatedText, path_named
+from zlmreport.errors import Place, quoted
+from zlmreport.files import outside
+from zlmreport.job.tree import Step
+
+_ENCLOSURE: ContextVar[Enclosure | None] = ContextVar("enclosure", default=None)
 
 _LONGEST_LINE = 500
 _LONGEST_TEXT = 5000
@@ -34,6 +45,99 @@ _ALONG_THE_LENGTH = re.compile(
 )
 #: What only a formula has: an L by itself beside a number or a sign.
 _FORMULA = re.compile(r"[\d*·×/+]\s*L\b|\bL\s*[*·×/+]")
+
+
+@dataclass(frozen=True, slots=True)
+class Enclosure:
+    """The only files that jobs can name: those that came with a document.
+
+    Attributes
+    ----------
+    files
+        Where each lies, by its path from the folder of the job as it was, ``../laboratory.yaml``, or from
+        the root.
+    nowhere
+        A folder that is not there: where every other reference leads.
+    """
+
+    files: Mapping[str, Path]
+    nowhere: Path
+
+    def path_of(self, file: Path) -> str | None:
+        """Return the path of one of the files from the job's folder."""
+        return next((path for path, where in self.files.items() if where == file), None)
+
+    def path_named(self, reference: str, naming_file: Path) -> Path:
+        """Return the file that a reference means; one that leads past the folder's files leads nowhere.
+
+        A reference to a file whose path is not known is answered by the file's name, if only one has it.
+        """
+        folder = posixpath.dirname(self.path_of(naming_file) or "")
+        found = self.files.get(posixpath.normpath(posixpath.join(folder, reference)))
+        if found:
+            return found
+        name = posixpath.basename(reference)
+        alike = [path for path in self.files.values() if path.name == name]
+        return alike[0] if len(alike) == 1 else self.nowhere / name
+
+
+def path_named(reference: str, naming_file: Path) -> Path:
+    """Return the path that a file names: relative to its own folder, or from the root.
+
+    Raises
+    ------
+    ValueError
+        If it lies outside of the folder to which the program is confined.
+    """
+    enclosure = _ENCLOSURE.get()
+    path = enclosure.path_named(reference, naming_file) if enclosure else naming_file.parent / reference
+    reason = "\0" not in reference and outside(path)
+    if reason:
+        raise ValueError(f"{quoted(reference)} must not be used: {reason}")
+    return path
+
+
+def path_from_job(file: Path, job: Path, from_root: str | None = None) -> str | None:
+    """Return the path by which a job comes to a file: from its folder, or None if the file lies elsewhere.
+
+    Parameters
+    ----------
+    file, job
+        As they were read.
+    from_root
+        How the job names the file, if it does so from the root of the file system.
+    """
+    enclosure = _ENCLOSURE.get()
+    if enclosure:
+        return enclosure.path_of(file)
+    if from_root:
+        return posixpath.normpath(from_root)
+    if not file.is_relative_to(job.parent):
+        return None
+    return posixpath.normpath(file.relative_to(job.parent).as_posix())
+
+
+@contextlib.contextmanager
+def enclosed(enclosure: Enclosure) -> Iterator[None]:
+    """Let jobs name the files of an enclosure and no others: for a job from a document that anyone sent."""
+    token = _ENCLOSURE.set(enclosure)
+    try:
+        yield
+    finally:
+        _ENCLOSURE.reset(token)
+
+
+class LocatedText(str):
+    """A string from a job file, with its place, so that a path can be read beside the file that names it."""
+
+    __slots__ = ("place",)
+    place: Place
+
+    def __new__(cls, text: str, place: Place) -> Self:
+        """Return the text with its place."""
+        located = super().__new__(cls, text)
+        located.place = place
+        return located
 
 
 def with_decimal_point(text: str) -> str | None:
@@ -181,3 +285,76 @@ class LiveInstrumentKeys(BaseModel):
     model_config = ConfigDict(extra="allow", frozen=True)
 
     plugin: Text = Field(description="Identifier of an installed live instrument.", examples=["umd1"])
+
+
+def keys_in(model: type[BaseModel]) -> dict[str, FieldInfo]:
+    """Return the keys that a model knows, as they are written in a job."""
+    return {info.alias or name: info for name, info in model.model_fields.items()}
+
+
+def field_at(model: type[BaseModel], path: Iterable[Step]) -> FieldInfo | None:
+    """Return what the model says of the last key in a path; of a list's item, what it says of the list."""
+    annotation: Any = model
+    found = None
+    for step in path:
+        part = model_in(annotation)
+        if part and isinstance(step, str):
+            found = keys_in(part).get(step)
+            annotation = found.annotation if found else None
+        else:
+            annotation = _item(annotation, step)
+    return found
+
+
+def model_at(model: type[BaseModel], path: Iterable[Step]) -> type[BaseModel] | None:
+    """Return the model of the group of keys at a path."""
+    annotation: Any = model
+    for step in path:
+        part = model_in(annotation)
+        field = keys_in(part).get(step) if part and isinstance(step, str) else None
+        annotation = field.annotation if field else _item(annotation, step)
+    return model_in(annotation)
+
+
+def model_in(annotation: Any) -> type[BaseModel] | None:
+    """Return the model among the alternatives of an annotation."""
+    for alternative in _alternatives(annotation):
+        if isinstance(alternative, type) and issubclass(alternative, BaseModel):
+            return alternative
+    return None
+
+
+def choices_in(annotation: Any) -> list[str]:
+    """Return the values of an annotation that lists them."""
+    found: list[str] = []
+    for alternative in _alternatives(annotation):
+        if isinstance(alternative, type) and issubclass(alternative, Enum):
+            found.extend(str(member.value) for member in alternative)
+        elif get_origin(alternative) is Literal:
+            found.extend(map(str, get_args(alternative)))
+    return found
+
+
+def _item(annotation: Any, step: Step) -> Any:
+    """Return the annotation of a list's items, or of a mapping's values."""
+    for alternative in _alternatives(annotation):
+        origin, arguments = get_origin(alternative), get_args(alternative)
+        if not isinstance(origin, type) or not arguments:
+            continue
+        if isinstance(step, int) and issubclass(origin, Sequence):
+            return arguments[0]
+        if isinstance(step, str) and issubclass(origin, Mapping):
+            return arguments[1]
+    return None
+
+
+def _alternatives(annotation: Any) -> Iterator[Any]:
+    """Yield what an annotation stands for: `Annotated` opened, unions taken apart."""
+    origin, arguments = get_origin(annotation), get_args(annotation)
+    if origin is Annotated:
+        yield from _alternatives(arguments[0])
+    elif origin in {Union, UnionType}:
+        for argument in arguments:
+            yield from _alternatives(argument)
+    else:
+        yield annotation

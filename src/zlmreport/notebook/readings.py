@@ -14,12 +14,12 @@ from numpy.typing import ArrayLike, NDArray
 from pydantic import BaseModel
 
 from zlmreport.errors import InputError, Place, Problem, did_you_mean
+from zlmreport.job.contradictions import validate
 from zlmreport.job.loading import axis_in_si, load
 from zlmreport.job.measurement_keys import AxisKeys
 from zlmreport.job.parse import parse
 from zlmreport.job.simulation import load_simulation
 from zlmreport.job.tree import Keys
-from zlmreport.job.validate import validate
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.collect import Reading, collect

@@ -35,12 +35,12 @@ from zlmreport.figures.style import TEXT_SIZE as GRAPH_TEXT_SIZE, INK as INK_COL
 from zlmreport.figures.svg import SvgCanvas, hexadecimal as hexadecimal_colour
 from zlmreport.files import Appended, take_names, unwritable
 from zlmreport.job.document_keys import Customer, Laboratory
+from zlmreport.job.evaluation_keys import ProgramKeys
 from zlmreport.job.extends import FileFormat
 from zlmreport.job.job import Job
 from zlmreport.job.keys import JobKeys
 from zlmreport.job.loading import KeysFile, read_keys_file
 from zlmreport.job.measurement_keys import Instrument as JobInstrument
-from zlmreport.job.plan_keys import ProgramKeys
 from zlmreport.job.tree import Step as KeyStep
 from zlmreport.job.types import Date, Finite, JobPart, JobPath, NotNegative, Options, Positive, Text as TextLine
 from zlmreport.language import Language, Words, same as same_in_all_languages

@@ -99,7 +99,7 @@ class Kind(Generic[Offered_co]):
 
 def _meaning_two_things(effect: Any) -> str:
     """Tell of a job key of an effect that means two things, names of parameters among them."""
-    from zlmreport.job.fields import keys_in  # noqa: PLC0415 - brings pydantic
+    from zlmreport.job.types import keys_in  # noqa: PLC0415 - brings pydantic
 
     names = [parameter.name for parameter in (*effect.linear, *effect.searched)]
     names.extend(keys_in(effect.options))

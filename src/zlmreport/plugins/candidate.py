@@ -179,8 +179,7 @@ def check(kind: Kind[Any], offered: Any) -> None:
 
 def _check_keys(kind: Kind[Any], who: str, options: object) -> None:
     """Refuse job keys that are none, or that the job has itself."""
-    from zlmreport.job.fields import keys_in  # noqa: PLC0415 - brings pydantic, which a renderer may not need
-    from zlmreport.job.types import Options  # noqa: PLC0415
+    from zlmreport.job.types import Options, keys_in  # noqa: PLC0415 - brings pydantic: a renderer has no keys
 
     if not isinstance(options, type) or not issubclass(options, Options):
         raise UnfitError(f"{who} needs options that are a subclass of Options")

@@ -15,7 +15,8 @@ from zlmreport.plugin.kinds import KINDS, Kind
 from zlmreport.plugins.candidate import DISABLE, Candidate, FailedPlugin, Plugin
 
 if TYPE_CHECKING:
-    from zlmreport.job.job import ExtensionChoice, Job
+    from zlmreport.job.choices import ExtensionChoice
+    from zlmreport.job.job import Job
     from zlmreport.model.effect import Effect
     from zlmreport.plugin.extension import Extension
     from zlmreport.plugin.protocols import (

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 
 import numpy as np
 
-from zlmreport.job.fields import keys_in
+from zlmreport.job.types import keys_in
 from zlmreport.measurement.axis import AxisKind
 from zlmreport.model.design import Design
 from zlmreport.model.effect import Confusion, Dimension, Effect, Parameter, Shape

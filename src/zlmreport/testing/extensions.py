@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from zlmreport.job.extensions import group_model
-from zlmreport.job.fields import keys_in, model_at
+from zlmreport.job.choices import group_model
 from zlmreport.job.keys import JobKeys
 from zlmreport.job.tree import Step
+from zlmreport.job.types import keys_in, model_at
 from zlmreport.plugin.extension import Extension
 from zlmreport.testing.expectations import (
     check,

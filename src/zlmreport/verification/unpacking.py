@@ -12,7 +12,7 @@ from pathlib import Path
 
 from zlmreport.errors import Place, Problem, ZlmreportError
 from zlmreport.files import confined
-from zlmreport.job.references import Enclosure, enclosed
+from zlmreport.job.types import Enclosure, enclosed
 from zlmreport.verification.carrier import Carried
 from zlmreport.verification.stated import StatedSource
 

@@ -16,8 +16,7 @@ from pydantic import BaseModel, ConfigDict, StringConstraints, ValidationError
 
 from zlmreport.errors import InputError, Problem
 from zlmreport.job.edit import Edit, edit_effects
-from zlmreport.job.edit_items import ParameterChoice, edit_parameter, exclude, include
-from zlmreport.job.edit_keys import edit_keys
+from zlmreport.job.edit_items import ParameterChoice, edit_keys, edit_parameter, exclude, include
 from zlmreport.job.loading import load
 from zlmreport.job.measurement_keys import ExclusionKeys
 from zlmreport.language import Words

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from zlmreport.job.fields import keys_in
+from zlmreport.job.types import keys_in
 from zlmreport.language import Language, Words
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.axis import Axis
