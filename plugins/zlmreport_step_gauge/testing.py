@@ -20,8 +20,8 @@ from zlmreport.plugin import (
 from zlmreport.testing.expectations import check, expect, run_all
 from zlmreport.testing.part_programs import (
     expect_defaults,
-    expect_named,
     expect_plain_text,
+    expect_program_named,
     expect_same_deeds,
 )
 from zlmreport_step_gauge.gauge import Face, Location, Side, StepGauge
@@ -62,7 +62,7 @@ Recogniser: TypeAlias = Callable[[str], Sequence[Stated]]
 @check
 def is_named(program: PartProgram, _recogniser: Recogniser, _keys: Mapping[str, Any]) -> None:
     """Check that it has an identifier that can be typed, a title in every language, and a file suffix."""
-    expect_named(program, PartProgram, ".dmi")
+    expect_program_named(program, PartProgram, ".dmi")
 
 
 @check

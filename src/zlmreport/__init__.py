@@ -13,8 +13,14 @@ from zlmreport.version import __version__
 
 if TYPE_CHECKING:
     from zlmreport.errors import AccessError, InputError, ZlmreportError
-    from zlmreport.notebook.compensations import Compensation, compensate
-    from zlmreport.notebook.documents import Certificate, Verification, certificate, verify
+    from zlmreport.notebook.documents import (
+        Certificate,
+        Compensation,
+        Verification,
+        certificate,
+        compensate,
+        verify,
+    )
     from zlmreport.notebook.models import Diagnosis, Model, fit
     from zlmreport.notebook.readings import Readings, read, simulate
     from zlmreport.notebook.readings import of_arrays as test

@@ -20,7 +20,7 @@ from offers import offering
 from testing.exemplary import ExemplaryRenderer, ExemplarySource, ExemplaryStandard
 from testing.exemplary_effect import ExemplaryEffect
 from testing.exemplary_program import ExemplaryProgram
-from zlmreport.boundary.guard import guarded
+from zlmreport.boundary import guarded
 from zlmreport.errors import InputError, Place, PluginError
 from zlmreport.evaluation.evaluate import evaluate
 from zlmreport.evaluation.evaluation import Arithmetic

@@ -9,7 +9,7 @@ import pytest
 
 from zlmreport.figures.canvas import Colour
 from zlmreport.figures.figure import Role
-from zlmreport.figures.style import READINGS, ROLES
+from zlmreport.figures.shapes import READINGS, ROLES
 from zlmreport.measurement.approach import Approach
 
 roles = pytest.mark.parametrize("role", Role, ids=lambda role: role.name.lower())

@@ -17,7 +17,16 @@ from zlmreport.evaluation.statistics import PositionStatistics, largest
 from zlmreport.figures.figure import Arrow, Figure, Level, Role
 from zlmreport.job.types import Options
 from zlmreport.language import Words, same
-from zlmreport.testing import STANDARD_CHECKS, arithmetic, check_standard, graphs, standards
+from zlmreport.testing import STANDARD_CHECKS, arithmetic, check_standard, standards
+from zlmreport.testing.standards import (
+    brackets_are_as_long_as_their_parameter,
+    brackets_span_what_is_drawn,
+    curves_have_a_value_at_each_position,
+    figures_are_worded,
+    figures_of_any_test,
+    marks_have_finite_ends,
+    marks_stand_at_targets,
+)
 
 E, R = ExemplaryStandard.quantities
 (WIDTH,) = ExemplaryStandard.position_quantities
@@ -253,60 +262,60 @@ SINS = [
         {"arithmetic": with_e(lambda s: s.mean_positive[..., 0] + next(COUNTER))},
         "other values the second time",
     ),
-    (graphs.figures_of_any_test, {"figures": lambda *_: ()}, "a complete linear test: there is none"),
-    (graphs.figures_of_any_test, {"figures": no_figures_of_one_target}, "a single reading raised IndexError"),
+    (figures_of_any_test, {"figures": lambda *_: ()}, "a complete linear test: there is none"),
+    (figures_of_any_test, {"figures": no_figures_of_one_target}, "a single reading raised IndexError"),
     (
-        graphs.figures_of_any_test,
+        figures_of_any_test,
         {"figures": lambda _, *given: [*EXEMPLARY.figures(*given), *EXEMPLARY.figures(*given)]},
         "key 'means' is there 2 times",
     ),
     (
-        graphs.figures_of_any_test,
+        figures_of_any_test,
         {"figures": with_figure(lambda figure: replace(figure, title=same(f"Figure {next(COUNTER)}")))},
         "the second time they differ",
     ),
     (
-        graphs.figures_are_worded,
+        figures_are_worded,
         {"figures": with_figure(lambda figure: replace(figure, key="The means"))},
         "'The means' must be lower-case",
     ),
     (
-        graphs.figures_are_worded,
+        figures_are_worded,
         {"figures": with_figure(lambda figure: replace(figure, x_title=GERMAN_ONLY))},
         "x_title says nothing in 'en'",
     ),
     (
-        graphs.figures_are_worded,
+        figures_are_worded,
         {"figures": with_figure(lambda figure: replace(figure, y_unit="furlong"))},
         "unit 'furlong' is none of",
     ),
     (
-        graphs.figures_are_worded,
+        figures_are_worded,
         {"figures": with_figure(lambda figure: replace(figure, alternative=same("A rising curve")))},
         "names no value",
     ),
     (
-        graphs.marks_stand_at_targets,
+        marks_stand_at_targets,
         {"figures": with_panel(curves=lambda panel: (replace(panel.curves[0], x=panel.curves[0].x + 1),))},
         "curve x̄i↑ stands at positions that are no targets",
     ),
     (
-        graphs.marks_stand_at_targets,
+        marks_stand_at_targets,
         {"figures": with_panel(arrows=lambda _: (Arrow("B", 0.123, 0.0, 1.0),))},
         "arrow B stands at 0.123",
     ),
     (
-        graphs.marks_stand_at_targets,
+        marks_stand_at_targets,
         {"figures": with_bracket(high_at=0.123)},
         "high_at of bracket E is 0.123",
     ),
     (
-        graphs.curves_have_a_value_at_each_position,
+        curves_have_a_value_at_each_position,
         {"figures": with_panel(curves=lambda panel: (replace(panel.curves[0], y=panel.curves[0].y[:-1]),))},
         "curve x̄i↑ needs a finite value, or NaN, at each position",
     ),
     (
-        graphs.curves_have_a_value_at_each_position,
+        curves_have_a_value_at_each_position,
         {
             "figures": with_panel(
                 curves=lambda panel: (replace(panel.curves[0], y=panel.curves[0].y * np.inf),)
@@ -315,7 +324,7 @@ SINS = [
         "curve x̄i↑ needs a finite value",
     ),
     (
-        graphs.curves_have_a_value_at_each_position,
+        curves_have_a_value_at_each_position,
         {
             "figures": with_panel(
                 bands=lambda panel: (replace(panel.bands[0], lower=panel.bands[0].upper + 1),)
@@ -323,20 +332,20 @@ SINS = [
         },
         "lower limit above its upper limit",
     ),
-    (graphs.marks_have_finite_ends, {"figures": with_bracket(low=np.nan)}, "E spans nan to"),
-    (graphs.marks_have_finite_ends, {"figures": with_bracket(low=1e9)}, "the lower one first"),
+    (marks_have_finite_ends, {"figures": with_bracket(low=np.nan)}, "E spans nan to"),
+    (marks_have_finite_ends, {"figures": with_bracket(low=1e9)}, "the lower one first"),
     (
-        graphs.marks_have_finite_ends,
+        marks_have_finite_ends,
         {"figures": with_panel(levels=lambda _: (Level("0", Role.TOLERANCE, np.nan),))},
         "level 0 is at nan",
     ),
     (
-        graphs.brackets_span_what_is_drawn,
+        brackets_span_what_is_drawn,
         {"figures": with_bracket(low=-123.0)},
         "low end of bracket E is -123.0; nothing is drawn there",
     ),
     (
-        graphs.brackets_are_as_long_as_their_parameter,
+        brackets_are_as_long_as_their_parameter,
         {"figures": with_bracket(low=-123.0)},
         "but the results table has",
     ),

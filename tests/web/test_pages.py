@@ -22,7 +22,7 @@ from zlmreport.model.design import at_positions
 from zlmreport.model.faults import Fault, FaultKind
 from zlmreport.model.residuals import Failure, ResidualTest
 from zlmreport.model.study import Study
-from zlmreport.testing.designs import full_designs
+from zlmreport.testing.measurements import full_designs
 from zlmreport.web.app import Workbench
 from zlmreport.web.effect_page import sketch
 from zlmreport.web.texts import TEXTS, texts

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from zlmreport import plugin as door
-from zlmreport.boundary.guard import Guarded, Unacceptable
+from zlmreport.boundary import Guarded, Unacceptable
 
 if TYPE_CHECKING:
     from zlmreport.certificate.document import Certificate

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from zlmreport.evaluation.evaluation import Evaluation, Parameter
-from zlmreport.figures import alternatives
 from zlmreport.figures.figure import Bar, Figure, Level, Panel, Role
+from zlmreport.figures.prescribed import alternative_text
 from zlmreport.language import Language, Words, same
 from zlmreport.measurement.axis import Axis
 from zlmreport.model import wording
@@ -51,7 +51,7 @@ def conformity_graph(evaluation: Evaluation) -> Figure | None:
     return Figure(
         key="conformity",
         title=title.given(axis=evaluation.measurements.axis.name),
-        alternative=alternatives.text(*sentences),
+        alternative=alternative_text(*sentences),
         x_title=_X_TITLE,
         y_title=_Y_TITLE,
         x_unit="",
@@ -107,7 +107,7 @@ def budget_bars(budget: Budget, axis: Axis) -> Figure:
     return Figure(
         key="budget",
         title=_BUDGET_TITLE,
-        alternative=alternatives.text(*sentences),
+        alternative=alternative_text(*sentences),
         x_title=_CONTRIBUTIONS,
         y_title=_STANDARD_UNCERTAINTY,
         x_unit="",

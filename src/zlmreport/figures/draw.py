@@ -7,13 +7,11 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from zlmreport.figures.canvas import Canvas, Run, Segment
+from zlmreport.figures.canvas import Canvas, Run, Segment, SvgCanvas
 from zlmreport.figures.figure import Figure
 from zlmreport.figures.layout import figure_size, lay_out
-from zlmreport.figures.shapes import Frame, Lettering, Marks, Outline
+from zlmreport.figures.shapes import TRIANGLE_HALF_WIDTH, Frame, Lettering, Mark, Marks, Outline
 from zlmreport.figures.sketch import sketch
-from zlmreport.figures.style import TRIANGLE_HALF_WIDTH, Mark
-from zlmreport.figures.svg import SvgCanvas
 from zlmreport.language import Language
 from zlmreport.quantities.arrays import FloatArray
 

@@ -22,8 +22,7 @@ from zlmreport.figures.panel_layout import (
     level_width,
 )
 from zlmreport.figures.scale import Scale, category_scale, position_scale, value_scales
-from zlmreport.figures.shapes import Box, Frame, PlacedLabel
-from zlmreport.figures.style import TEXT_SIZE, TICK_TEXT_SIZE
+from zlmreport.figures.shapes import TEXT_SIZE, TICK_TEXT_SIZE, Box, Frame, PlacedLabel
 from zlmreport.language import Language, Words
 from zlmreport.quantities.arrays import FloatArray
 

@@ -6,9 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from zlmreport.figures import alternatives
 from zlmreport.figures.figure import Band, Curve, Figure, Panel, Readings, Role
-from zlmreport.figures.prescribed import DEVIATION_TITLE, POSITION_TITLE
+from zlmreport.figures.prescribed import DEVIATION_TITLE, POSITION_TITLE, alternative_text
 from zlmreport.language import Words
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.axis import Axis
@@ -212,7 +211,7 @@ def estimate(diagram: ModelDiagram) -> Figure:
     return diagram.figure(
         "estimate",
         _AT_THE_MEAN.given(title=_TITLE) if moves else _TITLE,
-        alternatives.text(*sentences, _LARGEST.given(largest=wording.deviation(axis, largest))),
+        alternative_text(*sentences, _LARGEST.given(largest=wording.deviation(axis, largest))),
         POSITION_TITLE,
         axis.position_unit.symbol,
         Panel(

@@ -7,10 +7,9 @@ from math import floor, log10
 
 import numpy as np
 
-from zlmreport.figures import alternatives
 from zlmreport.figures.figure import Bar, Curve, Figure, Level, Panel, Role
 from zlmreport.figures.model_diagram import MODEL, RESIDUAL_TITLE, ModelDiagram
-from zlmreport.figures.prescribed import MEANS, POSITION_TITLE
+from zlmreport.figures.prescribed import MEANS, POSITION_TITLE, alternative_text
 from zlmreport.language import Words, same
 from zlmreport.measurement.measurement_set import CONDITION_NAMES, CONDITIONS
 from zlmreport.model import wording
@@ -67,7 +66,7 @@ def over_position(diagram: ModelDiagram) -> Figure:
     return diagram.figure(
         "model",
         _AGAINST_MODEL,
-        alternatives.text(
+        alternative_text(
             diagram.range_sentence(Words(en="Readings", de="Messwerte"), fit.deviation),
             diagram.range_sentence(Words(en="Model", de="Modell"), fit.fitted),
             *diagram.residual_sentences(),
@@ -138,7 +137,7 @@ def slopes_over_time(diagram: ModelDiagram) -> Figure:
     return Figure(
         key="slopes-time",
         title=caption,
-        alternative=alternatives.text(_SLOPES_RANGE.given(caption=caption, unit=slope.symbol, **ends)),
+        alternative=alternative_text(_SLOPES_RANGE.given(caption=caption, unit=slope.symbol, **ends)),
         x_title=title,
         y_title=_SLOPE,
         x_unit=unit_of_time,
@@ -165,7 +164,7 @@ def _residuals(
     return diagram.figure(
         f"residuals-{key}",
         caption,
-        alternatives.text(
+        alternative_text(
             Words("{caption}.", "{caption}.").given(caption=caption), *diagram.residual_sentences()
         ),
         title,
@@ -241,7 +240,7 @@ def fall_chart(history: Sequence[Fitted], missing: Candidate | None = None) -> F
     return Figure(
         key="fall",
         title=_TITLE,
-        alternative=alternatives.text(*sentences),
+        alternative=alternative_text(*sentences),
         x_title=_X_TITLE,
         y_title=_Y_TITLE,
         x_unit="",

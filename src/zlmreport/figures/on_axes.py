@@ -24,9 +24,8 @@ from zlmreport.figures.canvas import Face
 from zlmreport.figures.figure import Figure
 from zlmreport.figures.layout import axis_title, figure_size, lay_out_alone
 from zlmreport.figures.metrics import font_file
-from zlmreport.figures.shapes import Frame, Lettering, Marks, Outline, Shape
+from zlmreport.figures.shapes import TEXT_SIZE, TICK_TEXT_SIZE, Frame, Lettering, Mark, Marks, Outline, Shape
 from zlmreport.figures.sketch import legend_shapes, panel_shapes
-from zlmreport.figures.style import TEXT_SIZE, TICK_TEXT_SIZE, Mark
 from zlmreport.language import Language
 
 if TYPE_CHECKING:

@@ -23,8 +23,7 @@ from zlmreport.figures.dimensions import (
 )
 from zlmreport.figures.figure import Arrow, Band, Bracket, Curve, Level, Panel, Readings
 from zlmreport.figures.metrics import plain_label, symbol_label
-from zlmreport.figures.shapes import Frame, PlacedLabel
-from zlmreport.figures.style import TEXT_SIZE, TICK_TEXT_SIZE
+from zlmreport.figures.shapes import TEXT_SIZE, TICK_TEXT_SIZE, Frame, PlacedLabel
 from zlmreport.language import Language, Words
 from zlmreport.quantities.arrays import FloatArray
 

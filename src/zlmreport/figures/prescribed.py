@@ -13,8 +13,8 @@ from typing import TypeVar
 
 import numpy as np
 
+from zlmreport.evaluation.checks import deviation_in_words, position_in_words, positions_in_words
 from zlmreport.evaluation.evaluation import Evaluation
-from zlmreport.figures import alternatives
 from zlmreport.figures.figure import (
     Arrow,
     Band,
@@ -30,6 +30,7 @@ from zlmreport.language import Words
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.axis import Axis
 from zlmreport.quantities.arrays import BoolArray, FloatArray, read_only_floats
+from zlmreport.quantities.formatting import plain
 
 Mark = TypeVar("Mark")
 
@@ -228,13 +229,13 @@ def comparison_graph(before: Evaluation, after: Evaluation, names: tuple[Words, 
         What the two measurements are called.
     """
     both = tuple(zip((before, after), names, strict=True))
-    sentences = [alternatives.graph_of(after)]
+    sentences = [graph_in_words(after)]
     for evaluation, name in both:
         sentences.extend(_ranges(evaluation, name))
     return Diagram(after).figure(
         "as-found-as-left",
         _TITLE.given(before=names[0], after=names[1]),
-        alternatives.text(*sentences),
+        alternative_text(*sentences),
         [_panel(evaluation, name) for evaluation, name in both],
     )
 
@@ -256,7 +257,7 @@ def _panel(evaluation: Evaluation, name: Words) -> Panel:
 def _ranges(evaluation: Evaluation, name: Words) -> list[Words]:
     diagram = Diagram(evaluation)
     found = [
-        alternatives.range_of(
+        range_in_words(
             diagram.axis,
             _NAME.given(measurement=name, direction=DIRECTIONS[approach]),
             evaluation.statistics.mean[approach.index],
@@ -264,3 +265,75 @@ def _ranges(evaluation: Evaluation, name: Words) -> list[Words]:
         for approach in diagram.approaches
     ]
     return [each for each in found if each is not None]
+
+
+def alternative_text(*sentences: Words | None) -> Words:
+    """Return the sentences as one text; None is left out."""
+    return _joined([sentence for sentence in sentences if sentence is not None], " ")
+
+
+def graph_in_words(evaluation: Evaluation) -> Words:
+    """Return the sentence that says what is drawn over what."""
+    targets = evaluation.measurements.target_positions
+    axis = evaluation.measurements.axis
+    return Words(
+        "Graph of the deviation over the target position for axis {axis}: {positions}, {first} to {last}.",
+        "Diagramm der Abweichung über der Sollposition für Achse {axis}: {positions}, {first} bis {last}.",
+    ).given(
+        axis=axis.name,
+        positions=positions_in_words(len(targets)),
+        first=position_in_words(axis, float(targets[0])),
+        last=position_in_words(axis, float(targets[-1])),
+    )
+
+
+def range_in_words(axis: Axis, name: Words, values: FloatArray) -> Words | None:
+    """Return the sentence on where values (m or rad) lie; None where none is defined."""
+    if not np.isfinite(values).any():
+        return None
+    return Words("{name} from {low} to {high}.", "{name} von {low} bis {high}.").given(
+        name=name,
+        low=deviation_in_words(axis, float(np.nanmin(values))),
+        high=deviation_in_words(axis, float(np.nanmax(values))),
+    )
+
+
+def marks_in_words(axis: Axis, found: Iterable[Arrow | Bracket]) -> Words | None:
+    """Return the sentence on arrows and brackets: symbol, length, place; None where there are none."""
+    written = [_arrow(axis, mark) if isinstance(mark, Arrow) else _bracket(axis, mark) for mark in found]
+    return Words("{marks}.", "{marks}.").given(marks_in_words=_joined(written, "; ")) if written else None
+
+
+def _arrow(axis: Axis, arrow: Arrow) -> Words:
+    return Words("{symbol} = {length} at {x}", "{symbol} = {length} bei {x}").given(
+        symbol=plain(arrow.notation),
+        length=_printed_length(axis, arrow.high - arrow.low),
+        x=_printed_position(axis, arrow.x),
+    )
+
+
+def _bracket(axis: Axis, bracket: Bracket) -> Words:
+    if bracket.low_at == bracket.high_at:
+        return _arrow(axis, Arrow(bracket.notation, bracket.low_at, bracket.low, bracket.high))
+    return Words(
+        "{symbol} = {length}, from its lowest point at {low_at} to its highest at {high_at}",
+        "{symbol} = {length}, vom tiefsten Punkt bei {low_at} bis zum höchsten bei {high_at}",
+    ).given(
+        symbol=plain(bracket.notation),
+        length=_printed_length(axis, bracket.high - bracket.low),
+        low_at=_printed_position(axis, bracket.low_at),
+        high_at=_printed_position(axis, bracket.high_at),
+    )
+
+
+def _printed_length(axis: Axis, value: float) -> Words:
+    return deviation_in_words(axis, axis.deviation_unit.to_si(value))
+
+
+def _printed_position(axis: Axis, value: float) -> Words:
+    return position_in_words(axis, axis.position_unit.to_si(value))
+
+
+def _joined(phrases: list[Words], between: str) -> Words:
+    pattern = between.join(f"{{part{number}}}" for number in range(len(phrases)))
+    return Words(pattern, pattern, {f"part{number}": phrase for number, phrase in enumerate(phrases)})

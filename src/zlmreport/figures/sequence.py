@@ -8,8 +8,8 @@ from itertools import groupby
 import numpy as np
 
 from zlmreport.evaluation.checks import position_in_words, positions_in_words
-from zlmreport.figures import alternatives
 from zlmreport.figures.figure import Curve, Figure, Panel, Readings, Role
+from zlmreport.figures.prescribed import alternative_text
 from zlmreport.language import Words
 from zlmreport.measurement.approach import Approach
 from zlmreport.planning.programs import Motion, ProgramStop
@@ -78,7 +78,7 @@ def _readings(motion: Motion) -> Iterator[Readings]:
 def _alternative(motion: Motion) -> Words:
     to_si = motion.axis.position_unit.to_si
     readings = sum(stop.reading is not None for stop in motion.stops)
-    return alternatives.text(
+    return alternative_text(
         _SENTENCE.given(
             readings=readings,
             runs=readings // len(motion.targets),

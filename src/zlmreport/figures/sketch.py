@@ -12,8 +12,7 @@ from zlmreport.figures.figure import Band, Bar, Curve, Readings, Role
 from zlmreport.figures.layout import TICK_GAP, TICK_LENGTH, TICK_LINE, FigureLayout
 from zlmreport.figures.metrics import plain_label
 from zlmreport.figures.panel_layout import LEGEND_GAP, LINE_SAMPLE, MARK_SAMPLE, Entry, PanelLayout
-from zlmreport.figures.shapes import Box, Frame, Lettering, Marks, Outline, PlacedLabel, Shape, area, lines
-from zlmreport.figures.style import (
+from zlmreport.figures.shapes import (
     BAR,
     DIMENSION,
     EXTENSION,
@@ -29,7 +28,16 @@ from zlmreport.figures.style import (
     TICK,
     TICK_TEXT_SIZE,
     ZERO,
+    Box,
+    Frame,
+    Lettering,
+    Marks,
+    Outline,
+    PlacedLabel,
     RoleStyle,
+    Shape,
+    area,
+    lines,
 )
 from zlmreport.quantities.arrays import BoolArray, FloatArray
 

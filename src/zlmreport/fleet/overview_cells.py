@@ -12,8 +12,7 @@ from pathlib import Path
 from urllib.parse import quote
 
 from zlmreport.evaluation.evaluation import Quantity
-from zlmreport.figures.canvas import Fill, Segment, Stroke
-from zlmreport.figures.svg import SvgCanvas
+from zlmreport.figures.canvas import Fill, Segment, Stroke, SvgCanvas
 from zlmreport.fleet import overview_words as words
 from zlmreport.fleet.causes import Cause
 from zlmreport.fleet.drifts import LEAST_DATES, Trend

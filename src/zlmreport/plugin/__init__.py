@@ -56,21 +56,20 @@ _ROOMS = {
         "PositionStatistics largest_over_positions=largest mean_over_positions=average position_statistics "
         "range_over_positions=width smallest_over_positions=smallest span_over_positions=span"
     ),
-    "zlmreport.figures.alternatives": (
-        "alternative_text=text graph_in_words=graph_of marks_in_words=marks range_in_words=range_of"
+    "zlmreport.figures.canvas": (
+        "Canvas Colour Fill FontFace=Face Segment Stroke SvgCanvas TextLabel=Label TextRun=Run "
+        "hexadecimal_colour=hexadecimal"
     ),
-    "zlmreport.figures.canvas": "Canvas Colour Fill FontFace=Face Segment Stroke TextLabel=Label TextRun=Run",
     "zlmreport.figures.draw": "draw_figure=draw figure_to_svg=to_svg",
     "zlmreport.figures.figure": "Arrow Band Bracket Curve Figure Level Panel Role",
     "zlmreport.figures.layout": "GRAPH_WIDTH=WIDTH figure_size",
     "zlmreport.figures.metrics": "has_letter mark_offset plain_label text_advance=advance",
     "zlmreport.figures.prescribed": (
-        "APPROACH_TITLES=DIRECTIONS Diagram LIMIT_ROLES=LIMITS MEAN_ROLES=MEANS diagram_panel=panel "
-        "worst_position=worst"
+        "APPROACH_TITLES=DIRECTIONS Diagram LIMIT_ROLES=LIMITS MEAN_ROLES=MEANS alternative_text "
+        "diagram_panel=panel graph_in_words marks_in_words range_in_words worst_position=worst"
     ),
     "zlmreport.figures.scale": "round_ticks",
-    "zlmreport.figures.style": "GRAPH_TEXT_SIZE=TEXT_SIZE INK_COLOUR=INK ROLE_STYLES=ROLES",
-    "zlmreport.figures.svg": "SvgCanvas hexadecimal_colour=hexadecimal",
+    "zlmreport.figures.shapes": "GRAPH_TEXT_SIZE=TEXT_SIZE INK_COLOUR=INK ROLE_STYLES=ROLES",
     "zlmreport.files": "Appended take_names unwritable",
     "zlmreport.job.document_keys": "Customer Laboratory",
     "zlmreport.job.evaluation_keys": "ProgramKeys",

@@ -23,16 +23,14 @@ from zlmreport.evaluation.evaluate import evaluate
 from zlmreport.evaluation.evaluation import Arithmetic, Basis, Conformity, Decision, Parameter as EvaluatedParameter, Evaluation, Finding, PositionQuantity, Quantity, Group as QuantityGroup
 from zlmreport.evaluation.report import report_evaluation
 from zlmreport.evaluation.statistics import PositionStatistics, largest as largest_over_positions, average as mean_over_positions, position_statistics, width as range_over_positions, smallest as smallest_over_positions, span as span_over_positions
-from zlmreport.figures.alternatives import text as alternative_text, graph_of as graph_in_words, marks as marks_in_words, range_of as range_in_words
-from zlmreport.figures.canvas import Canvas, Colour, Fill, Face as FontFace, Segment, Stroke, Label as TextLabel, Run as TextRun
+from zlmreport.figures.canvas import Canvas, Colour, Fill, Face as FontFace, Segment, Stroke, SvgCanvas, Label as TextLabel, Run as TextRun, hexadecimal as hexadecimal_colour
 from zlmreport.figures.draw import draw as draw_figure, to_svg as figure_to_svg
 from zlmreport.figures.figure import Arrow, Band, Bracket, Curve, Figure, Level, Panel, Role
 from zlmreport.figures.layout import WIDTH as GRAPH_WIDTH, figure_size
 from zlmreport.figures.metrics import has_letter, mark_offset, plain_label, advance as text_advance
-from zlmreport.figures.prescribed import DIRECTIONS as APPROACH_TITLES, Diagram, LIMITS as LIMIT_ROLES, MEANS as MEAN_ROLES, panel as diagram_panel, worst as worst_position
+from zlmreport.figures.prescribed import DIRECTIONS as APPROACH_TITLES, Diagram, LIMITS as LIMIT_ROLES, MEANS as MEAN_ROLES, alternative_text, panel as diagram_panel, graph_in_words, marks_in_words, range_in_words, worst as worst_position
 from zlmreport.figures.scale import round_ticks
-from zlmreport.figures.style import TEXT_SIZE as GRAPH_TEXT_SIZE, INK as INK_COLOUR, ROLES as ROLE_STYLES
-from zlmreport.figures.svg import SvgCanvas, hexadecimal as hexadecimal_colour
+from zlmreport.figures.shapes import TEXT_SIZE as GRAPH_TEXT_SIZE, INK as INK_COLOUR, ROLES as ROLE_STYLES
 from zlmreport.files import Appended, take_names, unwritable
 from zlmreport.job.document_keys import Customer, Laboratory
 from zlmreport.job.evaluation_keys import ProgramKeys

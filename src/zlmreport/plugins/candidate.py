@@ -12,7 +12,7 @@ from typing import Any, TypeAlias
 
 import pluggy
 
-from zlmreport.boundary.guard import guarded
+from zlmreport.boundary import guarded
 from zlmreport.errors import Place, Problem, did_you_mean
 from zlmreport.plugin.kinds import KINDS, PROJECT, Kind, specifications
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Any, Self, TypeVar, cast
 
-from zlmreport.boundary.guard import Guarded
+from zlmreport.boundary import Guarded
 from zlmreport.errors import InputError, Place, Problem, ZlmreportError, did_you_mean
 from zlmreport.language import Words
 from zlmreport.plugin import kinds

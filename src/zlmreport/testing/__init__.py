@@ -20,11 +20,10 @@ expected. The kit needs no test framework.
 
 from zlmreport.testing.certificates import sample_certificate
 from zlmreport.testing.controllers import CONTROLLER_CHECKS, check_controller
-from zlmreport.testing.designs import full_designs
 from zlmreport.testing.effects import EFFECT_CHECKS, check_effect
 from zlmreport.testing.extensions import EXTENSION_CHECKS, check_extension
 from zlmreport.testing.instruments import INSTRUMENT_CHECKS, check_instrument
-from zlmreport.testing.measurements import bidirectional_test, simulated_test
+from zlmreport.testing.measurements import bidirectional_test, full_designs, simulated_test
 from zlmreport.testing.notifiers import NOTIFIER_CHECKS, NotifierTrial, check_notifier
 from zlmreport.testing.part_programs import PART_PROGRAM_CHECKS, check_part_program, sample_motion
 from zlmreport.testing.renderers import RENDERER_CHECKS, check_renderer

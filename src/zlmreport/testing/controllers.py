@@ -16,10 +16,9 @@ from zlmreport.quantities.arrays import read_only_floats
 from zlmreport.testing.expectations import (
     check,
     expect,
-    expect_identifier,
     expect_members,
+    expect_named,
     expect_options,
-    expect_own_keys,
     expect_words,
     run_all,
 )
@@ -47,9 +46,7 @@ def sample_table(rows: int = 11, step: float = 0.03) -> CompensationTable:
 @check
 def is_named(controller: Controller, _keys: Mapping[str, Any]) -> None:
     """Check its identifier, its title, its notes and its confidence."""
-    expect_members(controller, Controller)
-    expect_identifier(controller.identifier, repr(controller))
-    expect_words(controller.title, f"{controller.identifier}: title")
+    expect_named(controller, Controller)
     for note in controller.notes:
         expect_words(note, f"{controller.identifier}: a note")
     known = {"verified", "documented", "unconfirmed"}
@@ -59,8 +56,7 @@ def is_named(controller: Controller, _keys: Mapping[str, Any]) -> None:
 @check
 def options_are_described(controller: Controller, _keys: Mapping[str, Any]) -> None:
     """Check that its job keys are described, none is a key of the core, and all have defaults."""
-    expect_options(controller.options, controller.identifier)
-    expect_own_keys(controller.options, frozenset({"controller"}), controller.identifier)
+    expect_options(controller, frozenset({"controller"}))
     controller.options()
 
 

@@ -14,7 +14,6 @@ from zlmreport.model.effect import Confusion, Dimension, Effect, Parameter, Shap
 from zlmreport.model.observations import of_readings
 from zlmreport.quantities.arrays import FloatArray, read_only_floats
 from zlmreport.quantities.formatting import plain
-from zlmreport.testing.designs import full_designs, poor_designs
 from zlmreport.testing.expectations import (
     check,
     expect,
@@ -24,6 +23,7 @@ from zlmreport.testing.expectations import (
     run_all,
     same_value,
 )
+from zlmreport.testing.measurements import full_designs, poor_designs
 
 Designs = Mapping[str, Design]
 
@@ -100,7 +100,7 @@ def parameters_are_described(effect: Effect, _: Designs) -> None:
 @check
 def keys_are_described(effect: Effect, _: Designs) -> None:
     """Check that its own job keys are described, and none is called like a parameter."""
-    expect_options(effect.options, effect.identifier)
+    expect_options(effect)
     expect(
         isinstance(effect.settings, effect.options),
         f"{effect.identifier}: settings must be the options of this form, {effect.options.__name__}(…)",

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from zlmreport.boundary.guard import told
+from zlmreport.boundary import told
 from zlmreport.errors import ZlmreportError
 from zlmreport.job.types import Options
 from zlmreport.language import Language, Words
@@ -100,18 +100,22 @@ def expect_words(words: object, owner: str) -> None:
         expect(text.strip(), f"{owner} says nothing in '{language}'")
 
 
-def expect_options(options: object, owner: str) -> None:
-    """Expect a subclass of `Options` whose keys are all described."""
+def expect_named(plugin: Any, protocol: type) -> None:
+    """Expect every member of a protocol, an identifier that can be typed, and a title in every language."""
+    expect_members(plugin, protocol)
+    expect_identifier(plugin.identifier, repr(plugin))
+    expect_words(plugin.title, f"{plugin.identifier}: title")
+
+
+def expect_options(plugin: Any, taken: frozenset[str] = frozenset()) -> None:
+    """Expect job keys that are all described, and none that every plugin of the kind has."""
+    options, owner = plugin.options, plugin.identifier
     expect(
         isinstance(options, type) and issubclass(options, Options),
         f"{owner}: options must be a subclass of zlmreport.job.types.Options, not {options!r}",
     )
-    for key, field in options.model_fields.items():  # type: ignore[attr-defined]  # said above
+    for key, field in options.model_fields.items():
         expect(field.description, f"{owner}: job key '{key}' needs a description (Field(description=…))")
-
-
-def expect_own_keys(options: type[Options], taken: frozenset[str], owner: str) -> None:
-    """Expect that none of a plugin's job keys is one of those that every plugin of its kind has."""
     clashes = sorted(taken & set(options.model_fields))
     expect(not clashes, f"{owner}: job keys {', '.join(clashes)} belong to the core; choose other names")
 

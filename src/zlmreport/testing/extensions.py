@@ -34,7 +34,7 @@ def is_named(extension: Extension) -> None:
 @check
 def keys_are_described(extension: Extension) -> None:
     """Check that its keys are described, and that its example uses no others."""
-    expect_options(extension.options, extension.identifier)
+    expect_options(extension)
     unknown = sorted(extension.example.keys() - keys_in(extension.options).keys())
     expect(not unknown, f"{extension.identifier}: the example has the unknown keys {', '.join(unknown)}")
 

@@ -21,11 +21,9 @@ from zlmreport.plugin.protocols import Instrument
 from zlmreport.testing.expectations import (
     check,
     expect,
-    expect_identifier,
     expect_members,
+    expect_named,
     expect_options,
-    expect_own_keys,
-    expect_words,
     run_all,
 )
 
@@ -49,16 +47,13 @@ _WATCHED, _PATIENCE = 1.6, 20.0
 @check
 def is_named(instrument: Instrument) -> None:
     """Check that it has an identifier that can be typed, and a title in every language."""
-    expect_members(instrument, Instrument)
-    expect_identifier(instrument.identifier, repr(instrument))
-    expect_words(instrument.title, f"{instrument.identifier}: title")
+    expect_named(instrument, Instrument)
 
 
 @check
 def options_are_described(instrument: Instrument) -> None:
     """Check that its keys are described, that a port is one of them, and that nothing else is required."""
-    expect_options(instrument.options, instrument.identifier)
-    expect_own_keys(instrument.options, _CORE_KEYS, instrument.identifier)
+    expect_options(instrument, _CORE_KEYS)
     fields = instrument.options.model_fields
     expect("port" in fields, f"{instrument.identifier}: there is no key 'port'")
     required = sorted(name for name, field in fields.items() if field.is_required() and name != "port")

@@ -12,11 +12,9 @@ from zlmreport.plugin.protocols import Message, Notifier, Occasion
 from zlmreport.testing.expectations import (
     check,
     expect,
-    expect_identifier,
     expect_members,
+    expect_named,
     expect_options,
-    expect_own_keys,
-    expect_words,
     run_all,
 )
 
@@ -57,16 +55,13 @@ def _options(notifier: Notifier, keys: Mapping[str, Any]) -> Any:
 @check
 def is_named(notifier: Notifier, _trial: NotifierTrial) -> None:
     """Check its identifier and its title."""
-    expect_members(notifier, Notifier)
-    expect_identifier(notifier.identifier, repr(notifier))
-    expect_words(notifier.title, f"{notifier.identifier}: title")
+    expect_named(notifier, Notifier)
 
 
 @check
 def options_are_described(notifier: Notifier, _trial: NotifierTrial) -> None:
     """Check that its keys are described, and none is a key of the core."""
-    expect_options(notifier.options, notifier.identifier)
-    expect_own_keys(notifier.options, NOTIFIER.reserved, notifier.identifier)
+    expect_options(notifier, NOTIFIER.reserved)
 
 
 @check

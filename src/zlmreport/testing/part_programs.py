@@ -21,11 +21,9 @@ from zlmreport.quantities.arrays import read_only_floats
 from zlmreport.testing.expectations import (
     check,
     expect,
-    expect_identifier,
     expect_members,
+    expect_named,
     expect_options,
-    expect_own_keys,
-    expect_words,
     run_all,
 )
 
@@ -34,11 +32,9 @@ _CORE_KEYS = frozenset({"program"})
 _LONGEST_LINE = 200
 
 
-def expect_named(program: Any, protocol: type, suffix: str) -> None:
+def expect_program_named(program: Any, protocol: type, suffix: str) -> None:
     """Expect an identifier that can be typed, a title in every language, and a suffix like the given one."""
-    expect_members(program, protocol)
-    expect_identifier(program.identifier, repr(program))
-    expect_words(program.title, f"{program.identifier}: title")
+    expect_named(program, protocol)
     expect(
         _SUFFIX.fullmatch(program.suffix),
         f"{program.identifier}: suffix {program.suffix!r} must be like {suffix!r}",
@@ -47,8 +43,7 @@ def expect_named(program: Any, protocol: type, suffix: str) -> None:
 
 def expect_defaults(program: Any) -> None:
     """Expect job keys that are described, none of them a key of the core, and all with a default."""
-    expect_options(program.options, program.identifier)
-    expect_own_keys(program.options, _CORE_KEYS, program.identifier)
+    expect_options(program, _CORE_KEYS)
     required = [key for key, field in program.options.model_fields.items() if field.is_required()]
     expect(
         not required,
@@ -147,7 +142,7 @@ _HOSTILE = ("X) G0 X9999 (", "X\nG0 X9999\n", "X;G0 X9999", "MSG,%\rM3 S9999", "
 @check
 def is_named(program: PartProgram, _interpreter: Interpreter, _keys: Mapping[str, Any]) -> None:
     """Check that it has an identifier that can be typed, a title in every language, and a file suffix."""
-    expect_named(program, PartProgram, ".ngc")
+    expect_program_named(program, PartProgram, ".ngc")
 
 
 @check

@@ -17,14 +17,7 @@ from xml.etree import ElementTree as ET
 from zlmreport.language import Language
 from zlmreport.plugin.protocols import Renderer
 from zlmreport.testing.certificates import MARKUP, NUMBER, sample_certificate, worded_certificate
-from zlmreport.testing.expectations import (
-    check,
-    expect,
-    expect_identifier,
-    expect_members,
-    expect_words,
-    run_all,
-)
+from zlmreport.testing.expectations import check, expect, expect_members, expect_named, run_all
 
 _SUFFIX = re.compile(r"\.[a-z0-9]+(\.[a-z0-9]+)*")
 #: 26 hours apart: in these two zones it is never the same date.
@@ -34,9 +27,7 @@ _ZONES = ("UTC-14", "UTC+12")
 @check
 def is_named(renderer: Renderer) -> None:
     """Check that it has an identifier that can be typed, a title in every language, and a file suffix."""
-    expect_members(renderer, Renderer)
-    expect_identifier(renderer.identifier, repr(renderer))
-    expect_words(renderer.title, f"{renderer.identifier}: title")
+    expect_named(renderer, Renderer)
     expect(
         _SUFFIX.fullmatch(renderer.suffix),
         f"{renderer.identifier}: suffix {renderer.suffix!r} must be like '.pdf'",

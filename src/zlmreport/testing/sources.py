@@ -19,10 +19,9 @@ from zlmreport.plugin.protocols import DataSource, SourceContext
 from zlmreport.testing.expectations import (
     check,
     expect,
-    expect_identifier,
     expect_members,
+    expect_named,
     expect_options,
-    expect_own_keys,
     expect_words,
     run_all,
     same_value,
@@ -62,16 +61,13 @@ class FileContents:
 @check
 def is_named(source: DataSource, _keys: Mapping[str, Any], _axis: OfAxis, *_: Any) -> None:
     """Check that it has an identifier that can be typed, and a title in every language."""
-    expect_members(source, DataSource)
-    expect_identifier(source.identifier, repr(source))
-    expect_words(source.title, f"{source.identifier}: title")
+    expect_named(source, DataSource)
 
 
 @check
 def options_are_described(source: DataSource, _keys: Mapping[str, Any], _axis: OfAxis, *_: Any) -> None:
     """Check that its job keys are described, and none is a key of the core."""
-    expect_options(source.options, source.identifier)
-    expect_own_keys(source.options, _CORE_KEYS, source.identifier)
+    expect_options(source, _CORE_KEYS)
 
 
 @check

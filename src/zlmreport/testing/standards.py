@@ -1,15 +1,22 @@
-"""What every standard must be: its definitions here, its formulas and graphs in the modules beside."""
+"""What every standard must be: its definitions and its graphs here, its formulas in the module beside."""
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
-from zlmreport.evaluation.evaluation import Basis, Finding, Group, PositionQuantity, Quantity
+import numpy as np
+
+from zlmreport.evaluation.evaluate import evaluate
+from zlmreport.evaluation.evaluation import Basis, Evaluation, Finding, Group, PositionQuantity, Quantity
+from zlmreport.figures.figure import Arrow, Band, Bracket, Curve, Figure, Panel, Readings
 from zlmreport.job.types import Options
+from zlmreport.language import Language
 from zlmreport.plugin.protocols import Standard
+from zlmreport.quantities.arrays import FloatArray
 from zlmreport.quantities.formatting import plain
+from zlmreport.quantities.units import ANGLES, LENGTHS, Unit
 from zlmreport.testing.arithmetic import ARITHMETIC_CHECKS
 from zlmreport.testing.expectations import (
     check,
@@ -17,18 +24,20 @@ from zlmreport.testing.expectations import (
     expect_identifier,
     expect_members,
     expect_options,
-    expect_own_keys,
     expect_words,
     run_all,
     same_value,
 )
-from zlmreport.testing.graphs import GRAPH_CHECKS
 from zlmreport.testing.measurements import good_tests, poor_tests
 
 _INDICES = frozenset("ij")
 #: Columns that every table by position has, and keys of a job that belong to every standard.
 _CORE_COLUMNS = frozenset({"target", "mean_fwd", "mean_bwd", "mean", "s_fwd", "s_bwd", "reversal"})
 _CORE_KEYS = frozenset({"standard", "tolerances"})
+
+_UNITS = {unit.symbol: unit for unit in (*LENGTHS, *ANGLES)}
+#: Of a value on a graph, which went through a change of unit; relative to the largest.
+_RELATIVE = 1e-9
 
 
 @check
@@ -55,8 +64,7 @@ def is_named(standard: Standard, _: Options) -> None:
 @check
 def options_are_described(standard: Standard, _: Options) -> None:
     """Check that its job keys are described, and none is a key of the core."""
-    expect_options(standard.options, standard.identifier)
-    expect_own_keys(standard.options, _CORE_KEYS, standard.identifier)
+    expect_options(standard, _CORE_KEYS)
 
 
 @check
@@ -120,6 +128,193 @@ def _expect_finding(finding: object, where: str) -> None:
     expect(isinstance(finding.basis, Basis), f"{where}: basis must be a Basis, not {finding.basis!r}")
 
 
+@check
+def figures_of_any_test(standard: Standard, options: Options) -> None:
+    """Check that a complete test gives graphs, and a poor test graphs of what there is, or none."""
+    good, poor = good_tests(), poor_tests()
+    for kind, measurements in {**good, **poor}.items():
+        where = f"{standard.identifier}: figures of {kind}"
+        evaluation = evaluate(standard, measurements, options, {})
+        try:
+            figures = tuple(standard.figures(evaluation, options))
+            again = tuple(standard.figures(evaluation, options))
+        except Exception as error:
+            message = f"{where} raised {error!r}; a poor test gives graphs of what there is"
+            raise AssertionError(message) from error
+        expect(figures or kind in poor, f"{where}: there is none")
+        for key, times in Counter(figure.key for figure in figures).items():
+            expect(times == 1, f"{where}: key {key!r} is there {times} times; keys are unique")
+        expect(same_value(figures, again), f"{where}: the second time they differ from the first")
+
+
+@check
+def figures_are_worded(standard: Standard, options: Options) -> None:
+    """Check that a graph has its caption, its axes, and a description with its values, in every language."""
+    for where, figure, _ in _figures(standard, options):
+        expect_identifier(figure.key, f"{where}: key")
+        for name, words in (
+            ("title", figure.title),
+            ("alternative", figure.alternative),
+            ("x_title", figure.x_title),
+            ("y_title", figure.y_title),
+        ):
+            expect_words(words, f"{where}: {name}")
+        for unit in (figure.x_unit, figure.y_unit):
+            expect(unit in _UNITS, f"{where}: unit {unit!r} is none of {', '.join(_UNITS)}")
+    for kind in good_tests():
+        for where, figure, _ in _figures(standard, options, kind):
+            for language in Language:
+                text = figure.alternative.in_language(language)
+                expect(
+                    any(map(str.isdigit, text)),
+                    f"{where}: alternative in '{language}' names no value: {text!r}",
+                )
+
+
+@check
+def marks_stand_at_targets(standard: Standard, options: Options) -> None:
+    """Check that curves, bands, arrows and brackets stand at target positions of the test."""
+    for where, figure, evaluation in _figures(standard, options):
+        targets = _UNITS[figure.x_unit].from_si(evaluation.measurements.target_positions)
+        for panel in figure.panels:
+            for mark in _marks(panel):
+                expect(
+                    mark.x.ndim == 1 and _all_among(mark.x, targets),
+                    f"{where}: {_name(mark)} stands at positions that are no targets: {mark.x}",
+                )
+            for arrow in panel.arrows:
+                expect(
+                    _all_among(arrow.x, targets),
+                    f"{where}: arrow {plain(arrow.notation)} stands at {arrow.x}, no target of the test",
+                )
+            for bracket in panel.brackets:
+                for end, position in (("low_at", bracket.low_at), ("high_at", bracket.high_at)):
+                    expect(
+                        _all_among(position, targets),
+                        f"{where}: {end} of bracket {plain(bracket.notation)} is {position}, no target",
+                    )
+
+
+@check
+def curves_have_a_value_at_each_position(standard: Standard, options: Options) -> None:
+    """Check that curves and bands have a value at each position, and a band its limits in order."""
+    for where, figure, _ in _figures(standard, options):
+        for panel in figure.panels:
+            for mark in _marks(panel):
+                values = (mark.lower, mark.upper) if isinstance(mark, Band) else (mark.y,)
+                for value in values:
+                    expect(
+                        value.shape == mark.x.shape and not np.any(np.isinf(value)),
+                        f"{where}: {_name(mark)} needs a finite value, or NaN, at each position: {value}",
+                    )
+            for band in panel.bands:
+                expect(
+                    not np.any(band.lower > band.upper),
+                    f"{where}: {_name(band)} has a lower limit above its upper limit",
+                )
+
+
+@check
+def marks_have_finite_ends(standard: Standard, options: Options) -> None:
+    """Check that arrows, brackets and levels have finite ends, the lower one first."""
+    for where, figure, _ in _figures(standard, options):
+        for panel in figure.panels:
+            spans: tuple[Arrow | Bracket, ...] = (*panel.arrows, *panel.brackets)
+            for mark in spans:
+                expect(
+                    np.isfinite(mark.low) and np.isfinite(mark.high) and mark.low <= mark.high,
+                    f"{where}: {plain(mark.notation)} spans {mark.low} to {mark.high}; expected finite ends, "
+                    "the lower one first; leave out what the test does not define",
+                )
+            for level in panel.levels:
+                expect(np.isfinite(level.y), f"{where}: level {plain(level.notation)} is at {level.y}")
+
+
+@check
+def brackets_span_what_is_drawn(standard: Standard, options: Options) -> None:
+    """Check that a bracket's ends are values that the panel shows at their targets, or its zero line."""
+    for where, figure, _ in _figures(standard, options):
+        for panel in figure.panels:
+            for bracket in panel.brackets:
+                for end, value, position in (
+                    ("low", bracket.low, bracket.low_at),
+                    ("high", bracket.high, bracket.high_at),
+                ):
+                    shown = _values_at(panel, position)
+                    expect(
+                        _all_among(value, shown),
+                        f"{where}: {end} end of bracket {plain(bracket.notation)} is {value}; nothing is "
+                        f"drawn there at {position}, but {np.unique(shown)}",
+                    )
+
+
+@check
+def brackets_are_as_long_as_their_parameter(standard: Standard, options: Options) -> None:
+    """Check that a bracket that carries a parameter's notation spans exactly the parameter's value."""
+    for where, figure, evaluation in _figures(standard, options):
+        unit = _UNITS[figure.y_unit]
+        for panel in figure.panels:
+            for bracket in panel.brackets:
+                for value in _values_of(bracket, evaluation, unit):
+                    scale = max(abs(bracket.low), abs(bracket.high), abs(value))
+                    expect(
+                        abs((bracket.high - bracket.low) - abs(value)) <= 2 * _RELATIVE * scale,
+                        f"{where}: bracket {plain(bracket.notation)} spans {bracket.high - bracket.low} "
+                        f"{unit.symbol}, but the results table has {value}",
+                    )
+
+
+def _figures(
+    standard: Standard, options: Options, kind: str | None = None
+) -> Iterator[tuple[str, Figure, Evaluation]]:
+    """Yield every figure of every test (or of one kind of test), with what to call it in a sentence."""
+    tests = {**good_tests(), **poor_tests()}
+    for name in tests if kind is None else [kind]:
+        evaluation = evaluate(standard, tests[name], options, {})
+        for figure in standard.figures(evaluation, options):
+            yield f"{standard.identifier}: figure '{figure.key}' of {name}", figure, evaluation
+
+
+def _marks(panel: Panel) -> tuple[Curve | Band | Readings, ...]:
+    """Return what has a value at each of many positions."""
+    return (*panel.curves, *panel.bands, *panel.readings)
+
+
+def _name(mark: Curve | Band | Readings) -> str:
+    if isinstance(mark, Readings):
+        return f"the readings {mark.approach.arrow}"
+    return f"{type(mark).__name__.lower()} {plain(mark.notation)}"
+
+
+def _all_among(values: float | FloatArray, allowed: FloatArray) -> bool:
+    """Return whether each value is, but for the rounding of a change of unit, among the allowed ones."""
+    values = np.atleast_1d(values)
+    tolerance = _RELATIVE * max(np.max(np.abs(allowed), initial=0.0), np.max(np.abs(values), initial=0.0))
+    return all(np.any(np.abs(allowed - value) <= tolerance) for value in values)
+
+
+def _values_at(panel: Panel, position: float) -> FloatArray:
+    """Return every value that a panel shows at a position, that of its zero line among them."""
+    values = [np.zeros(1), np.array([level.y for level in panel.levels])]
+    values += [curve.y[np.isclose(curve.x, position)] for curve in panel.curves]
+    values += [readings.y[np.isclose(readings.x, position)] for readings in panel.readings]
+    for band in panel.bands:
+        there = np.isclose(band.x, position)
+        values += [band.lower[there], band.upper[there]]
+    for arrow in panel.arrows:
+        if np.isclose(arrow.x, position):
+            values.append(np.array([arrow.low, arrow.high]))
+    shown = np.concatenate(values)
+    defined: FloatArray = shown[~np.isnan(shown)]
+    return defined
+
+
+def _values_of(bracket: Bracket, evaluation: Evaluation, unit: Unit) -> Iterator[float]:
+    for parameter in evaluation.parameters:
+        if parameter.quantity.notation == bracket.notation:
+            yield unit.from_si(parameter.value)
+
+
 #: Every check of a standard, each called with the standard and its validated options.
 STANDARD_CHECKS = (
     has_all_members,
@@ -129,7 +324,13 @@ STANDARD_CHECKS = (
     quantities_are_worded,
     requirements_never_refuse,
     *ARITHMETIC_CHECKS,
-    *GRAPH_CHECKS,
+    figures_of_any_test,
+    figures_are_worded,
+    marks_stand_at_targets,
+    curves_have_a_value_at_each_position,
+    marks_have_finite_ends,
+    brackets_span_what_is_drawn,
+    brackets_are_as_long_as_their_parameter,
 )
 
 

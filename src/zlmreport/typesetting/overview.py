@@ -18,7 +18,7 @@ def drawing(image: str) -> Markup:
     Parameters
     ----------
     image
-        As `zlmreport.figures.svg.SvgCanvas` writes it, which escapes all text.
+        As `zlmreport.figures.canvas.SvgCanvas` writes it, which escapes all text.
     """
     return Markup(image.strip())  # noqa: S704 (the canvas has escaped every text)
 

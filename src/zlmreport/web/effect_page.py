@@ -18,7 +18,7 @@ from zlmreport.plugins import Registry
 from zlmreport.presenting.model import parameter_rows
 from zlmreport.quantities.arrays import FloatArray
 from zlmreport.quantities.formatting import general_number
-from zlmreport.testing.designs import full_designs
+from zlmreport.testing.measurements import full_designs
 from zlmreport.web.bench import Bench, Loaded
 from zlmreport.web.panels import parameter_values, symbol
 
