@@ -52,8 +52,7 @@ __all__ = [
 ]
 _ROOMS = {
     "errors": "AccessError InputError ZlmreportError",
-    "notebook.compensations": "Compensation compensate",
-    "notebook.documents": "Certificate Verification certificate verify",
+    "notebook.documents": "Certificate Compensation Verification certificate compensate verify",
     "notebook.models": "Diagnosis Model fit",
     "notebook.readings": "Readings read simulate test=of_arrays",
     "notebook.results": "Result Value evaluate",

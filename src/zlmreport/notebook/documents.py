@@ -1,4 +1,4 @@
-"""Certificates for notebooks: made from jobs, and verified."""
+"""Certificates for notebooks, made from jobs and verified; and compensation tables with their forecast."""
 
 from __future__ import annotations
 
