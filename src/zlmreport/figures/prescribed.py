@@ -301,7 +301,7 @@ def range_in_words(axis: Axis, name: Words, values: FloatArray) -> Words | None:
 def marks_in_words(axis: Axis, found: Iterable[Arrow | Bracket]) -> Words | None:
     """Return the sentence on arrows and brackets: symbol, length, place; None where there are none."""
     written = [_arrow(axis, mark) if isinstance(mark, Arrow) else _bracket(axis, mark) for mark in found]
-    return Words("{marks}.", "{marks}.").given(marks_in_words=_joined(written, "; ")) if written else None
+    return Words("{marks}.", "{marks}.").given(marks=_joined(written, "; ")) if written else None
 
 
 def _arrow(axis: Axis, arrow: Arrow) -> Words:
