@@ -34,6 +34,7 @@ OTHERS = {
     "step-gauge": ("step_gauge_coverage", "main"),
     "kills": ("kills", "main"),
     "fleet": ("fleet_nights", "main"),
+    "thousand": ("fleet_thousand", "main"),
     "trends": ("fleet_trends", "main"),
     "unchanged": ("fleet_unchanged", "main"),
 }

@@ -123,7 +123,7 @@ def _night(folder: Path) -> Night:
             if json.loads(line)["event"] in {"begun", "ended"}:
                 continue
             made += 1
-            megabytes = _of_workers(process.pid)
+            megabytes = memory_of_workers(process.pid)
             if WORKERS * _SETTLED <= made < WORKERS * _SETTLED + _READINGS:
                 settled.append(megabytes)
             last = [*last[1 - _READINGS :], megabytes]
@@ -133,7 +133,7 @@ def _night(folder: Path) -> Night:
     return Night(seconds, _mean(settled), _mean(last[:-WORKERS]))
 
 
-def _of_workers(command: int) -> float:
+def memory_of_workers(command: int) -> float:
     """Return the memory in use of one worker of a command, MB: of the children of its server of processes."""
     pages = [
         int(Path(f"/proc/{worker}/statm").read_text(encoding="ascii").split()[1])

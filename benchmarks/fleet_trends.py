@@ -25,7 +25,7 @@ CHANGED_AT = 7
 #: Of the fleet in which one parameter drifts.
 _AXES, _PARAMETERS = 25, 12
 _FIRST = date(2020, 1, 15)
-_ENTRY = Entry("", "", "", "", "", "", "", State.MADE)
+_ENTRY = Entry(job="", night="", state=State.MADE)
 
 #: How the axes of a fleet scatter, by what the table calls it.
 SCATTERS: dict[str, Callable[[random.Random], float]] = {

@@ -21,7 +21,7 @@ from zlmreport.model.axis_model import ModelError
 from zlmreport.model.diagnosis import diagnose
 from zlmreport.model.fit import Fit, fit
 from zlmreport.model.observations import observations_of
-from zlmreport.model.priors import Expected, learned
+from zlmreport.model.priors import Expected, Lesson, learned
 from zlmreport.planning.methods import Method
 
 _EARLIER, _MACHINES = 10, 20
@@ -68,7 +68,9 @@ def _taught(machine: int, *, is_rotary: bool) -> Expected:
     fits = [
         _earlier(_FIRST_EARLIER + _EARLIER * machine + each, is_rotary=is_rotary) for each in range(_EARLIER)
     ]
-    return Expected.of(learned(fits).model_copy(update={"effects": {}}), fits[0].design.axis)
+    return Expected.of(
+        learned([Lesson.of(each) for each in fits]).model_copy(update={"effects": {}}), fits[0].design.axis
+    )
 
 
 def _earlier(draw: int, *, is_rotary: bool) -> Fit:

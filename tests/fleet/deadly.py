@@ -24,6 +24,9 @@ class Deadly(ExemplaryRenderer):
         if deed == "KILLED-ONCE" and not (folder / "killed").exists():
             (folder / "killed").touch()
             os.kill(os.getpid(), signal.SIGKILL)
+        if deed == "SCHEDULER" and (folder / "scheduler").exists():
+            (folder / "scheduler").rename(folder / "killed-scheduler")
+            os.kill(int((folder / "killed-scheduler").read_text()), signal.SIGKILL)
         return str(os.getpid()).encode()
 
 

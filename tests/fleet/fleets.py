@@ -82,6 +82,7 @@ class Witness:
     jobs: Sequence[Planned] = ()
     seen: list[Happened] = field(default_factory=list)
     notices: list[Notice] = field(default_factory=list)
+    priors: list[Path] = field(default_factory=list)
 
     def planned(self, jobs: Sequence[Planned]) -> None:
         self.jobs = jobs
@@ -91,6 +92,9 @@ class Witness:
 
     def noticed(self, notice: Notice) -> None:
         self.notices.append(notice)
+
+    def learned(self, file: Path) -> None:
+        self.priors.append(file)
 
     @property
     def what(self) -> dict[str, What]:

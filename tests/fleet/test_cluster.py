@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import contextlib
+import json
 import os
+import subprocess
 import sys
 from collections.abc import Iterator
 from pathlib import Path
@@ -28,33 +30,32 @@ SETTINGS = {
 
 
 @contextlib.contextmanager
-def started(*command: str, folder: Path) -> Iterator[None]:
+def started(*command: str, folder: Path) -> Iterator[subprocess.Popen[bytes]]:
     """Run a program of Dask, which ends with those that it started."""
     with (folder / "log").open("ab") as log:
         settings = {"env": os.environ | SETTINGS, "cwd": folder, "stdout": log, "stderr": log}
-        with group(PYTHON, "-m", *command, **settings):
-            yield
+        with group(PYTHON, "-m", *command, **settings) as process:
+            yield process
+
+
+@contextlib.contextmanager
+def scheduler_of(workers: int, folder: Path) -> Iterator[tuple[str, int]]:
+    """Run a scheduler with workers, and yield its address and its process."""
+    file = folder / "address"
+    flags = ("--scheduler-file", str(file), "--no-dashboard")
+    host = ("--host", "tcp://127.0.0.1:0")
+    with started("distributed.cli.dask_scheduler", *host, *flags, folder=folder) as running:
+        awaited(lambda: file.is_file() and file.stat().st_size)
+        number = ("--nworkers", str(workers), "--nthreads", "1", "--local-directory", str(folder))
+        with started("distributed.cli.dask_worker", *number, *flags, folder=folder):
+            yield json.loads(file.read_text(encoding="utf-8"))["address"], running.pid
 
 
 @pytest.fixture(scope="module")
 def scheduler(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
     """Run a scheduler with two workers, and yield its address."""
-    folder = tmp_path_factory.mktemp("dask")
-    file = folder / "address"
-    port = "tcp://127.0.0.1:0"
-    flags = ("--scheduler-file", str(file), "--no-dashboard")
-    with started("distributed.cli.dask_scheduler", "--host", port, *flags, folder=folder):
-        awaited(lambda: file.is_file() and file.stat().st_size)
-        workers = ("--nworkers", "2", "--nthreads", "1", "--local-directory", str(folder))
-        with started("distributed.cli.dask_worker", *workers, *flags, folder=folder):
-            yield _address(file)
-
-
-def _address(file: Path) -> str:
-    import json
-
-    address: str = json.loads(file.read_text(encoding="utf-8"))["address"]
-    return address
+    with scheduler_of(2, tmp_path_factory.mktemp("dask")) as (address, _):
+        yield address
 
 
 @pytest.mark.early
@@ -89,6 +90,29 @@ def test_a_ledger_in_postgresql_has_all_that_a_cluster_with_a_killed_worker_made
         witness = Witness()
         night.spend(fleet.file, night.Order((plugin,)), witness)
         assert set(witness.what.values()) == {What.UNCHANGED}
+
+
+@pytest.mark.early
+def test_a_night_whose_scheduler_is_killed_says_so_and_the_next_makes_what_is_left(
+    scheduler: str, tmp_path: Path
+) -> None:
+    fleet = Fleet.of(tmp_path, "a1", "scheduler2", "z3", "z4")
+    order = night.Order((fleet.write("deadly.py", PLUGIN),))
+    with server() as address:
+        text = f"{FLEET.replace('ledger.db', address)}executor: {{kind: dask, scheduler: '%s'}}\n"
+        with scheduler_of(1, tmp_path) as (doomed, process):
+            fleet.write("jobs/scheduler", str(process))
+            fleet.write("fleet.yaml", text % doomed)
+            with pytest.raises(AccessError, match=r"fleet.yaml:6:.*the scheduler tcp://.* is gone"):
+                night.spend(fleet.file, order, Witness())
+        fleet.write("fleet.yaml", text % scheduler)
+        before = {each.number: each.files for each in fleet.entries()}
+        assert before.keys() < {"CAL-A1", "CAL-SCHEDULER2", "CAL-Z3", "CAL-Z4"}
+        night.spend(fleet.file, order, Witness())
+        after = fleet.entries()
+        assert sorted(each.number for each in after) == ["CAL-A1", "CAL-SCHEDULER2", "CAL-Z3", "CAL-Z4"]
+        assert {each.state for each in after} == {State.MADE}
+        assert fleet.files() == {f"{each.number}.pid" for each in after}
 
 
 def test_a_scheduler_that_is_not_there_is_named_with_its_place(

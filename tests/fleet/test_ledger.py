@@ -14,6 +14,7 @@ from fleet.fleets import FLEET, Fleet, without_processes
 from fleet.servers import server
 from zlmreport.errors import AccessError, InputError
 from zlmreport.fleet.basis import Basis, KnownFile, Look
+from zlmreport.fleet.database import FORMAT
 from zlmreport.fleet.issuing import What
 from zlmreport.fleet.ledger import Ledger, Night, NumberTakenError
 from zlmreport.fleet.records import About, Entry, Notice, RecordedParameter, State
@@ -38,7 +39,7 @@ ENTRY = Entry(
         RecordedParameter("iso230-2:2014", "B_mean", -1.5, "um"),
     ),
 )
-FAILURE = Entry("y.yaml", "", "", "", "", NIGHTS[0], "", State.FAILED, "y.yaml:3:1: is no job")
+FAILURE = Entry(job="y.yaml", night=NIGHTS[0], state=State.FAILED, message="y.yaml:3:1: is no job")
 
 
 @pytest.fixture(scope="module")
@@ -166,7 +167,7 @@ def test_a_ledger_of_another_format_is_refused(address: str) -> None:
     with engine.begin() as connection:
         connection.execute(text("UPDATE ledger_format SET format = 7"))
     engine.dispose()
-    with pytest.raises(InputError, match="is a ledger of format 7, and this program writes format 4"):
+    with pytest.raises(InputError, match="is a ledger of format 7, and this program writes format 5"):
         Ledger.open(address, "north")
 
 
@@ -189,43 +190,31 @@ def test_a_server_that_is_not_there_is_named_without_the_password() -> None:
     assert "secret" not in str(raised.value)
 
 
-def test_a_ledger_of_the_first_format_is_brought_up_to_date(address: str) -> None:
+#: What each format added.
+ADDED = {
+    2: ("nights beat", "entries seconds", "entries interval"),
+    3: ("nights notices", "entries instrument"),
+    4: ("entries type",),
+    5: ("entries lesson",),
+}
+
+
+@pytest.mark.parametrize("older", [1, 2, 4])
+def test_a_ledger_of_an_older_format_is_brought_up_to_date(older: int, address: str) -> None:
     with night(address) as (_, at_work):
         at_work.issue(ENTRY, FILES, BASIS)
     engine = create_engine(address if "://" in address else f"sqlite:///{address}")
     with engine.begin() as connection:
-        for column in (
-            "nights DROP COLUMN beat",
-            "entries DROP COLUMN seconds",
-            "entries DROP COLUMN interval",
-            "nights DROP COLUMN notices",
-            "entries DROP COLUMN instrument",
-            "entries DROP COLUMN type",
-        ):
-            connection.execute(text(f"ALTER TABLE {column}"))
-        connection.execute(text("UPDATE ledger_format SET format = 1"))
+        for column in (each for added in range(older + 1, FORMAT + 1) for each in ADDED[added]):
+            connection.execute(text(f"ALTER TABLE {column.replace(' ', ' DROP COLUMN ')}"))
+        connection.execute(text(f"UPDATE ledger_format SET format = {older}"))
     engine.dispose()
     with night(address, NIGHTS[1]) as (ledger, at_work):
         assert list(ledger.entries()) == [ENTRY]
         at_work.beat(NIGHTS[1])
-
-
-def test_a_ledger_of_the_second_format_is_brought_up_to_date(address: str) -> None:
-    with night(address) as (_, at_work):
-        at_work.issue(ENTRY, FILES, BASIS)
-    engine = create_engine(address if "://" in address else f"sqlite:///{address}")
-    with engine.begin() as connection:
-        for column in (
-            "nights DROP COLUMN notices",
-            "entries DROP COLUMN instrument",
-            "entries DROP COLUMN type",
-        ):
-            connection.execute(text(f"ALTER TABLE {column}"))
-        connection.execute(text("UPDATE ledger_format SET format = 2"))
-    engine.dispose()
-    with night(address, NIGHTS[1]) as (ledger, at_work):
-        assert list(ledger.entries()) == [ENTRY]
         at_work.notice([Notice(About.CLOCK, "set back")])
+        at_work.issue(replace(ENTRY, number="CAL-2"), FILES, BASIS, {"kind": "linear"})
+        assert [each.lesson for each in ledger.lessons()] == [{"kind": "linear"}]
         last = ledger.last_night()
         assert last is not None
         assert last.notices == (Notice(About.CLOCK, "set back"),)

@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+import json
+
 import numpy as np
 import pytest
 
 from model.axis_tests import AXIS, EFFECTS, SIGMA, linear_test, model_of, noise
+from zlmreport.job.evaluation_keys import PriorsKeys
 from zlmreport.model.comparison import Comparison
 from zlmreport.model.design import Design
 from zlmreport.model.evidence import evidence_of
 from zlmreport.model.fit import Fit, fit
 from zlmreport.model.nameless import SIZES
 from zlmreport.model.noise import NoiseSource, noise_parts, ratio_grid
-from zlmreport.model.priors import Expected, learned
+from zlmreport.model.priors import Expected, Lesson, as_text, learned
 from zlmreport.quantities.arrays import FloatArray
 
 _MODEL = model_of("offset", "scale-error", "backlash")
@@ -25,6 +28,10 @@ def _scattered(design: Design, seed: int, fixed: float) -> FloatArray:
     return (
         noise(design, seed) + fixed * SIGMA * random.standard_normal(design.target.max() + 1)[design.target]
     )
+
+
+def _learned(fits: list[Fit]) -> PriorsKeys:
+    return learned([Lesson.of(each) for each in fits])
 
 
 def _fits(fixed: float, tests: int) -> list[Fit]:
@@ -75,9 +82,9 @@ def test_the_posterior_is_the_restricted_likelihood_times_the_prior() -> None:
 
 def test_what_was_learned_are_the_probabilities_from_which_the_tests_come() -> None:
     fits = _fits(0.5, 3)
-    found = learned(fits).noise["position"]
+    found = _learned(fits).noise["position"]
     ratios, probabilities = np.array(found.ratios), np.array(found.probabilities)
-    keys = learned(fits)
+    keys = _learned(fits)
     expected = Expected.of(keys, AXIS)
     counts = np.full(len(ratios), 1.0 / len(ratios))  # of the test that knows nothing
     for each in fits:
@@ -89,15 +96,21 @@ def test_what_was_learned_are_the_probabilities_from_which_the_tests_come() -> N
     np.testing.assert_allclose(probabilities, counts / counts.sum(), atol=2e-3)
 
 
+def test_what_a_ledger_keeps_of_a_test_teaches_the_same() -> None:
+    lessons = [Lesson.of(each) for each in _fits(0.3, 3)]
+    kept = [Lesson.from_json(json.loads(json.dumps(each.as_json()))) for each in lessons]
+    assert as_text(learned(kept), "ledger") == as_text(learned(lessons), "ledger")
+
+
 def test_axes_with_geometry_of_their_own_teach_it_and_others_teach_that_there_is_none() -> None:
-    irregular, smooth = (learned(_fits(fixed, 6)).noise["position"].probabilities for fixed in (0.5, 0.0))
+    irregular, smooth = (_learned(_fits(fixed, 6)).noise["position"].probabilities for fixed in (0.5, 0.0))
     assert sum(irregular[2:]) > 0.8
     assert smooth[0] + smooth[1] > 0.6
     assert sum(irregular) == pytest.approx(1.0)
 
 
 def test_the_size_of_an_effect_is_what_the_rest_of_the_model_cannot_imitate() -> None:
-    keys = learned(_fits(0.0, 2))
+    keys = _learned(_fits(0.0, 2))
     # A lost motion of 2 µm is ± 1 µm, in as many readings up as down.
     assert keys.effects["backlash"].rms == pytest.approx(1.0, abs=0.1)
     assert keys.effects["backlash"].tests == 2
@@ -120,7 +133,7 @@ def test_an_effect_of_the_expected_size_has_more_evidence_than_one_of_another() 
 def test_ratios_of_a_file_that_are_not_tried_count_for_the_nearest() -> None:
     parts = [part for part in noise_parts(_DESIGN) if part.source is NoiseSource.POSITION]
     expected = Expected({NoiseSource.POSITION: np.array([[0.01, 0.2, 0.5], [1.0, 2.0, 1.0]])})
-    found = expected.probabilities(parts, ratio_grid(parts))
+    found = expected.probabilities([part.source for part in parts], ratio_grid(parts))
     np.testing.assert_allclose(found, [0.25, 0.0, 0.0, 0.75], atol=2e-3)
     assert np.all(found > 0)
 

@@ -15,7 +15,7 @@ from types import TracebackType
 from typing import Any, Self
 
 from zlmreport.cli.fleet_log import JsonLog, Progress, TextLog, by_word, of_job
-from zlmreport.cli.terminal import print_json, visible
+from zlmreport.cli.terminal import print_json, shown_path, visible
 from zlmreport.errors import AccessError, InputError, Place
 from zlmreport.files import confined
 from zlmreport.fleet.issuing import Happened, What
@@ -80,6 +80,7 @@ class _Watcher:
     def __init__(self, fleet: FleetFile, logs: Sequence[TextLog | JsonLog], options: Namespace) -> None:
         self.counts: Counter[What] = Counter()
         self.jobs: list[dict[str, Any]] = []
+        self.priors: list[str] = []
         self._fleet = fleet
         self._logs = logs
         self._options = options
@@ -99,6 +100,12 @@ class _Watcher:
             log.noticed(notice)
         if self._options.quiet or self._options.json:
             print(visible(f"{self._fleet.path}: {notice.text}"), file=sys.stderr)
+
+    def learned(self, file: Path) -> None:
+        self.priors.append(shown_path(file))
+        self._progress.hide()
+        for log in self._logs:
+            log.learned(shown_path(file))
 
     def planned(self, jobs: Sequence[Planned]) -> None:
         due = sum(each.due is not Due.NOTHING for each in jobs)
@@ -169,6 +176,7 @@ def _summary(fleet: FleetFile, watcher: _Watcher, code: int) -> dict[str, Any]:
         "exit_code": code,
         "counts": by_word(watcher.counts),
         "jobs": watcher.jobs,
+        "priors": watcher.priors,
     }
 
 

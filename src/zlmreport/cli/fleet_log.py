@@ -46,6 +46,10 @@ class TextLog:
         """Write what concerns the whole night."""
         self._line(notice.text)
 
+    def learned(self, file: str) -> None:
+        """Write which file of priors is new."""
+        self._line(f"{'learned':{_WORD}} {file}: for model.priors of the next tests")
+
     def ended(self, counts: Counter[What], seconds: float, *, is_interrupted: bool = False) -> None:
         """Write what the night came to."""
         done = "interrupted after" if is_interrupted else "done in"
@@ -76,6 +80,10 @@ class JsonLog:
     def noticed(self, notice: Notice) -> None:
         """Write what concerns the whole night."""
         self._line({"event": "noticed", "about": notice.about.value, "message": notice.text})
+
+    def learned(self, file: str) -> None:
+        """Write which file of priors is new."""
+        self._line({"event": "learned", "file": file})
 
     def ended(self, counts: Counter[What], seconds: float, *, is_interrupted: bool = False) -> None:
         """Write what the night came to."""

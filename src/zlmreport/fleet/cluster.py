@@ -91,24 +91,31 @@ class Cluster:
 
         waiting = iter(tasks)
         under_way: dict[Any, tuple[Task, float]] = {}
-        self._send(waiting, under_way)
+        with self._scheduler():
+            self._send(waiting, under_way)
         while under_way:
             done: set[Any] = set()
-            try:
-                with self._client.as_current():
+            with self._scheduler():
+                with contextlib.suppress(TimeoutError), self._client.as_current():
                     done = wait(list(under_way), timeout=BEAT, return_when="FIRST_COMPLETED").done
-            except TimeoutError:
-                pass
-            except CancelledError as error:
-                raise self._gone() from error
+                ended = [(future, self._result(future)) for future in done]
+                ended += [(future, self._stopped(future, task)) for future, task in _late(under_way, done)]
             self.beat()
-            ended = [(future, self._result(future)) for future in done]
-            ended += [(future, self._stopped(future, task)) for future, task in _late(under_way, done)]
             for future, result in ended:
                 task, _ = under_way.pop(future)
-                future.release()
-                self._send(waiting, under_way)
+                with self._scheduler():
+                    future.release()
+                    self._send(waiting, under_way)
                 yield task, result
+
+    @contextlib.contextmanager
+    def _scheduler(self) -> Iterator[None]:
+        """Say that the scheduler is gone where it is, whatever was asked of it."""
+        try:
+            yield
+        except (CancelledError, OSError) as error:
+            message = f"the scheduler {self.scheduler} is gone; the next night makes what is left"
+            raise AccessError([*AccessError.at(self.named_at, message).problems]) from error
 
     def _send(self, waiting: Iterator[Task], under_way: dict[Any, tuple[Task, float]]) -> None:
         """Let no worker wait, and none have more than it needs: results are as large as documents."""
@@ -133,12 +140,7 @@ class Cluster:
             return _Lost(str(future.exception()))
         if self._client.status == "running":  # a worker ended while its result was fetched
             return _Lost("its worker ended with the result")
-        raise self._gone()
-
-    def _gone(self) -> AccessError:
-        return AccessError(
-            [*AccessError.at(self.named_at, f"the scheduler {self.scheduler} is gone").problems]
-        )
+        raise CancelledError
 
 
 def _late(under_way: Mapping[Any, tuple[Task, float]], done: Collection[Any]) -> list[tuple[Any, Task]]:

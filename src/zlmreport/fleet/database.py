@@ -43,7 +43,7 @@ from sqlalchemy.pool import StaticPool
 from zlmreport.errors import AccessError, InputError, Place, ZlmreportError
 
 #: Of these tables; a program that knows another refuses the ledger.
-FORMAT = 4
+FORMAT = 5
 
 METADATA = MetaData()
 
@@ -84,6 +84,7 @@ ENTRIES = Table(
     Column("interval", Integer),
     Column("instrument", String),
     Column("type", String),
+    Column("lesson", JSON(none_as_null=True)),
     Index("entries_of_jobs", "fleet", "job", "id"),
 )
 
@@ -280,6 +281,7 @@ _SINCE = {
         "ALTER TABLE entries ADD COLUMN instrument VARCHAR",
     ),
     3: ("ALTER TABLE entries ADD COLUMN type VARCHAR",),
+    4: ("ALTER TABLE entries ADD COLUMN lesson JSON",),
 }
 
 

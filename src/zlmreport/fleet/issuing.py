@@ -10,7 +10,7 @@ from __future__ import annotations
 import contextlib
 import os
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from enum import Enum
 from pathlib import Path
 
@@ -207,19 +207,9 @@ class Desk:
         """Note that the file of a job is gone."""
         standing = self.known.standings[job]
         if standing.state is not State.VANISHED:
-            subject = standing.subject
-            entry = Entry(
-                job=job,
-                number=standing.number,
-                machine=subject.machine,
-                axis=subject.axis,
-                measured=subject.measured,
-                night=self.night.began,
-                digest="",
-                state=State.VANISHED,
-                message=_GONE,
-            )
-            self.night.add(entry)
+            subject = asdict(replace(standing.subject, number=standing.number))
+            began, state = self.night.began, State.VANISHED
+            self.night.add(Entry(**subject, job=job, night=began, state=state, message=_GONE))
         problem = Problem(Place(str(self.fleet.path)), f"{job}: {_GONE}")
         return Happened(What.VANISHED, job, standing.number, "", problems=(problem,))
 
@@ -242,7 +232,7 @@ class Desk:
         with laid(output, missing) as files:
             known |= {file.path: file for file in files.known}
             entry = self._entry(planned, made.subject, State.MADE, "", made)
-            self.night.issue(entry, tuple(known.values()), made.basis)
+            self.night.issue(entry, tuple(known.values()), made.basis, made.lesson)
             files.name()
         self._forget_draft(planned)
         what = What.ISSUED if not planned.issued else What.RESTORED if missing else What.CONFIRMED
@@ -260,11 +250,8 @@ class Desk:
         self, planned: Planned, subject: Subject, state: State, message: str, made: Made | None = None
     ) -> Entry:
         return Entry(
+            **asdict(subject),
             job=planned.job,
-            number=subject.number,
-            machine=subject.machine,
-            axis=subject.axis,
-            measured=subject.measured,
             night=self.night.began,
             digest=made.basis.digest if made else "",
             state=state,
@@ -272,9 +259,6 @@ class Desk:
             files=tuple(file.path for file in made.files) if made else (),
             parameters=made.parameters if made else (),
             seconds=made.seconds if made else None,
-            interval=subject.interval,
-            instrument=subject.instrument,
-            type=subject.type,
         )
 
 

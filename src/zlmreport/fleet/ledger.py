@@ -10,7 +10,7 @@ import signal
 import socket
 import time
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import asdict, dataclass, field, fields, replace
 from pathlib import Path
 from types import TracebackType
 from typing import Any, Self
@@ -46,6 +46,8 @@ from zlmreport.fleet.records import (
 STUCK = dt.timedelta(minutes=15)
 #: How often, and how many seconds apart, the lock of a night that was killed is tried.
 _ATTEMPTS, _PAUSE = 50, 0.1
+#: What the table of entries keeps of an entry as it is.
+_OWN = (*(each.name for each in fields(Subject)), "job", "digest", "state", "message", "seconds")
 
 
 class NumberTakenError(Exception):
@@ -84,10 +86,17 @@ class Night:
         with self.database.transaction() as connection:
             self._insert(connection, entry, files, basis)
 
-    def issue(self, entry: Entry, files: Sequence[KnownFile], basis: Basis | None) -> None:
+    def issue(
+        self,
+        entry: Entry,
+        files: Sequence[KnownFile],
+        basis: Basis | None,
+        lesson: Mapping[str, Any] | None = None,
+    ) -> None:
         """Add the entry of a certificate, and in the same transaction its number and its files.
 
-        A number that this fleet gave before keeps its first entry, and its files are those of now.
+        A number that this fleet gave before keeps its first entry, and its files are those of now. The lesson
+        is what its readings teach other tests, as `zlmreport.model.priors.Lesson` gives it.
 
         Raises
         ------
@@ -103,7 +112,7 @@ class Night:
         )
         try:
             with self.database.transaction() as connection:
-                identity = self._insert(connection, entry, files, basis)
+                identity = self._insert(connection, entry, files, basis, lesson)
                 if not connection.execute(renewal).rowcount:
                     first = insert(CERTIFICATES).values(number=entry.number, entry=identity, files=kept)
                     connection.execute(first)
@@ -190,27 +199,22 @@ class Night:
             connection.execute(update(NIGHTS).where(NIGHTS.c.id == self.identity).values(ended=ended))
 
     def _insert(
-        self, connection: Connection, entry: Entry, files: Sequence[KnownFile], basis: Basis | None
+        self,
+        connection: Connection,
+        entry: Entry,
+        files: Sequence[KnownFile],
+        basis: Basis | None,
+        lesson: Mapping[str, Any] | None = None,
     ) -> int:
         identity = _added(
             connection,
             insert(ENTRIES).values(
                 fleet=self.fleet,
                 night=self.identity,
-                job=entry.job,
-                number=entry.number,
-                machine=entry.machine,
-                axis=entry.axis,
-                measured=entry.measured,
-                digest=entry.digest,
-                state=str(entry.state),
-                message=entry.message,
                 files=[file.as_json() for file in files],
                 basis=basis.as_json() if basis else None,
-                seconds=entry.seconds,
-                interval=entry.interval,
-                instrument=entry.instrument,
-                type=entry.type,
+                lesson=lesson,
+                **{name: getattr(entry, name) for name in _OWN},
             ),
         )
         if entry.parameters:
@@ -318,6 +322,25 @@ class PastNight:
     notices: tuple[Notice, ...] = ()
 
 
+@dataclass(frozen=True, slots=True)
+class Taught:
+    """What a certificate teaches other tests.
+
+    Attributes
+    ----------
+    subject
+        What it is about.
+    readings
+        Digests of its readings: two certificates of the same teach once.
+    lesson
+        As `zlmreport.model.priors.Lesson` gives it.
+    """
+
+    subject: Subject
+    readings: frozenset[str]
+    lesson: Mapping[str, Any]
+
+
 class Ledger:
     """The ledger of one fleet, open; it is left as a context manager, which closes the database."""
 
@@ -401,15 +424,7 @@ class Ledger:
                     _files(row.files),
                     Basis.from_json(row.basis) if row.basis else None,
                     row.digest,
-                    Subject(
-                        row.number,
-                        row.machine,
-                        row.axis,
-                        row.measured,
-                        row.interval,
-                        row.instrument or "",
-                        row.type or "",
-                    ),
+                    Subject(**_subject(row)),
                 )
                 for row in connection.execute(query)
             }
@@ -436,6 +451,21 @@ class Ledger:
                 row.number: Issued(row.fleet, row.job, row.began, _files(row.files))
                 for row in connection.execute(query)
             }
+
+    def lessons(self) -> Iterator[Taught]:
+        """Yield what certificates teach, in the order of measurement: of each job the latest of a test."""
+        made = (ENTRIES.c.fleet == self._fleet, ENTRIES.c.state == State.MADE.value)
+        latest = select(func.max(ENTRIES.c.id)).where(*made).group_by(ENTRIES.c.job, ENTRIES.c.measured)
+        query = (
+            select(ENTRIES)
+            .where(ENTRIES.c.id.in_(latest), ENTRIES.c.lesson.is_not(None))
+            .order_by(ENTRIES.c.measured, ENTRIES.c.number)
+        )
+        with self._database.transaction() as connection:
+            for row in connection.execute(query):
+                files = Basis.from_json(row.basis).files if row.basis else ()
+                readings = frozenset(file.sha256 for file in files if file.role == "readings")
+                yield Taught(Subject(**_subject(row)), readings, row.lesson)
 
     @contextlib.contextmanager
     def night(self, began: str, fleet_file: str) -> Iterator[Night]:
@@ -527,11 +557,8 @@ def _locked_soon(database: Database, holder: str) -> Iterator[None]:
 
 def _entry(row: Row[Any], parameters: tuple[RecordedParameter, ...]) -> Entry:
     return Entry(
+        **_subject(row),
         job=row.job,
-        number=row.number,
-        machine=row.machine,
-        axis=row.axis,
-        measured=row.measured,
         night=row.began,
         digest=row.digest,
         state=State(row.state),
@@ -539,10 +566,13 @@ def _entry(row: Row[Any], parameters: tuple[RecordedParameter, ...]) -> Entry:
         files=tuple(file.path for file in _files(row.files)),
         parameters=parameters,
         seconds=row.seconds,
-        interval=row.interval,
-        instrument=row.instrument or "",
-        type=row.type or "",
     )
+
+
+def _subject(row: Row[Any]) -> dict[str, Any]:
+    """Return what an entry is about; what an older program did not note is empty."""
+    kept = {each.name: getattr(row, each.name) for each in fields(Subject)}
+    return {name: value if name == "interval" else value or "" for name, value in kept.items()}
 
 
 def _parameter(row: Row[Any]) -> RecordedParameter:

@@ -12,12 +12,14 @@ import time
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path, PurePosixPath
+from typing import Any
 
 from zlmreport import pipeline
 from zlmreport.certificate.document import Certificate
 from zlmreport.errors import InputError, Place, Problem, as_problems
 from zlmreport.files import confined
 from zlmreport.fleet.basis import Basis, files_behind, program_versions, programs_of, release
+from zlmreport.fleet.lessons import lesson_of
 from zlmreport.fleet.records import RecordedParameter, Subject, folder_of, parameters_of
 from zlmreport.job.fleet import FleetFile, load_fleet
 from zlmreport.job.job import Job
@@ -136,6 +138,8 @@ class Made:
         Whether its number was issued with another content.
     seconds
         How long it took.
+    lesson
+        What its readings teach other tests, for the ledger; None without a model that describes them.
     """
 
     subject: Subject
@@ -144,6 +148,7 @@ class Made:
     parameters: tuple[RecordedParameter, ...]
     is_draft: bool
     seconds: float = 0.0
+    lesson: Mapping[str, Any] | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -220,6 +225,7 @@ def _made(task: Task, job: Job, fleet: FleetFile, begun: float) -> Made:
         ),
         parameters=parameters,
         is_draft=is_draft,
+        lesson=None if is_draft else lesson_of(certificate, job, registry.effects),
     )
 
 

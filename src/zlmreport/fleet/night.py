@@ -18,6 +18,7 @@ from zlmreport.fleet.basis import Basis, Disk, KnownFile, changes, program_versi
 from zlmreport.fleet.cluster import Cluster
 from zlmreport.fleet.issuing import Desk, Happened, What, tidy
 from zlmreport.fleet.ledger import Ledger, Night, PastNight, Standing
+from zlmreport.fleet.lessons import priors
 from zlmreport.fleet.making import Failed, Limits, Task, defaults_digest
 from zlmreport.fleet.news import digest, news_of, news_of_job, news_of_night
 from zlmreport.fleet.plan import Due, Evening, Planned, plan, reasons
@@ -49,6 +50,9 @@ class Watch(Protocol):
 
     def noticed(self, notice: Notice) -> None:
         """Take note of something that concerns the whole night, and is not as it should be."""
+
+    def learned(self, file: Path) -> None:
+        """Take note of a new file of priors."""
 
 
 def evening(fleet: FleetFile, jobs: tuple[Path, ...], ledger: Ledger, plugins: tuple[Path, ...]) -> Evening:
@@ -138,6 +142,9 @@ def spend(fleet: FleetFile, order: Order, watch: Watch) -> None:
             before = last.began if last else ""
             witness = _Witness(watch, known, ways)
             _spend(known, order, witness, _Work(night, gone, before, ends, ledger.longest()))
+            if witness.saw_something or night.was_interrupted or (last and last.notices):
+                noticed = (*noticed, *_teach(fleet, ledger, watch))
+                night.notice(noticed)
             if witness.saw_something or noticed or (last and (last.notices or not last.ended)):
                 began = dt.datetime.fromisoformat(night.began)
                 rules = Rules(fleet.keys.interval, lambda job: is_retired(job, fleet))
@@ -181,6 +188,9 @@ class _Witness:
     def noticed(self, notice: Notice) -> None:
         self.watch.noticed(notice)
 
+    def learned(self, file: Path) -> None:
+        self.watch.learned(file)
+
     def happened(self, happened: Happened) -> None:
         self.saw_something |= happened.what is not What.UNCHANGED
         self.watch.happened(happened)
@@ -188,6 +198,19 @@ class _Witness:
         if message:
             for way in self.ways.of(message.occasion):
                 self.ways.tell(way, message, self.watch.noticed)
+
+
+def _teach(fleet: FleetFile, ledger: Ledger, watch: Watch) -> Iterator[Notice]:
+    """Write what the tests of the fleet teach, where the fleet file has a folder for it."""
+    if fleet.keys.priors is None:
+        return
+    try:
+        for path in write(priors(ledger.lessons(), fleet.keys.priors)):
+            watch.learned(path)
+    except AccessError as error:
+        notice = Notice(About.PRIORS, f"what the tests teach was not written: {error.problems[0]}")
+        watch.noticed(notice)
+        yield notice
 
 
 def _tell(fleet: FleetFile, night: Night, ways: Ways, watch: Watch) -> None:

@@ -536,7 +536,7 @@ def legend(cells: Cells) -> OverviewLegendContext:
 
 
 def _sample() -> Trend:
-    entry = Entry("", "", "", "", "", "", "", State.MADE)
+    entry = Entry(job="", night="", state=State.MADE)
     calibrations = tuple(
         Calibration(
             _FIRST + timedelta(days=91 * quarter),

@@ -49,6 +49,7 @@ ABOUTS = {
     About.LEDGER: Words(en="Ledger", de="Verzeichnis"),
     About.CLOCK: Words(en="Clock", de="Uhr"),
     About.UNTOLD: Words(en="News that was not sent", de="Nicht zugestellte Meldungen"),
+    About.PRIORS: Words(en="Priors from the tests", de="Vorwissen aus den Messungen"),
     About.STUCK: Words(en="A run that hung", de="Ein Lauf, der hing"),
 }
 FAILED = Words(en="Failed", de="Fehlgeschlagen")

@@ -7,7 +7,7 @@ import json
 import math
 from collections import defaultdict
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -105,19 +105,12 @@ def _take(job: Path, files: list[Path], fleet: FleetFile, registry: Registry, ni
         for path in files
     )
     entry = Entry(
+        **asdict(replace(subject, number=files[0].stem)),
         job=path_in(fleet.path.parent, job),
-        number=files[0].stem,
-        machine=subject.machine,
-        axis=subject.axis,
-        measured=subject.measured,
         night=night.began,
-        digest="",
         state=State.MADE,
         files=tuple(file.path for file in known),
         parameters=tuple(_parameters(_results(files))),
-        interval=subject.interval,
-        instrument=subject.instrument,
-        type=subject.type,
     )
     night.issue(entry, known, None)
 

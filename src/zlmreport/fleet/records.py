@@ -62,6 +62,8 @@ class About(StrEnum):
     STUCK = "stuck"
     #: News could not be sent.
     UNTOLD = "untold"
+    #: What the tests teach could not be written.
+    PRIORS = "priors"
 
 
 class Kind(StrEnum):
@@ -137,59 +139,6 @@ class RecordedParameter:
     conforms: bool | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Entry:
-    """One line of the ledger: what became of one job in one night.
-
-    Attributes
-    ----------
-    job
-        Path of the job file, relative to the fleet file's folder.
-    number
-        Of the certificate; empty if the job could not be read.
-    machine, axis
-        The machine's designation with its serial number, and the axis's name; empty if not known.
-    measured
-        Date of the measurement, ISO 8601; empty if not known.
-    night
-        Date and time of the run of the fleet, ISO 8601 in UTC.
-    digest
-        Of everything that the certificate depends on; empty if it could not be formed.
-    state
-        What became of it.
-    message
-        Why it failed, or why it is a draft; empty otherwise.
-    files
-        Paths of its files, relative to the fleet's output folder.
-    parameters
-        What it states.
-    seconds
-        How long it took; None where nothing was made.
-    interval
-        Days after which the job itself says that the axis is to be measured again.
-    instrument
-        With which it was measured; empty if not known.
-    type
-        The machine's manufacturer and model; empty if not known.
-    """
-
-    job: str
-    number: str
-    machine: str
-    axis: str
-    measured: str
-    night: str
-    digest: str
-    state: State
-    message: str = ""
-    files: tuple[str, ...] = ()
-    parameters: tuple[RecordedParameter, ...] = ()
-    seconds: float | None = None
-    interval: int | None = None
-    instrument: str = ""
-    type: str = ""
-
-
 def due_date(measured: str, interval: int | None) -> str:
     """Return the day by which an axis is to be measured again, ISO 8601; nothing without an interval."""
     if not interval:
@@ -226,18 +175,34 @@ def folder_of(keys: JobKeys, layout: str) -> PurePosixPath:
         "axis": keys.axis.name,
         "number": keys.certificate.number,
     }
-    named = {name: _folder_name(value or f"no {name}") for name, value in values.items()}
+    named = {name: file_name(value or f"no {name}") for name, value in values.items()}
     return PurePosixPath(layout.format(**named))
 
 
-def _folder_name(text: str) -> str:
-    """Return a text as the name of one folder."""
+def file_name(text: str) -> str:
+    """Return a text as the name of one file or folder."""
     return _NOT_IN_NAMES.sub("-", text).strip("-.")[:_LONGEST_NAME] or "-"
 
 
 @dataclass(frozen=True, slots=True)
 class Subject:
-    """What a job is about, as `zlmreport.fleet.records.Entry` has it; empty where the job cannot be read."""
+    """What a job is about; empty where the job cannot be read, or does not say.
+
+    Attributes
+    ----------
+    number
+        Of the certificate.
+    machine, axis
+        The machine's designation with its serial number, and the axis's name.
+    measured
+        Date of the measurement, ISO 8601.
+    interval
+        Days after which the job itself says that the axis is to be measured again.
+    instrument
+        With which it was measured.
+    type
+        The machine's manufacturer and model.
+    """
 
     number: str = ""
     machine: str = ""
@@ -257,6 +222,40 @@ class Subject:
         number, interval = keys.certificate.number, keys.fleet.interval
         kind = " ".join(part for part in (keys.machine.manufacturer, keys.machine.model) if part)
         return cls(number, machine, keys.axis.name, measured, interval, instrument, kind)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Entry(Subject):
+    """One line of the ledger: what became of one job in one night, and what it is about.
+
+    Attributes
+    ----------
+    job
+        Path of the job file, relative to the fleet file's folder.
+    night
+        Date and time of the run of the fleet, ISO 8601 in UTC.
+    digest
+        Of everything that the certificate depends on; empty if it could not be formed.
+    state
+        What became of it.
+    message
+        Why it failed, or why it is a draft; empty otherwise.
+    files
+        Paths of its files, relative to the fleet's output folder.
+    parameters
+        What it states.
+    seconds
+        How long it took; None where nothing was made.
+    """
+
+    job: str
+    night: str
+    digest: str = ""
+    state: State
+    message: str = ""
+    files: tuple[str, ...] = ()
+    parameters: tuple[RecordedParameter, ...] = ()
+    seconds: float | None = None
 
 
 def _instrument(instrument: Instrument | None) -> str:

@@ -183,6 +183,12 @@ class FleetKeys(JobPart):
         "`.ledger.db` without it.",
         examples=["postgresql+psycopg://zlmreport@server/fleet"],
     )
+    priors: JobPath | None = Field(
+        None,
+        description="Folder for what the tests of the fleet teach: a file for `model.priors` of each type of "
+        "machine, named after the last day of whose tests it knows. A file that was written stays as it is.",
+        examples=["priors"],
+    )
     notify: list[NotifyKeys] = Field(
         default_factory=list, description="Who is told what is new after a night, and how."
     )
@@ -310,6 +316,7 @@ def _escaping(fleet: FleetFile) -> Iterator[Problem]:
     paths = [("output", fleet.output)]
     paths += [] if _URL.match(fleet.ledger) else [("ledger", Path(fleet.ledger))]
     paths += [("log", fleet.keys.log.file)] if fleet.keys.log else []
+    paths += [("priors", fleet.keys.priors)] if fleet.keys.priors else []
     for key, path in paths:
         if outside(path):
             yield Problem(fleet.place_of(key), f"{key}: {path}: {outside(path)}")

@@ -184,7 +184,7 @@ class Comparison:
             grid,
             bases,
             nameless,
-            nothing.probabilities(space.parts, grid),
+            nothing.probabilities([part.source for part in space.parts], grid),
             _squares(bases, nothing),
             metrics,
             shared,
@@ -204,7 +204,7 @@ class Comparison:
 
         Without them every φ is as likely as any, and an effect as large as the scatter.
         """
-        prior = expected.probabilities(self.space.parts, self.grid)
+        prior = expected.probabilities([part.source for part in self.space.parts], self.grid)
         return replace(self, prior=prior, _squares=_squares(self.bases, expected), _expected=expected)
 
     def scores(self, deviations: FloatArray, known: float = 0.0) -> Scores:

@@ -145,15 +145,16 @@ def noise_parts(design: Design) -> tuple[NoisePart, ...]:
 
 def ratio_grid(parts: Sequence[NoisePart]) -> FloatArray:
     """Return every combination of the ratios that are tried, shape (f, parts)."""
-    return _combinations([part.ratios for part in parts])
+    return combinations([part.ratios for part in parts])
 
 
 def coarse_grid(parts: Sequence[NoisePart]) -> FloatArray:
     """Return every combination of none and a middling ratio: where a continuous search may begin."""
-    return _combinations([(0.0, part.ratios[len(part.ratios) // 2]) for part in parts])
+    return combinations([(0.0, part.ratios[len(part.ratios) // 2]) for part in parts])
 
 
-def _combinations(levels: Sequence[Sequence[float]]) -> FloatArray:
+def combinations(levels: Sequence[Sequence[float]]) -> FloatArray:
+    """Return every combination of one level of each source, shape (f, sources), the last varying fastest."""
     rows = list(product(*levels))
     return np.array(rows, dtype=np.float64).reshape(len(rows), len(levels))
 

@@ -8,16 +8,17 @@ earlier tests every φ that is tried is as likely as any, and an effect as large
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from typing import Any, Self
 
 import numpy as np
 
 from zlmreport.job.evaluation_keys import NoiseKeys, PriorsKeys, SizeKeys, SourceName
-from zlmreport.measurement.axis import Axis
+from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.model.contrasts import contrasts_of
 from zlmreport.model.fit import Fit
-from zlmreport.model.noise import NoisePart, NoiseSource, noise_parts, ratio_grid
+from zlmreport.model.noise import NoiseSource, combinations, noise_parts
 from zlmreport.quantities.arrays import FloatArray
 
 #: What a handful of tests never excludes.
@@ -63,13 +64,13 @@ class Expected:
         to_si = axis.deviation_unit.to_si
         return cls(ratios, {name: to_si(each.rms) for name, each in keys.effects.items()})
 
-    def probabilities(self, parts: Sequence[NoisePart], grid: FloatArray) -> FloatArray:
+    def probabilities(self, sources: Iterable[NoiseSource], grid: FloatArray) -> FloatArray:
         """Return the probability of each φ of a grid, shape (f,), the sources independent of each other."""
         found = np.ones(len(grid))
-        for column, part in zip(grid.T, parts, strict=True):
-            if part.source in self.ratios:
-                levels = np.array(part.ratios)
-                known, stated = self.ratios[part.source]
+        for column, source in zip(grid.T, sources, strict=True):
+            if source in self.ratios:
+                levels = np.unique(column)
+                known, stated = self.ratios[source]
                 nearest = np.argmin(np.abs(levels[:, np.newaxis] - known), axis=0)
                 weights = np.bincount(nearest, stated, len(levels)) / stated.sum()
                 found *= np.maximum(weights, _LEAST_PROBABILITY)[np.searchsorted(levels, column)]
@@ -84,7 +85,62 @@ class Expected:
         return max(self.sizes.get(effect, 1.0) ** 2, _LEAST_SQUARE)
 
 
-def learned(fits: Sequence[Fit]) -> PriorsKeys:
+@dataclass(frozen=True, slots=True)
+class Lesson:
+    """What one test teaches whose model describes its readings.
+
+    Attributes
+    ----------
+    kind
+        Of its axis.
+    sizes
+        Root mean square size of each effect that the rest of the model cannot imitate, micrometres or arc
+        seconds.
+    levels
+        The ratios φ that are tried of each source that the test can tell, rising.
+    likelihoods
+        Of every combination of them, shape (f,), the largest 1.
+    """
+
+    kind: AxisKind
+    sizes: Mapping[str, float]
+    levels: Mapping[NoiseSource, Sequence[float]]
+    likelihoods: FloatArray
+
+    @classmethod
+    def of(cls, fitted: Fit) -> Self:
+        """Return what a fitted model teaches."""
+        parts, axis = noise_parts(fitted.design), fitted.design.axis
+        levels = {part.source: part.ratios for part in parts}
+        space = contrasts_of(fitted.base(), parts, fitted.noise.weights)
+        contrast = space.of(fitted.open_deviation)
+        criteria = np.array(
+            [space.restricted(contrast, ratios)[0] for ratios in combinations([*levels.values()])]
+        )
+        sizes = {name: float(axis.deviation_unit.from_si(size)) for name, size in _sizes(fitted)}
+        return cls(axis.kind, sizes, levels, np.exp(-0.5 * (criteria - criteria.min())))
+
+    def as_json(self) -> dict[str, Any]:
+        """Return it with as many digits as matter, so that no rounding of a processor shows."""
+        return {
+            "kind": self.kind,
+            "sizes": {name: _short(size) for name, size in self.sizes.items()},
+            "levels": {_NAMES[source]: list(levels) for source, levels in self.levels.items()},
+            "likelihoods": [_short(each) for each in self.likelihoods],
+        }
+
+    @classmethod
+    def from_json(cls, kept: Mapping[str, Any]) -> Self:
+        """Return what `as_json` gave."""
+        levels = {source: kept["levels"][name] for source, name in _NAMES.items() if name in kept["levels"]}
+        return cls(kept["kind"], kept["sizes"], levels, np.array(kept["likelihoods"]))
+
+
+def _short(number: float) -> float:
+    return float(f"{number:.7g}")
+
+
+def learned(lessons: Sequence[Lesson]) -> PriorsKeys:
     """Return what tests teach whose models describe their readings.
 
     The ratios of each test are known within its own likelihood only. So the probabilities are those of the
@@ -93,57 +149,71 @@ def learned(fits: Sequence[Fit]) -> PriorsKeys:
 
     Parameters
     ----------
-    fits
-        The models, of axes of one kind; at least one.
+    lessons
+        Of axes of one kind; at least one.
     """
     sizes: dict[str, list[float]] = defaultdict(list)
-    for fitted in fits:
-        for name, size in _sizes(fitted):
+    for lesson in lessons:
+        for name, size in lesson.sizes.items():
             sizes[name].append(size)
-    axis = fits[0].design.axis
-    rms = {
-        name: axis.deviation_unit.from_si(float(np.sqrt(np.mean(np.square(each)))))
-        for name, each in sizes.items()
-    }
     return PriorsKeys(
         schema="zlmreport/priors/1",
-        kind=axis.kind,
-        tests=len(fits),
+        kind=lessons[0].kind,
+        tests=len(lessons),
         noise={
             _NAMES[source]: NoiseKeys(ratios=levels.tolist(), probabilities=weights.tolist())
-            for source, (levels, weights) in _population(fits).items()
+            for source, (levels, weights) in _population(lessons).items()
         },
-        effects={name: SizeKeys(rms=rms[name], tests=len(each)) for name, each in sizes.items()},
+        effects={
+            name: SizeKeys(rms=float(np.sqrt(np.mean(np.square(each)))), tests=len(each))
+            for name, each in sizes.items()
+        },
     )
 
 
-def _population(fits: Iterable[Fit]) -> dict[NoiseSource, FloatArray]:
+def _population(lessons: Iterable[Lesson]) -> dict[NoiseSource, FloatArray]:
     """Return the ratios of each source and their probabilities, shape (2, k)."""
-    known = []
-    found: dict[NoiseSource, FloatArray] = {}
-    for fitted in fits:
-        parts = noise_parts(fitted.design)
-        space, grid = contrasts_of(fitted.base(), parts, fitted.noise.weights), ratio_grid(parts)
-        contrast = space.of(fitted.open_deviation)
-        criteria = np.array([space.restricted(contrast, ratios)[0] for ratios in grid])
-        known.append((parts, grid, np.exp(-0.5 * (criteria - criteria.min()))))
-        for part in parts:
-            levels = np.array(part.ratios)
-            found[part.source] = np.array([levels, np.full(len(levels), 1.0 / len(levels))])
+    known = [(each.levels, combinations([*each.levels.values()]), each.likelihoods) for each in lessons]
+    found = {
+        source: np.array([tried, np.full(len(tried), 1.0 / len(tried))])
+        for levels, _, _ in known
+        for source, tried in levels.items()
+    }
     for _ in range(_ROUNDS):
         expected = Expected(found)
         counts = {source: np.full(len(each[0]), _IMAGINED / len(each[0])) for source, each in found.items()}
-        for parts, grid, likelihoods in known:
-            posterior = likelihoods * expected.probabilities(parts, grid)
+        for levels, grid, likelihoods in known:
+            posterior = likelihoods * expected.probabilities(levels, grid)
             posterior /= posterior.sum()
-            for column, part in zip(grid.T, parts, strict=True):
-                places = np.searchsorted(part.ratios, column)
-                counts[part.source] += np.bincount(places, posterior, len(part.ratios))
+            for column, source in zip(grid.T, levels, strict=True):
+                places = np.searchsorted(found[source][0], column)
+                counts[source] += np.bincount(places, posterior, len(found[source][0]))
         found = {
             source: np.array([each[0], counts[source] / counts[source].sum()])
             for source, each in found.items()
         }
     return found
+
+
+def as_text(found: PriorsKeys, origin: str) -> str:
+    """Return the file of priors, with what it says beside it; `origin` is where its tests are."""
+    return "".join(f"{line}\n" for line in _lines(found, origin))
+
+
+def _lines(found: PriorsKeys, origin: str) -> Iterator[str]:
+    unit = "µm" if found.kind == "linear" else "″"
+    yield f"# What {found.tests} tests in {origin} say of noise and sizes of effects: model.priors of a job."
+    yield f"schema: {found.schema_}"
+    yield f"kind: {found.kind}"
+    yield f"tests: {found.tests}"
+    yield "noise: # how probable each ratio of a shared variance to that of a single reading is"
+    for source, keys in found.noise.items():
+        ratios = ", ".join(f"{each:g}" for each in keys.ratios)
+        probabilities = ", ".join(f"{each:.3f}" for each in keys.probabilities)
+        yield f"  {source}: {{ratios: [{ratios}], probabilities: [{probabilities}]}}"
+    yield f"effects: # what the rest of the model cannot imitate of each, root mean square, {unit}"
+    for name, size in found.effects.items():
+        yield f"  {name}: {{rms: {size.rms:.4g}, tests: {size.tests}}}"
 
 
 def _sizes(fitted: Fit) -> Iterable[tuple[str, float]]:
