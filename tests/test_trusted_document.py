@@ -20,6 +20,7 @@ schema: zlmreport/job/1
 extends: {example}
 certificate: {{number: TRUST-1}}
 laboratory: {{country: DE}}
+evaluate: ["iso230-2:2014", vdi-dgq-3441]
 decision_rule: guard-band
 output: {{directory: {folder}, formats: [pdf, json, dcc]}}
 """

@@ -43,6 +43,12 @@ def chromium() -> Iterator[Browser]:
         browser.close()
 
 
+@pytest.fixture(scope="module")
+def cache(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return where pages remember diagnoses: what one test has seen made, the next finds there."""
+    return tmp_path_factory.mktemp("cache")
+
+
 @pytest.fixture
 def job(tmp_path: Path) -> Path:
     """Return the job of an axis whose model lacks the error of its screw."""
@@ -60,9 +66,9 @@ def others() -> list[Path]:
 
 
 @pytest.fixture
-def address(job: Path, others: list[Path], monkeypatch: pytest.MonkeyPatch) -> Iterator[str]:
+def address(job: Path, others: list[Path], cache: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[str]:
     """Return what the command prints: where the page of the job is."""
-    monkeypatch.setenv("XDG_CACHE_HOME", str(job.with_name("cache")))
+    monkeypatch.setenv("XDG_CACHE_HOME", str(cache))
     with started(*ZLMREPORT, "workbench", job, *others, "--no-browser") as workbench:
         found = _ADDRESS.search(workbench.lines(1)[0])
         assert found
