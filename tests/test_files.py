@@ -18,7 +18,7 @@ EXCEPTIONS = {
     "src/zlmreport/cli/fleet.py": "a log, added to",
     "src/zlmreport/fleet/database.py": "a lock, which holds who has it",
     "src/zlmreport/testing/sources.py": "damaged copies in a temporary folder",
-    "src/zlmreport/verification/unpacking.py": "a temporary folder",
+    "src/zlmreport/verification/attached.py": "a temporary folder",
 }
 
 

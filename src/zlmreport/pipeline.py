@@ -217,10 +217,10 @@ def run(job: Job, registry: Registry, signer: Signer | None = None) -> Outcome:
         certificate = compose(job, registry)
         contents = render(certificate, renderers, registry)
         if signer:
+            signature, called = job.keys.certificate.signature, _SIGNATURE.in_language(certificate.language)
+            stamp_url = signature.timestamp if signature else None
             contents |= {
-                each.identifier: signer(
-                    contents[each.identifier], _SIGNATURE.in_language(certificate.language)
-                )
+                each.identifier: signer(contents[each.identifier], called, stamp_url)
                 for each in renderers
                 if each.suffix == PDF
             }

@@ -77,7 +77,6 @@ def test_without_the_extra_nothing_is_made_and_the_extra_is_named(
     key: Path, shop: Shop, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setitem(sys.modules, "pkcs11.exceptions", None)
-    monkeypatch.delitem(sys.modules, "zlmreport.signing.pades", raising=False)
     shop.job()
     run = shop.run("job.yaml", "--sign", str(key))
     assert run.code == 2

@@ -15,8 +15,7 @@ from processes import run
 from signing.conftest import PLACE
 from signing.keys import PASSWORD, certificate_of, in_der, pkcs12_file, rsa_key
 from zlmreport.errors import AccessError, InputError
-from zlmreport.signing.pades import Pades
-from zlmreport.signing.signer import TokenUri, open_signer, parse_token_uri
+from zlmreport.signing.signer import TokenUri, _signed, open_signer, parse_token_uri
 from zlmreport.signing.state import Integrity, signature_state
 
 _MODULE = Path("/usr/lib/softhsm/libsofthsm2.so")
@@ -94,7 +93,7 @@ def test_a_key_that_fails_to_sign_is_told(
     key = SimpleSigner.load_pkcs12_data(content, [], PASSWORD.encode())
     monkeypatch.setattr(key, "async_sign_raw", removed)
     with pytest.raises(AccessError, match="--sign: the key did not sign: DeviceRemoved"):
-        Pades(key, PLACE)(unsigned, "Electronic signature")
+        _signed(key, (), PLACE, unsigned, "Electronic signature")
 
 
 @pytest.fixture(scope="module")

@@ -11,7 +11,7 @@ import pytest
 from certificate.documents import certificate
 from plugins.renderers.test_dcc import KEYS
 from zlmreport.errors import AccessError
-from zlmreport.verification.digital import digital_findings
+from zlmreport.verification.attached import digital_findings
 from zlmreport.verification.findings import Verdict
 from zlmreport_plugins.renderers.dcc import DccRenderer
 

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
 
 import pytest
 
 from verification.altering import Forgery, rewritten
 from verification.forgeries import FORGERIES
+from verification.test_trust import signed
 from zlmreport.errors import InputError
-from zlmreport.verification.findings import Outcome, Verification
+from zlmreport.verification.findings import Outcome, Verdict, Verification
 
 Verify = Callable[[bytes], Verification]
 
@@ -30,6 +32,30 @@ def test_a_forged_certificate_of_typst_does_not_hold(
     forgery: Forgery, by_typst: bytes, verified: Verify
 ) -> None:
     is_found(forgery, by_typst, verified)
+
+
+@pytest.mark.parametrize("forgery", FORGERIES[::8], ids=lambda each: each.name)
+def test_a_forged_certificate_does_not_hold_if_its_forger_signs_it(
+    forgery: Forgery, issued: bytes, verified: Verify, tmp_path: Path
+) -> None:
+    """What a signature may add hides nothing else; a file that cannot even be signed is none."""
+    try:
+        forged = signed(forgery.make(issued), tmp_path)
+    except Exception:  # noqa: BLE001 - pyHanko meets spoiled files with many kinds of errors
+        return
+    is_found(Forgery(forgery.name, forgery.seen, lambda _: forged), issued, verified)
+
+
+@pytest.mark.parametrize("forgery", FORGERIES[::8], ids=lambda each: each.name)
+def test_a_signed_certificate_that_is_forged_is_not_what_was_signed(
+    forgery: Forgery, issued: bytes, verified: Verify, tmp_path: Path
+) -> None:
+    try:
+        found = verified(forgery.make(signed(issued, tmp_path)))
+    except InputError:
+        return
+    assert found.outcome is Outcome.DOES_NOT_HOLD, f"seen: {forgery.seen}"
+    assert found.signature.verdict is not Verdict.HOLDS
 
 
 @pytest.mark.parametrize("printed", ["issued", "by_typst"])

@@ -2,16 +2,24 @@
 
 from __future__ import annotations
 
+from argparse import Namespace
 from collections.abc import Callable
 from io import BytesIO
+from pathlib import Path
 
 import pytest
+from cryptography.hazmat.primitives.serialization import Encoding
 from pypdf import PdfReader, PdfWriter
 from pypdf.generic import ArrayObject, FloatObject, NameObject
 
+from signing.authority import authority
 from signing.keys import NAME, PASSWORD, pkcs12_file
-from verification.issued import altered, with_digit
+from verification.issued import LABORATORY, altered, lay_out, registry, with_digit
+from zlmreport import pipeline
+from zlmreport.cli.arguments.documents import SIGN_PASSWORD
+from zlmreport.cli.report import signer_of
 from zlmreport.errors import Place
+from zlmreport.job.loading import load
 from zlmreport.signing.signer import open_signer
 from zlmreport.verification.findings import Verdict, Verification
 
@@ -46,6 +54,28 @@ def test_a_signed_certificate_holds_and_names_the_signer(issued: bytes, sign: Si
     assert {each.verdict for each in (*found.pages, *found.document)} == {Verdict.HOLDS}
 
 
+def test_a_certificate_with_a_time_stamp_holds_without_a_network(
+    verified: Verify, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with authority() as own:
+        laboratory = LABORATORY.replace("kind:", f"signature: {{timestamp: {own.address}}}, kind:")
+        job = load(lay_out(tmp_path, laboratory=laboratory), registry(), formats=("pdf",))
+        (tmp_path / "zlmreport").mkdir()
+        (tmp_path / "zlmreport" / "config.yaml").write_text("trusted: authority.pem\n")
+        authorities = tmp_path / "zlmreport" / "authority.pem"
+        authorities.write_bytes(own.certificate.public_bytes(Encoding.PEM))
+        key = pkcs12_file(tmp_path / "key.p12", certificate=own.issued())
+        monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path))
+        monkeypatch.setenv(SIGN_PASSWORD, PASSWORD)
+        with signer_of(Namespace(sign=str(key))) as signer:
+            (document,) = pipeline.run(job, registry(), signer).documents
+    found = verified(document.content)
+    assert found.holds
+    assert {each.verdict for each in (*found.pages, *found.document, *found.files)} == {Verdict.HOLDS}
+    assert "UTC by a time stamp of Common Name: Test Clock, of unknown trust" in found.signature.detail
+    assert "; kept with its proofs since 20" in found.signature.detail
+
+
 def test_a_signed_certificate_that_was_altered_before_does_not_hold(
     issued: bytes, sign: Sign, verified: Verify
 ) -> None:
@@ -68,7 +98,10 @@ def test_a_change_after_the_signature_is_found(issued: bytes, sign: Sign, verifi
     changed = BytesIO()
     writer.write(changed)
     found = verified(changed.getvalue())
-    assert found.signature.detail == "the file is signed, but something was added after it was signed"
+    assert found.signature.detail.startswith(
+        "the file is signed, but something was added after it was signed"
+    )
+    assert "the page's /Rotate" in found.signature.detail
     assert found.pages[0].verdict is Verdict.DIFFERS
 
 

@@ -7,7 +7,7 @@ import zlib
 import pytest
 from pypdf.generic import ArrayObject, DecodedStreamObject, EncodedStreamObject, NameObject
 
-from zlmreport.verification.streams import DamagedError, TooLargeError, unpacked
+from zlmreport.verification.carrier import DamagedError, TooLargeError, unpacked
 
 TEXT = b"0 0 m 10 10 l S\n" * 100
 

@@ -20,8 +20,7 @@ from verification.issued import READINGS, issue, lay_out
 from zlmreport.cli import main
 from zlmreport.errors import AccessError, InputError, Place
 from zlmreport.signing.signer import open_signer
-from zlmreport.signing.state import signature_state
-from zlmreport.signing.trust import trusted_by_user, trusted_certificates
+from zlmreport.signing.state import signature_state, trusted_by_user, trusted_certificates
 
 PLACE = Place("zlmreport --trusted")
 Run = Callable[..., tuple[int, dict[str, Any]]]

@@ -76,8 +76,10 @@ def signer_of(options: Namespace) -> AbstractContextManager[Signer | None]:
     if not options.sign:
         return nullcontext()
     from zlmreport.signing.signer import open_signer  # noqa: PLC0415 - only to sign
+    from zlmreport.signing.state import trusted_by_user, trusted_certificates  # noqa: PLC0415
 
-    return open_signer(options.sign, _password, _PLACE)
+    named = trusted_by_user()
+    return open_signer(options.sign, _password, _PLACE, trusted_certificates(named, _PLACE) if named else ())
 
 
 def demand_something_to_sign(job: Job, registry: Registry) -> None:

@@ -12,7 +12,7 @@ from zlmreport.cli.terminal import Colour, print_json, shown_path, table, visibl
 from zlmreport.errors import Place
 from zlmreport.plugins import find_plugins
 from zlmreport.quantities.units import printed_symbol
-from zlmreport.signing.trust import trusted_by_user, trusted_certificates
+from zlmreport.signing.state import trusted_by_user, trusted_certificates
 from zlmreport.verification.findings import Finding, Outcome, Value, Verdict, Verification, is_number
 from zlmreport.verification.verify import verify
 from zlmreport.version import __version__

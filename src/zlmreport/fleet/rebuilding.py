@@ -19,8 +19,8 @@ from zlmreport.fleet.records import Entry, RecordedParameter, State, Subject, pa
 from zlmreport.job.fleet import FleetFile, job_files, number_of
 from zlmreport.job.loading import load
 from zlmreport.plugins import Registry
+from zlmreport.verification.attached import SCHEMA, stated_by
 from zlmreport.verification.carrier import opened, read_file
-from zlmreport.verification.stated import SCHEMA, stated_by
 
 
 @dataclass(frozen=True, slots=True)

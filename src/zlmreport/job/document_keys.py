@@ -183,6 +183,16 @@ class Style(JobPart):
     )
 
 
+class SignatureKeys(JobPart):
+    """How a PDF is signed, where it is."""
+
+    timestamp: Annotated[str, Field(pattern=r"^https?://\S+$")] = Field(
+        description="Address of a service of time stamps (RFC 3161). What tells of revocations is kept, "
+        "too, so that the signature can be checked without a network, and after they have expired.",
+        examples=["http://timestamp.example.org"],
+    )
+
+
 class CertificateKeys(JobPart):
     """The document."""
 
@@ -198,6 +208,7 @@ class CertificateKeys(JobPart):
     issued: Date | None = Field(None, description="Date of issue.", examples=["2026-11-20"])
     language: Language = Field(Language.ENGLISH, description="Language of the document.")
     authorised_by: Person | None = Field(None, description="Who authorises the document.")
+    signature: SignatureKeys | None = Field(None, description="How the PDF is signed, where it is.")
     amends: Amends | None = Field(
         None,
         description="The earlier document that this one amends or replaces.",

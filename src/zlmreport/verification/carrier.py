@@ -1,10 +1,14 @@
-"""A PDF that somebody sent: opened without trust, and what it carries, within bounds."""
+"""A PDF that somebody sent: opened without trust, and what it carries, within bounds.
+
+Streams are unpacked as they are: what is damaged is refused, and what has no end is cut off.
+"""
 
 from __future__ import annotations
 
 import contextlib
 import logging
 import re
+import zlib
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from io import BytesIO
@@ -14,7 +18,6 @@ from typing import Any, TypeVar
 from zlmreport.certificate.attachments import LARGEST_TOTAL, MOST_ATTACHMENTS
 from zlmreport.errors import InputError, Place
 from zlmreport.files import read, unreadable
-from zlmreport.verification.streams import TooLargeError, unpacked
 
 #: Of a PDF, in bytes; a certificate has some hundred thousand, and its attachments.
 LARGEST = 2 * LARGEST_TOTAL
@@ -206,3 +209,50 @@ def _hexadecimal(checksum: Any) -> str:
     with contextlib.suppress(AttributeError):
         return bytes(original).hex()
     return ""
+
+
+class DamagedError(ValueError):
+    """A stream that cannot be unpacked to its end; pypdf would mend it as well as it can, and say nothing."""
+
+
+class TooLargeError(ValueError):
+    """A stream that unpacks to more than is allowed."""
+
+
+def unpacked(stream: Any, most: int) -> bytes:
+    """Return the bytes of a stream of pypdf.
+
+    Parameters
+    ----------
+    stream
+        The stream.
+    most
+        Bytes that it may unpack to.
+
+    Raises
+    ------
+    DamagedError
+        If it is damaged.
+    TooLargeError
+        If it unpacks to more.
+    """
+    from pypdf.errors import LimitReachedError  # noqa: PLC0415 - slow to load
+
+    packing = stream.get("/Filter")
+    if packing in ("/FlateDecode", ["/FlateDecode"]) and "/DecodeParms" not in stream:
+        unpacker = zlib.decompressobj()
+        try:
+            content = unpacker.decompress(stream._data, most + 1)  # noqa: SLF001 - only packed bytes tell damage
+        except zlib.error as error:
+            raise DamagedError(f"a stream cannot be unpacked: {error}") from error
+        if len(content) <= most and not unpacker.eof:
+            raise DamagedError("a stream ends before its end")
+    else:
+        try:
+            content = stream.get_data()
+        except LimitReachedError as error:
+            raise TooLargeError from error
+        content = content if isinstance(content, bytes) else content.encode("utf-8", "replace")
+    if len(content) > most:
+        raise TooLargeError
+    return content

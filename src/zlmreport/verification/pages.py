@@ -13,8 +13,8 @@ from zlmreport.verification.carrier import Carrier, guarded
 from zlmreport.verification.findings import Finding, Verdict
 from zlmreport.verification.fingerprint import Fingerprints
 from zlmreport.verification.fonts import show_the_same
-from zlmreport.verification.increment import is_of_signature
 from zlmreport.verification.marks import TOLERANCE, ForeignError, Mark, marks
+from zlmreport.verification.shape import is_of_signature
 
 #: Words of a page that are compared, and differences of a page that are told.
 _MOST_WORDS = 5000

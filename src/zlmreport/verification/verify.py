@@ -16,14 +16,11 @@ from zlmreport.errors import InputError, Place, ZlmreportError
 from zlmreport.job.loading import load
 from zlmreport.plugin.protocols import Renderer, made, relationship_of
 from zlmreport.plugins import Registry
-from zlmreport.signing.state import Integrity, signature_state
-from zlmreport.verification import files, pages, values
+from zlmreport.signing.state import Integrity, Signature, SignatureState, signature_state
+from zlmreport.verification import attached, pages, values
+from zlmreport.verification.attached import Results, Stated, digital_findings, laid_out, stated_by
 from zlmreport.verification.carrier import Carrier, guarded, opened, read_file
-from zlmreport.verification.digital import digital_findings
 from zlmreport.verification.findings import Finding, Identity, Verdict, Verification
-from zlmreport.verification.signature import signature_finding
-from zlmreport.verification.stated import Results, Stated, stated_by
-from zlmreport.verification.unpacking import laid_out
 
 #: The format of a certificate whose creator is this program.
 PRINTED = "pdf"
@@ -42,6 +39,14 @@ _OTHER_LIBRARIES = (
     "no page is drawn here as it was: other libraries printed it, or every page is altered; each mark on "
     "each page is compared by its shape, its colour and its place"
 )
+
+_SIGNATURE = "signature"
+_INTEGRITY = {
+    Integrity.INTACT: Verdict.HOLDS,
+    Integrity.ALTERED: Verdict.DIFFERS,
+    Integrity.UNSIGNED: Verdict.OPEN,
+    Integrity.UNCHECKED: Verdict.OPEN,
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,7 +83,7 @@ def verify(
     dcc_schema
         A folder with PTB's schema, to check an attached digital certificate by it and by PTB's rules.
     trusted
-        Certificates of signers or of authorities, as `zlmreport.signing.trust` reads them.
+        Certificates of signers or of authorities, as `zlmreport.signing.state` reads them.
     require_signature
         Whether it must bear an intact signature that is trusted.
 
@@ -94,7 +99,7 @@ def verify(
     state = signature_state(carrier.content, trusted)
     found = Verification(
         Identity(generator=carrier.creator),
-        signature_finding(state, is_required=require_signature),
+        _signature_finding(state, is_required=require_signature),
         is_signed=state.integrity is not Integrity.UNSIGNED,
         is_trusted=state.is_trusted,
     )
@@ -117,7 +122,7 @@ def verify(
         except Exception as error:  # what anyone sent may break anything that it is handed to
             ended = error if isinstance(error, ZlmreportError) else _unforeseen(carrier.place, error)
             problems = layout.problems(ended)
-            compared = files.compare(sources, carrier.carried, None)
+            compared = attached.compare(sources, carrier.carried, None)
             if all(finding.verdict is not Verdict.DIFFERS for finding in compared):
                 raise type(ended)(problems) from error
             reason = f"cannot be evaluated again: {'; '.join(map(str, problems))}"
@@ -193,7 +198,7 @@ def _compared(found: Verification, carrier: Carrier, stated: Stated, again: _Aga
     printed = pages.compare(carrier, again.prints, is_signed=found.is_signed)
     found = replace(
         found,
-        files=files.compare(provenance.sources, carrier.carried, again.prints.carrier.carried),
+        files=attached.compare(provenance.sources, carrier.carried, again.prints.carrier.carried),
         values=guarded(
             lambda: values.compare(stated.tree, json.loads(again.results), same_programs=by_same_programs),
             carrier.place,
@@ -229,3 +234,34 @@ def _left_open(found: Verification) -> Verification:
         pages=tuple(map(left_open, found.pages)),
         document=tuple(map(left_open, found.document)),
     )
+
+
+def _signature_finding(state: SignatureState, *, is_required: bool) -> Finding:
+    """Return what is to be said of the signatures of a PDF.
+
+    `is_required` says whether it must bear an intact signature that is trusted.
+    """
+    details = {
+        Integrity.INTACT: "; ".join(map(_signed, state.signatures)),
+        Integrity.ALTERED: f"the file is signed, but {state.reason}",
+        Integrity.UNSIGNED: "not signed: nothing tells who made the file",
+        Integrity.UNCHECKED: f"signed, but the signature is not checked: {state.reason}",
+    }
+    verdict, detail = _INTEGRITY[state.integrity], details[state.integrity]
+    if is_required and not state.is_trusted and state.integrity is not Integrity.UNCHECKED:
+        return Finding(_SIGNATURE, Verdict.DIFFERS, f"{detail}; a signature that is trusted is required")
+    return Finding(_SIGNATURE, verdict, detail)
+
+
+def _signed(signature: Signature) -> str:
+    whose = f"{signature.signer} (SHA-256 of the signer's certificate {signature.fingerprint})"
+    if signature.is_stamp:
+        return f"kept with its proofs since {signature.time:%Y-%m-%d %H:%M %Z}, by {signature.signer}"
+    when = f", {signature.time:%Y-%m-%d %H:%M %Z}".rstrip() if signature.time else ""
+    if signature.stamped_by:
+        trust = "trusted" if signature.is_time_trusted else "of unknown trust"
+        when += f" by a time stamp of {signature.stamped_by}, {trust}"
+    elif signature.time:
+        when += " by the signer's clock"
+    trust = "trusted" if signature.is_trusted else signature.distrust or "of unknown trust"
+    return f"intact, by {whose}{when}; {trust}"

@@ -1,0 +1,312 @@
+"""The files that a certificate carries: what it states of them, and whether they are those.
+
+The results file says what the certificate was made from. Those files are laid out so that its job finds them
+and no others, compared with what is stated of them and with those of the certificate made again, and a
+digital certificate among them is held against what PTB publishes for it.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import hashlib
+import json
+import os
+import posixpath
+import tempfile
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
+
+from zlmreport.errors import AccessError, InputError, Place, Problem, ZlmreportError
+from zlmreport.files import confined
+from zlmreport.job.types import Enclosure, enclosed
+from zlmreport.verification.carrier import Carried, Carrier
+from zlmreport.verification.findings import Finding, Verdict
+
+SCHEMA = "zlmreport/results/1"
+
+
+class _Lenient(BaseModel):
+    """Keys of a results file that are needed here; others are compared, not read."""
+
+    model_config = ConfigDict(frozen=True, extra="ignore")
+
+
+class StatedSource(_Lenient):
+    """A file that the certificate was made from."""
+
+    role: str
+    name: str
+    path: str
+    sha256: str
+    size: int
+
+
+class _Certificate(_Lenient):
+    number: str
+    title: str = ""
+    issued: str = ""
+
+
+class _Provenance(_Lenient):
+    generator: str
+    plugins: dict[str, str]
+    sources: tuple[StatedSource, ...] = Field(min_length=1)
+
+
+class Results(_Lenient):
+    """A results file as far as a verification needs to understand it."""
+
+    certificate: _Certificate
+    provenance: _Provenance
+
+
+@dataclass(frozen=True, slots=True)
+class Stated:
+    """A results file.
+
+    Attributes
+    ----------
+    file
+        The attachment.
+    tree
+        All that it says.
+    results
+        What is understood of it.
+    """
+
+    file: Carried
+    tree: dict[str, Any] = field(repr=False)
+    results: Results
+
+
+def stated_by(carrier: Carrier) -> Stated | None:
+    """Return what the results file of a certificate states; None if it carries none that can be read.
+
+    Raises
+    ------
+    ValueError
+        If there is one, and it is no sound results file.
+    """
+    for file in carrier.carried.values():
+        if file.relationship != "Data" or not file.name.endswith(".json"):
+            continue
+        try:
+            tree = json.loads(file.content, object_pairs_hook=_without_doubles)
+        except (ValueError, RecursionError) as error:
+            raise ValueError(f"{file.name}: no JSON: {error}") from error
+        if isinstance(tree, dict) and tree.get("schema") == SCHEMA:
+            try:
+                return Stated(file, tree, Results.model_validate(tree))
+            except ValidationError as error:
+                first = error.errors()[0]
+                where = ".".join(map(str, first["loc"]))
+                raise ValueError(f"{file.name}: {where}: {first['msg']}") from error
+    return None
+
+
+def _without_doubles(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    """Refuse a key that is there twice: one reader takes the first, and another the last."""
+    found = dict(pairs)
+    if len(found) != len(pairs):
+        raise ValueError("a key is there twice")
+    return found
+
+
+#: Of a file system, in bytes.
+_LONGEST_NAME = 255
+
+
+@dataclass(frozen=True, slots=True)
+class Layout:
+    """Files in a folder that is gone when the work is done.
+
+    Attributes
+    ----------
+    job
+        The job file.
+    names
+        What each file is called in messages, by where it lies.
+    """
+
+    job: Path
+    names: Mapping[str, str]
+
+    def problems(self, error: ZlmreportError) -> tuple[Problem, ...]:
+        """Return what went wrong with the files by their own names."""
+        return tuple(
+            Problem(
+                Place(self.names.get(problem.place.file, problem.place.file), *_position(problem.place)),
+                self._named(problem.message),
+            )
+            for problem in error.problems
+        )
+
+    def _named(self, message: str) -> str:
+        for path, name in self.names.items():
+            message = message.replace(path, name)
+        return message
+
+
+@contextlib.contextmanager
+def laid_out(sources: Sequence[StatedSource], carried: Mapping[str, Carried]) -> Iterator[Layout]:
+    """Write each attached source into a folder of its own; jobs name these files only while it lasts.
+
+    Parameters
+    ----------
+    sources
+        The files that a certificate states, the job first.
+    carried
+        The attachments, by name: each is a name and no path.
+    """
+    with tempfile.TemporaryDirectory(prefix="zlmreport-verify-") as folder:
+        files: dict[str, Path] = {}
+        names: dict[str, str] = {}
+        for number, source in enumerate(sources):
+            path = Path(folder, str(number), _file_name(source))
+            path.parent.mkdir()
+            names[str(path)] = source.name
+            files.setdefault(posixpath.normpath(source.path), path)
+            if source.name in carried:
+                path.write_bytes(carried[source.name].content)
+        nowhere = Path(folder, "not attached")
+        names[f"{nowhere}/"] = ""
+        with confined(Path(folder)), enclosed(Enclosure(files, nowhere)):
+            yield Layout(next(iter(files.values())), names)
+
+
+def _file_name(source: StatedSource) -> str:
+    """Return the name that a file had, for documents print it; another where no file can have that name."""
+    name = posixpath.basename(source.path)
+    try:
+        is_possible = len(os.fsencode(name)) <= _LONGEST_NAME and "\0" not in name
+    except UnicodeEncodeError:
+        is_possible = False
+    return name if is_possible and name not in {"", ".", ".."} else "file"
+
+
+def _position(place: Place) -> tuple[int, int]:
+    return place.line, place.column
+
+
+_SHOWN_DIGITS = 12
+_LONGEST_TEXT = 60
+_DESCRIBED = {"relationship": "relationship", "description": "description", "media_type": "media type"}
+
+
+def compare(
+    sources: Sequence[StatedSource], carried: Mapping[str, Carried], again: Mapping[str, Carried] | None
+) -> tuple[Finding, ...]:
+    """Return a finding for each file that is attached, or should be.
+
+    Parameters
+    ----------
+    sources
+        What the certificate states that it was made from.
+    carried
+        What it carries, by name.
+    again
+        What it carries when it is made again, by name; None if it cannot be.
+    """
+    stated = {source.name: source for source in sources}
+    findings = []
+    for name in dict.fromkeys((*stated, *carried, *(again or {}))):
+        file, source = carried.get(name), stated.get(name)
+        if file is None:
+            findings.append(Finding(name, Verdict.DIFFERS, "is not attached"))
+            continue
+        faults = [*_digests(file, source)]
+        if again is not None:
+            faults += _described(file, again.get(name))
+        verdict = Verdict.DIFFERS if faults else Verdict.HOLDS if source or again else Verdict.OPEN
+        findings.append(Finding(name, verdict, "; ".join(faults)))
+    return tuple(findings)
+
+
+def _digests(file: Carried, source: StatedSource | None) -> Iterator[str]:
+    digest = hashlib.sha256(file.content).hexdigest()
+    if source and (digest, len(file.content)) != (source.sha256, source.size):
+        yield (
+            f"is not the file that the results come from: its SHA-256 is {digest[:_SHOWN_DIGITS]}…, and "
+            f"{source.sha256[:_SHOWN_DIGITS]}… is stated"
+        )
+    elif file.checksum and file.checksum != hashlib.md5(file.content, usedforsecurity=False).hexdigest():
+        yield "is not the file that was attached: the PDF states another checksum"
+
+
+def _described(file: Carried, again: Carried | None) -> Iterator[str]:
+    """Yield where the PDF does not say of a file what it says when it is made again."""
+    if again is None:
+        yield "is no file of this certificate"
+        return
+    for key, what in _DESCRIBED.items():
+        found, expected = getattr(file, key), getattr(again, key)
+        if found != expected:
+            yield f"its {what} is {found[:_LONGEST_TEXT]!r} and should be {expected[:_LONGEST_TEXT]!r}"
+
+
+_NAMESPACE = b"https://ptb.de/dcc"
+_SCHEMA = "dcc.xsd"
+_EXTRA = "checking a digital certificate needs the extra dcc: pip install 'zlmreport[dcc]'"
+_MOST_DEFECTS = 3
+
+
+def digital_findings(carried: Mapping[str, Carried], schema: Path) -> Iterator[Finding]:
+    """Yield what PTB's rules and PTB's schema say of the attached digital certificates.
+
+    Parameters
+    ----------
+    carried
+        The attachments by their names.
+    schema
+        A folder with PTB's ``dcc.xsd`` and what it imports.
+
+    Raises
+    ------
+    AccessError
+        If the folder holds no schema.
+    InputError
+        If the optional libraries that check are not installed.
+    """
+    place = Place(str(schema))
+    if not (schema / _SCHEMA).is_file():
+        message = f"holds no {_SCHEMA}: name the folder of PTB's schema, such as v3.3.0"
+        raise AccessError.at(place, message)
+    digital = {name: each.content for name, each in carried.items() if _NAMESPACE in each.content[:1000]}
+    if not digital:
+        yield Finding("digital certificate", Verdict.OPEN, "none is attached: output.formats names no dcc")
+    try:
+        for name, content in digital.items():
+            yield _finding(name, "PTB's rules", _broken_rules(content))
+            yield _finding(name, "PTB's schema", _defects(content, schema / _SCHEMA))
+    except ImportError as error:
+        raise InputError.at(place, _EXTRA) from error
+
+
+def _broken_rules(content: bytes) -> list[str]:
+    from dcclib.validation.schematron import SchematronValidator  # noqa: PLC0415 - an optional extra
+
+    # The library refuses a text that declares its encoding: the declaration is its first line.
+    text = content.decode().partition("?>")[2].lstrip()
+    found = SchematronValidator.for_dcc().validate_str(text)
+    reports = [each.text for each in found.successful_reports if each.role == "error"]
+    return [*(each.text for each in found.failed_assertions), *reports]
+
+
+def _defects(content: bytes, schema: Path) -> list[str]:
+    from lxml import etree  # noqa: PLC0415 - comes with the extra
+
+    parser = etree.XMLParser(resolve_entities=False, no_network=True)
+    rules = etree.XMLSchema(etree.parse(str(schema), parser))
+    rules.validate(etree.fromstring(content, parser))
+    return [f"line {each.line}: {each.message}" for each in rules.error_log]
+
+
+def _finding(name: str, by: str, broken: list[str]) -> Finding:
+    if not broken:
+        return Finding(name, Verdict.HOLDS, f"valid by {by}")
+    shown = "; ".join(" ".join(each.split()) for each in broken[:_MOST_DEFECTS])
+    return Finding(name, Verdict.DIFFERS, f"not valid by {by}: {shown}")
