@@ -15,8 +15,7 @@ from zlmreport.evaluation.decision import decided, decision_rule
 from zlmreport.evaluation.evaluation import Evaluation
 from zlmreport.job.evaluation_keys import DecisionRuleKeys
 from zlmreport.language import Language
-from zlmreport.presenting.amounts import written
-from zlmreport.presenting.writer import Writer
+from zlmreport.presenting.writer import Writer, written
 
 
 @pytest.fixture(scope="module")

@@ -12,8 +12,7 @@ from zlmreport.evaluation.evaluate import evaluate
 from zlmreport.evaluation.evaluation import Evaluation, Parameter
 from zlmreport.job.types import Options
 from zlmreport.language import Language
-from zlmreport.presenting.amounts import written, written_uncertainty
-from zlmreport.presenting.writer import Writer
+from zlmreport.presenting.writer import Writer, written, written_uncertainty
 from zlmreport.quantities.units import MICROMETRE, MILLIMETRE
 from zlmreport.testing import simulated_test
 

@@ -321,3 +321,17 @@ class TestReport:
         german = report(screw(), Language.GERMAN)["candidates"][0]["explains"]
         assert re.match(r"explains (9\d|100) % of what the noise leaves open", english)
         assert re.match(r"erklärt (9\d|100) % dessen, was das Rauschen offen lässt", german)
+
+
+def test_more_readings_than_memory_holds_are_refused_with_what_they_would_take() -> None:
+    design = linear_test(50, 220)
+    with pytest.raises(ModelError, match="22000 readings, which takes at least 3 min and 5 GB"):
+        diagnose(model_of("offset"), observations(design, noise(design)), INSTALLED)
+
+
+def test_the_share_that_is_done_is_told_and_grows() -> None:
+    design, shares = linear_test(11, 3), []
+    diagnose(model_of("offset"), observations(design, noise(design)), INSTALLED, told=shares.append)
+    assert shares == sorted(shares)
+    assert 0 < shares[0] < 0.1
+    assert 0.4 < shares[-1] <= 1

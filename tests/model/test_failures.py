@@ -24,9 +24,8 @@ from zlmreport.model.axis_model import AxisModel
 from zlmreport.model.design import Design
 from zlmreport.model.fit import Assumptions, fit
 from zlmreport.model.observations import of_readings
-from zlmreport.model.outliers import outliers
-from zlmreport.model.residual_means import flagged
-from zlmreport.model.residual_tests import failures, residual_tests
+from zlmreport.model.repeats import outliers
+from zlmreport.model.residual_tests import failures, flagged, residual_tests
 from zlmreport.model.residuals import Failure, ResidualTest, residuals_of
 from zlmreport.quantities.arrays import FloatArray
 

@@ -9,9 +9,10 @@ import numpy as np
 from model.axis_tests import INSTALLED, hidden, linear_test, model_of, noise, observations
 from zlmreport.model.design import Design
 from zlmreport.model.diagnosis import Verdict, diagnose
-from zlmreport.model.faults import FaultKind, recorded_faults, run_faults
+from zlmreport.model.faults import FaultKind, lagging_sensors, recorded_faults, run_faults
 from zlmreport.model.fit import fit
 from zlmreport.model.report import report
+from zlmreport.model.sessions import held_together, with_zeros
 from zlmreport.quantities.arrays import FloatArray
 
 _DESIGN = linear_test(11, 5)
@@ -154,3 +155,20 @@ def test_temperature_that_stands_still_lags_behind_nothing() -> None:
     found = diagnose(model_of("offset"), observations(warm, deviation), INSTALLED)
     assert {each.identifier for each in found.candidates[:2]} == {"scale-error", "scale-expansion"}
     assert found.faults == ()
+
+
+def test_a_lagging_sensor_is_known_by_the_clock_of_each_session() -> None:
+    """The axis warms up in the first session and cools down in the second; both begin at 0 s."""
+    lag, base = 600.0, linear_test(11, 5)
+    sessions = []
+    for sign, seed in ((1.0, 1), (-1.0, 2)):
+        time = base.time
+        course = 1 + (lag * np.exp(-time / lag) - 700.0 * np.exp(-time / 700.0)) / (700.0 - lag)
+        true = 3.0 * sign * -np.expm1(-time / 700.0)
+        design = replace(base, conditions={"axis_temperature": 293.15 + 3.0 * sign * course})
+        deviation = 11e-6 * design.position * true + noise(design, seed=seed, sigma=1e-7)
+        sessions.append(observations(design, deviation))
+    both = held_together(sessions[0], [("second", sessions[1])])
+    fitted = fit(with_zeros(model_of("offset", "scale-error"), both.design), both.design, both.deviation)
+    (found,) = lagging_sensors(fitted, [fitted], INSTALLED)
+    assert found.kind is FaultKind.LAGGING_SENSOR

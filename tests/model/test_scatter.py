@@ -6,8 +6,15 @@ import numpy as np
 import pytest
 
 from model.axis_tests import SIGMA, linear_test, noise, pendulum_test
-from zlmreport.model.outliers import outliers
-from zlmreport.model.repeats import Spread, SpreadFactor, apart_in_time, noise_floor, spread_tests, weights
+from zlmreport.model.repeats import (
+    Spread,
+    SpreadFactor,
+    apart_in_time,
+    noise_floor,
+    outliers,
+    spread_tests,
+    weights,
+)
 from zlmreport.quantities.arrays import FloatArray
 
 DESIGN = linear_test()

@@ -139,7 +139,7 @@ def test_an_effect_has_its_page(browser: TestClient) -> None:
 
 def test_a_diagnosis_is_made_beside_and_says_how_long_it_has_been_under_way(browser: TestClient) -> None:
     found = browser.get("/api/diagnosis").json()
-    assert found.keys() == {"seconds"}
+    assert found.keys() == {"seconds", "share"}
     diagnosis = awaited(lambda: browser.get("/api/diagnosis").json().get("diagnosis"))
     assert diagnosis["verdict"] == "missing"
     assert diagnosis["candidates"][0]["argument"] == "screw-pitch"
@@ -170,7 +170,7 @@ def test_a_diagnosis_that_was_made_is_there_at_once_also_for_a_copy_and_after_a_
     again = Workbench.of([copy / "job.yaml"], registry())
     assert again.diagnoses.of(again.bench.loaded().content).keys() == {"diagnosis"}
     (copy / "x-axis.csv").write_text((copy / "x-axis.csv").read_text("utf-8") + "# later\n", "utf-8")
-    assert again.diagnoses.of(again.bench.loaded().content).keys() == {"seconds"}
+    assert again.diagnoses.of(again.bench.loaded().content).keys() == {"seconds", "share"}
     again.diagnoses.end()
 
 

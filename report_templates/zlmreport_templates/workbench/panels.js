@@ -14,7 +14,7 @@ export function verdict(texts, job, diagnosis, number, actions) {
   if (!diagnosis?.diagnosis) {
     const problems = diagnosis?.problems;
     let state = h("p", { class: "progress" }, h("progress", { "aria-label": texts.diagnosing }), ` ${texts.diagnosing} `,
-      h("span", { "aria-hidden": "true" }, said(texts.seconds, { seconds: number(diagnosis?.seconds ?? 0) })), " ", button(texts.stop, texts.stop, "diagnosis", actions.stop));
+      h("span", { "aria-hidden": "true" }, said(texts.underWay, { seconds: number(diagnosis?.seconds ?? 0), share: number(Math.round(100 * (diagnosis?.share ?? 0))) })), " ", button(texts.stop, texts.stop, "diagnosis", actions.stop));
     if (problems) state = h("ul", { class: "problems" }, problems.map((each) => h("li", {}, each)));
     if (diagnosis?.stopped) state = h("p", {}, `${texts.stopped} `, button(texts.diagnose, texts.diagnose, "diagnosis", actions.diagnose));
     return [h("h2", {}, texts.verdict), state, numbers];

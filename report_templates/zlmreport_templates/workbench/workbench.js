@@ -190,7 +190,7 @@ class Page {
       }
       if (this.stamp !== stamp) return;
       const waits = this.parts.verdict.querySelector(".progress span");
-      if (this.diagnosis.seconds !== undefined && waits) waits.textContent = said(this.texts.seconds, { seconds: this.number(this.diagnosis.seconds) });
+      if (this.diagnosis.seconds !== undefined && waits) waits.textContent = said(this.texts.underWay, { seconds: this.number(this.diagnosis.seconds), share: this.number(Math.round(100 * this.diagnosis.share)) });
       else this.#showDiagnosis();
       if (this.diagnosis.seconds === undefined) return;
       await new Promise((resolve) => { setTimeout(resolve, ASK); });

@@ -30,8 +30,7 @@ from zlmreport.certificate.values import limit, told_apart
 from zlmreport.evaluation.evaluation import Evaluation, Parameter
 from zlmreport.figures.prescribed import comparison_graph
 from zlmreport.language import Words
-from zlmreport.presenting.amounts import with_uncertainty, written
-from zlmreport.presenting.writer import NOTHING, Writer
+from zlmreport.presenting.writer import NOTHING, Writer, with_uncertainty, written
 
 if TYPE_CHECKING:
     from zlmreport.certificate.results import Evaluated

@@ -18,8 +18,7 @@ from zlmreport.certificate.own_words import arranged, filled
 from zlmreport.certificate.statements import document_title, running_title
 from zlmreport.evaluation.likely_units import doubts
 from zlmreport.language import Words
-from zlmreport.presenting.marks import Marks
-from zlmreport.presenting.writer import Writer
+from zlmreport.presenting.writer import Marks, Writer
 from zlmreport.version import __version__
 
 if TYPE_CHECKING:

@@ -21,8 +21,7 @@ from zlmreport.certificate.document import (
 )
 from zlmreport.evaluation.evaluation import Conformity
 from zlmreport.language import Words
-from zlmreport.presenting.amounts import with_uncertainty
-from zlmreport.presenting.writer import NOTHING, Writer
+from zlmreport.presenting.writer import NOTHING, Writer, with_uncertainty
 from zlmreport.quantities.formatting import fixed_number, percentage
 
 if TYPE_CHECKING:

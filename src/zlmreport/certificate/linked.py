@@ -13,7 +13,7 @@ from zlmreport.figures.model_diagram import SPREAD, ModelDiagram, estimate
 from zlmreport.figures.model_residuals import over_position
 from zlmreport.language import Language, Words, same
 from zlmreport.measurement.measurement_set import CONDITION_NAMES, CONDITIONS
-from zlmreport.model.outliers import outliers
+from zlmreport.model.repeats import outliers
 from zlmreport.model.residuals import Failure, ResidualTest
 from zlmreport.model.study import Fitted, Study, corrected
 from zlmreport.presenting.diagnosis import FailureRow, failure_row

@@ -29,7 +29,7 @@ from zlmreport.certificate.document import (
 from zlmreport.certificate.values import Values, told_apart
 from zlmreport.evaluation.evaluation import Basis, Finding, Group
 from zlmreport.language import Words
-from zlmreport.presenting.amounts import written_uncertainty
+from zlmreport.presenting.writer import written_uncertainty
 from zlmreport.quantities.formatting import plain
 from zlmreport.uncertainty.wording import RAISED_TO
 

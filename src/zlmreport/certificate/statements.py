@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING
 
 from zlmreport.certificate.document import Block, Column, Notice, Paragraph, RowGroup, Section, Table
 from zlmreport.language import Words, same
-from zlmreport.presenting.marks import BY_CUSTOMER, EXTERNAL
-from zlmreport.presenting.writer import NOTHING, Writer
+from zlmreport.presenting.writer import BY_CUSTOMER, EXTERNAL, NOTHING, Writer
 
 if TYPE_CHECKING:
     from zlmreport.job.document_keys import CertificateKeys, Person

@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING
 from zlmreport.certificate import conformity
 from zlmreport.certificate.document import Align, Cell, Column, Symbol
 from zlmreport.language import Words
-from zlmreport.presenting.amounts import with_uncertainty, written
-from zlmreport.presenting.writer import NOTHING, Writer
+from zlmreport.presenting.writer import NOTHING, Writer, with_uncertainty, written
 from zlmreport.quantities.formatting import fixed_number, plain
 
 if TYPE_CHECKING:

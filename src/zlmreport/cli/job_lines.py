@@ -14,8 +14,7 @@ from zlmreport.certificate.uncertainty import statement
 from zlmreport.certificate.values import limit
 from zlmreport.cli.terminal import Colour, shown_path, table
 from zlmreport.language import Language
-from zlmreport.presenting.amounts import written
-from zlmreport.presenting.writer import Writer
+from zlmreport.presenting.writer import Writer, written
 from zlmreport.quantities.formatting import plain
 from zlmreport.uncertainty.budget import Budget
 

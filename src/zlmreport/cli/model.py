@@ -20,7 +20,7 @@ from zlmreport.cli.model_values import (
     point_values,
     points_of,
 )
-from zlmreport.cli.terminal import print_json, shown_path
+from zlmreport.cli.terminal import print_json, progress, shown_path
 from zlmreport.errors import InputError, Place, Problem, did_you_mean
 from zlmreport.job.edit import NamedEffect, edit_effects
 from zlmreport.job.job import Job
@@ -97,8 +97,10 @@ def _fit(session: _Session, options: Namespace) -> tuple[Iterable[str], Any]:
 
 def _diagnose(session: _Session, _: Namespace) -> tuple[Iterable[str], Any]:
     study, effects = session.study(), session.registry.effects
-    diagnosis = study.diagnosis(effects)
-    experiment = experiment_of_tie(study, diagnosis, effects)
+    with progress("diagnosing") as told:
+        diagnosis = study.diagnosis(effects, told)
+    with progress("simulating plans") as told:
+        experiment = experiment_of_tie(study, diagnosis, effects, told)
     lines = diagnosis_lines(diagnosis, session.job, session.shown_path, experiment)
     values = experiment_values(experiment, session.job, Language.ENGLISH) if experiment else None
     return lines, report(diagnosis, experiment=values)

@@ -9,7 +9,8 @@ import shutil
 import sys
 import textwrap
 import unicodedata
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from enum import Enum
 from pathlib import Path
 from typing import Any
@@ -80,6 +81,22 @@ def shown_path(path: Path) -> str:
     absolute = path.resolve()
     here = Path.cwd()
     return visible(str(absolute.relative_to(here) if absolute.is_relative_to(here) else absolute))
+
+
+@contextmanager
+def progress(doing: str) -> Iterator[Callable[[float], None]]:
+    """Give what is told the share of some work that is done; a line on a terminal shows it until the end."""
+    shown = sys.stderr.isatty()
+
+    def tell(share: float) -> None:
+        if shown:
+            print(f"\r{doing} {share:4.0%} ", end="", file=sys.stderr, flush=True)
+
+    try:
+        yield tell
+    finally:
+        if shown:
+            print("\r\033[K", end="", file=sys.stderr, flush=True)
 
 
 def print_json(value: Any) -> None:

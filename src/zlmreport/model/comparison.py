@@ -8,8 +8,9 @@ in units of 2·ln(likelihood).
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
+from typing import TypeAlias
 
 import numpy as np
 
@@ -33,6 +34,14 @@ from zlmreport.quantities.arrays import FloatArray
 #: Variances of an effect before any reading, in units of what one reading is worth, and their weights; the
 #: first is what earlier tests say, where they do.
 _WORTHS = ((1.0, 0.9), (1e2, 0.05), (1e4, 0.03), (1e6, 0.02))
+
+
+#: Is told the share of some work that is done, 0 to 1.
+Told: TypeAlias = Callable[[float], object]
+
+
+def untold(_share: float) -> None:
+    """Tell nobody."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -207,7 +216,7 @@ class Comparison:
         prior = expected.probabilities([part.source for part in self.space.parts], self.grid)
         return replace(self, prior=prior, _squares=_squares(self.bases, expected), _expected=expected)
 
-    def scores(self, deviations: FloatArray, known: float = 0.0) -> Scores:
+    def scores(self, deviations: FloatArray, known: float = 0.0, told: Told = untold) -> Scores:
         """Return the likelihood ratios on sets of deviations.
 
         Parameters
@@ -216,6 +225,8 @@ class Comparison:
             m or rad.
         known
             Standard deviation of a noise of known size that stands beside σ, m or rad.
+        told
+            Is told the share that is done.
         """
         sets = deviations.shape[1]
         null = np.full(sets, np.inf)
@@ -229,6 +240,7 @@ class Comparison:
                 np.minimum(listed, self._criterion(trial, trial.squares - most), out=listed)
             for averaged in self._nameless_criteria(trial):
                 np.minimum(nameless, averaged, out=nameless)
+            told((1 + trial.index) / len(self.grid))
         best = [families[list(forms)].min(axis=0) for forms in self.bases.by_effect]
         return Scores(null - np.array(best).reshape(-1, sets), null - nameless)
 

@@ -168,14 +168,13 @@ def lagging_sensors(fitted: Fit, rivals: Sequence[Fit], effects: Iterable[Effect
         return ()
     # A lag turns a log into another: only one with which nothing is left is worth a word.
     enough = _NEARLY_NOISE * readings * floor**2
-    moments, first = np.unique(design.time, return_index=True)
+    moments = len(np.unique(design.time))
     base, least = fitted.base(), min(float(np.sum(each.residual**2)) for each in rivals)
     found: list[tuple[float, str, float]] = []
     for name in design.conditions:
-        if not name.endswith("temperature") or len(moments) < _FEWEST_STUCK:
+        if not name.endswith("temperature") or moments < _FEWEST_STUCK:
             continue
-        log = design.conditions[name]
-        rate = np.interp(design.time, moments, np.gradient(log[first], moments))
+        log, rate = design.conditions[name], _rate(design, name)
         for effect in _followers(effects, design, name):
             # What follows the log as it stands, as it does one that stands still, tells of no lag.
             as_logged = _squares_left(
@@ -199,6 +198,17 @@ def lagging_sensors(fitted: Fit, rivals: Sequence[Fit], effects: Iterable[Effect
     return (
         Fault(kind, None, _probability(evidence), statement, _OTHER_SENSOR, explains=evidence > _LAGGING),
     )
+
+
+def _rate(design: Design, name: str) -> FloatArray:
+    """Return how fast a log changes at each reading, each session by its own clock, shape (N,)."""
+    log, found = design.conditions[name], np.zeros(len(design.time))
+    for session in np.unique(design.session):
+        own = design.session == session
+        moments, first = np.unique(design.time[own], return_index=True)
+        if len(moments) > 1:
+            found[own] = np.interp(design.time[own], moments, np.gradient(log[own][first], moments))
+    return found
 
 
 def _probability(ahead: float) -> float:

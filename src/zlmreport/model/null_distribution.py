@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from zlmreport.model.comparison import Comparison, Scores
+from zlmreport.model.comparison import Comparison, Scores, Told, untold
 from zlmreport.model.design import Design
 from zlmreport.model.distributions import gamma_tail
 from zlmreport.quantities.arrays import FloatArray
@@ -83,7 +83,11 @@ class NullDistribution:
 
 
 def simulate_null(
-    comparison: Comparison, design: Design, ratios: FloatArray, posterior: FloatArray | None = None
+    comparison: Comparison,
+    design: Design,
+    ratios: FloatArray,
+    posterior: FloatArray | None = None,
+    told: Told = untold,
 ) -> NullDistribution:
     """Make the comparison on simulated tests without any effect.
 
@@ -97,8 +101,10 @@ def simulate_null(
         φ̂.
     posterior : (f,) array or None
         Probability of each φ of the comparison's grid, where it is to be averaged over instead.
+    told
+        Is told the share that is done.
     """
-    scores = comparison.scores(_simulated(comparison, design, ratios, posterior))
+    scores = comparison.scores(_simulated(comparison, design, ratios, posterior), told=told)
     usual = np.quantile(scores.ratios, 1 - LEVEL, axis=1)
     usual_of_nameless = np.quantile(scores.nameless_ratios, 1 - LEVEL, axis=1)
     blank = NullDistribution(scores.ratios, scores.nameless_ratios, usual, usual_of_nameless, np.inf)

@@ -4,6 +4,9 @@ The spread of five readings says little about their scatter: taken as a weight, 
 intervals that hold in 83 % of all cases instead of 95 %. So the variances are pooled; only where a test
 refutes that they are equal they part: those that grow along the axis by that growth, others each drawn to
 the pooled one as far as its few degrees of freedom ask.
+
+Single readings that stand off from their repeats (a chip under the probe, a broken beam, a key pressed too
+early) are flagged and set aside, never altered, and everything is fitted with and without them.
 """
 
 from __future__ import annotations
@@ -16,7 +19,8 @@ import numpy as np
 
 from zlmreport.language import Words
 from zlmreport.model.design import Design
-from zlmreport.quantities.arrays import FloatArray, IntArray
+from zlmreport.model.distributions import normal_tail
+from zlmreport.quantities.arrays import FloatArray, IntArray, read_only_integers
 
 #: Growth along the axis is seen at this level, which the other tests share among them: weights that are not
 #: needed cost more than those that are missing.
@@ -353,3 +357,73 @@ def _own(design: Design, deviation: FloatArray) -> FloatArray:
     variance = np.bincount(within.cell, weights=within.centred**2) / degrees
     variance = np.maximum(variance, 1e-6 * float(np.mean(variance)) or 1.0)
     return np.asarray(variance[within.cell] / np.mean(variance[within.cell]), dtype=np.float64)
+
+
+#: Of the robust standard deviation.
+_LIMIT = 4.5
+#: Neighbours in time whose median tells drift from a single reading.
+_WINDOW = 15
+#: Standard deviation of a normal variable over its median absolute deviation.
+_NORMAL = 1.4826
+#: By 1.35/n the median of n readings draws their median absolute deviation from it towards zero: of an odd
+#: number one reading is the median itself.
+_SHARE_OF_MEDIAN = 1.35
+#: More readings in a row are no blunder but something that the model lacks.
+_MOST_IN_A_ROW = 2
+#: A cell of fewer readings has no median that an outlier would not move.
+_FEWEST_REPEATS = 3
+
+
+@dataclass(frozen=True, slots=True)
+class Outliers:
+    """Readings that stand off.
+
+    Attributes
+    ----------
+    readings : (k,) integer array
+        Their places, in the order of time.
+    p_value
+        Chance that any of so many normal readings stands off so far; 1 if none does.
+    """
+
+    readings: IntArray
+    p_value: float
+
+
+def outliers(design: Design, deviation: FloatArray) -> Outliers:
+    """Return the readings that stand off from their repeats and from their neighbours in time.
+
+    Parameters
+    ----------
+    design
+        The test.
+    deviation : (N,) array
+        x, m or rad.
+    """
+    cell = cells(design)
+    count = np.bincount(cell)
+    if count.max() < _FEWEST_REPEATS or len(deviation) < _WINDOW:
+        return Outliers(read_only_integers([]), 1.0)
+    medians = np.array([np.median(deviation[cell == index]) for index in range(len(count))])
+    left = deviation - medians[cell]
+    half = _WINDOW // 2
+    padded = np.pad(left, half, mode="reflect")
+    left = left - np.median(np.lib.stride_tricks.sliding_window_view(padded, _WINDOW), axis=1)
+    judged = count[cell] >= _FEWEST_REPEATS
+    typical = float(np.median(count[cell][judged]))
+    spread = _NORMAL * float(np.median(np.abs(left[judged]))) / (1.0 - _SHARE_OF_MEDIAN / typical)
+    if spread == 0:
+        return Outliers(read_only_integers([]), 1.0)
+    sizes = _single(np.where(judged, np.abs(left) / spread, 0.0))
+    p_value = min(1.0, 2.0 * len(sizes) * normal_tail(float(sizes.max())))
+    return Outliers(read_only_integers(np.flatnonzero(sizes > _LIMIT)), p_value)
+
+
+def _single(sizes: FloatArray) -> FloatArray:
+    """Return how far readings stand off, those of which too many follow one another brought to the limit."""
+    off = np.concatenate([[False], sizes > _LIMIT, [False]])
+    changes = np.flatnonzero(off[1:] != off[:-1])
+    for first, end in changes.reshape(-1, 2):
+        if end - first > _MOST_IN_A_ROW:
+            sizes[first:end] = np.minimum(sizes[first:end], _LIMIT)
+    return sizes

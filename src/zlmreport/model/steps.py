@@ -9,7 +9,7 @@ import numpy as np
 
 from zlmreport.language import Words
 from zlmreport.model.candidates import effects_to_try
-from zlmreport.model.comparison import Comparison
+from zlmreport.model.comparison import Comparison, Told, untold
 from zlmreport.model.contrasts import restricted_estimate
 from zlmreport.model.effect import Effect
 from zlmreport.model.estimate import Plausibility
@@ -81,7 +81,11 @@ class Step:
 
 
 def compared(
-    fitted: Fit, effects: Iterable[Effect], first: Fit | None = None, expected: Expected | None = None
+    fitted: Fit,
+    effects: Iterable[Effect],
+    first: Fit | None = None,
+    expected: Expected | None = None,
+    told: Told = untold,
 ) -> Step:
     """Return a comparison of all effects beside a fitted model.
 
@@ -95,6 +99,8 @@ def compared(
         The model with which a diagnosis began, where effects have been added on trial since.
     expected
         What earlier tests say, sizes in units of σ.
+    told
+        Is told the share that is done.
     """
     design, deviation = fitted.design, fitted.open_deviation
     entered = effects_to_try(fitted.model, design, effects)
@@ -117,7 +123,7 @@ def compared(
     by_source = {part.source: float(ratio) for part, ratio in zip(space.parts, ratios, strict=True)}
     # What earlier tests say is no single φ: each simulated test then has one of its own.
     posterior = None if expected is None else comparison.posterior(deviation, known)
-    null = simulate_null(comparison, design, ratios, posterior)
+    null = simulate_null(comparison, design, ratios, posterior, told)
     scores = comparison.scores(deviation[:, np.newaxis], known)
     evidence = evidence_of(comparison, design, deviation, least_visible, known)
     sigma = float(np.sqrt(variance))
@@ -201,15 +207,25 @@ def add(fitted: Fit, found: Ranked) -> Fit:
     return fit(model, fitted.design, fitted.deviation, assumptions, start)
 
 
-def steps(first: Fit, effects: Sequence[Effect], expected: Expected | None = None) -> tuple[Step, ...]:
-    """Return the comparison beside a model and, as long as something is missing and has a name, the next."""
+def steps(
+    first: Fit, effects: Sequence[Effect], expected: Expected | None = None, told: Told = untold
+) -> tuple[Step, ...]:
+    """Return the comparison beside a model and, as long as something is missing and has a name, the next.
+
+    How many there will be nobody knows: each is told as half of what is left.
+    """
     relative = expected.in_units_of(first.noise.sigma) if expected else None
-    found = [compared(first, effects, None, relative)]
+    found: list[Step] = []
+
+    def step(share: float) -> None:
+        told(1.0 - 0.5 ** len(found) * (1.0 - 0.5 * share))
+
+    found.append(compared(first, effects, None, relative, step))
     while len(found) <= _MOST_STEPS:
         last = found[-1]
         if not last.something_is_missing or last.best is None:
             break
-        found.append(compared(add(last.fit, last.best), effects, first, relative))
+        found.append(compared(add(last.fit, last.best), effects, first, relative, step))
     return tuple(found)
 
 

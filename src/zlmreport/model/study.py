@@ -19,6 +19,7 @@ from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.model import wording
 from zlmreport.model.axis_model import AxisModel, ModelError, Term, chosen_effect, chosen_terms
+from zlmreport.model.comparison import Told, untold
 from zlmreport.model.design import of_position
 from zlmreport.model.diagnosis import Diagnosis, ErrorNumbers, diagnose, error_numbers
 from zlmreport.model.effect import Effect, Shape
@@ -26,8 +27,8 @@ from zlmreport.model.estimate import Estimate, InstrumentError
 from zlmreport.model.fit import Assumptions, Fit, fit
 from zlmreport.model.harmonic import Harmonic, harmonics
 from zlmreport.model.observations import Observations, observations_of, of_readings, thinned
-from zlmreport.model.outliers import outliers
 from zlmreport.model.priors import Expected
+from zlmreport.model.repeats import outliers
 from zlmreport.model.sessions import held_together, of_the_job, with_zeros
 from zlmreport.quantities.arrays import FloatArray, read_only_floats
 from zlmreport.quantities.formula import names_in, parse_formula
@@ -135,11 +136,11 @@ class Study:
         """Return the model fitted to the readings, those that stand off set aside."""
         return self._fitted(self.model)
 
-    def diagnosis(self, effects: Sequence[Effect]) -> Diagnosis:
+    def diagnosis(self, effects: Sequence[Effect], told: Told = untold) -> Diagnosis:
         """Return the diagnosis: every installed effect is tried, and every formula that the job lists."""
         try:
             tried = self.tried(effects)
-            return diagnose(self.model, self.together, tried, self.assumptions, self._expected())
+            return diagnose(self.model, self.together, tried, self.assumptions, self._expected(), told=told)
         except ModelError as error:
             raise InputError(self._problems(error)) from error
 

@@ -22,7 +22,7 @@ from zlmreport.model.estimate import InstrumentError
 from zlmreport.model.fit import Assumptions, Fit
 from zlmreport.model.fit import fit as fit_model
 from zlmreport.model.observations import Observations, observations_of
-from zlmreport.model.outliers import outliers
+from zlmreport.model.repeats import outliers
 from zlmreport.model.report import report, report_error, report_model, verdict_statement
 from zlmreport.notebook.readings import Readings, registry, tree_of
 from zlmreport.notebook.results import drawn

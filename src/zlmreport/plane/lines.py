@@ -10,8 +10,7 @@ import numpy as np
 from zlmreport.measurement.approach import Approach
 from zlmreport.model.design import Design
 from zlmreport.model.observations import Observations, of_readings
-from zlmreport.model.outliers import outliers
-from zlmreport.model.repeats import noise_floor
+from zlmreport.model.repeats import noise_floor, outliers
 from zlmreport.quantities.arrays import FloatArray, IntArray, read_only_floats, read_only_integers
 
 #: The condition under which a design holds the position of the second axis, m.

@@ -16,6 +16,7 @@ from zlmreport.job.choices import EffectChoice
 from zlmreport.job.job import Job
 from zlmreport.language import Language
 from zlmreport.model.axis_model import AxisModel, ModelError, Term
+from zlmreport.model.comparison import Told, untold
 from zlmreport.model.design import Design
 from zlmreport.model.diagnosis import Candidate, Diagnosis
 from zlmreport.model.effect import Dimension, Effect
@@ -43,7 +44,9 @@ _OF_THE_FORM: Mapping[str, Mapping[str, str]] = {
 }
 
 
-def experiment_of_tie(study: Study, diagnosis: Diagnosis, effects: Sequence[Effect]) -> Experiment | None:
+def experiment_of_tie(
+    study: Study, diagnosis: Diagnosis, effects: Sequence[Effect], told: Told = untold
+) -> Experiment | None:
     """Return the experiment that tells the first candidate of a diagnosis from its equals; None without any.
 
     Parameters
@@ -54,9 +57,11 @@ def experiment_of_tie(study: Study, diagnosis: Diagnosis, effects: Sequence[Effe
         Its outcome.
     effects
         All that are installed.
+    told
+        Is told the share of the plans that are simulated.
     """
     question = question_of_tie(diagnosis)
-    return None if question is None else _of_study(study, diagnosis.fit, question, effects)
+    return None if question is None else _of_study(study, diagnosis.fit, question, effects, told)
 
 
 def question_of_tie(diagnosis: Diagnosis) -> Question | None:
@@ -169,13 +174,17 @@ def _rival(after: Fit, effect: Effect, probability: float, size: float) -> Rival
     return found if found.stands_out and not is_counted else Rival.of_size(effect, probability, size)
 
 
-def _of_study(study: Study, base: Fit, question: Question, effects: Sequence[Effect]) -> Experiment:
+def _of_study(
+    study: Study, base: Fit, question: Question, effects: Sequence[Effect], told: Told = untold
+) -> Experiment:
     job = study.job
     scale = base.design.conditions.get("axis_temperature")
     rise = job.keys.plan.temperature_change if scale is None else float(np.ptp(scale))
     plan = measured_plan(job, study.measurements)
     seed = seed_of(job.keys.certificate.number)
-    return next_experiment(question, plan, Expected(question.sigma, rise), study.tried(effects), seed)
+    return next_experiment(
+        question, plan, Expected(question.sigma, rise), study.tried(effects), seed, told=told
+    )
 
 
 def question_of(base: Fit, rivals: Sequence[Rival], fits: Sequence[Fit]) -> Question:

@@ -20,7 +20,7 @@ from zlmreport.measurement.axis import Axis
 from zlmreport.model import wording
 from zlmreport.model.axis_model import AxisModel
 from zlmreport.model.candidates import effects_to_try
-from zlmreport.model.comparison import Comparison
+from zlmreport.model.comparison import Comparison, Told, untold
 from zlmreport.model.design import Design
 from zlmreport.model.effect import Dimension, Effect
 from zlmreport.model.evidence import MENTION, NAMED
@@ -260,8 +260,14 @@ class _Option:
     margin: float = -np.inf
 
 
-def next_experiment(
-    question: Question, plan: Plan, expected: Expected, effects: Sequence[Effect], seed: int
+def next_experiment(  # noqa: PLR0913 - what is asked, what is known, what may be, and who is told
+    question: Question,
+    plan: Plan,
+    expected: Expected,
+    effects: Sequence[Effect],
+    seed: int,
+    *,
+    told: Told = untold,
 ) -> Experiment:
     """Return the cheapest plan that decides a question; the best one if none is sure to.
 
@@ -277,11 +283,16 @@ def next_experiment(
         All that are installed.
     seed
         Of everything random.
+    told
+        Is told the share of the plans that are simulated; how many there will be shows on the way.
     """
     looked = partial(_glance, question, expected, seed)
     plan = within_travel(question.axis, _of_moderate_size(plan))
     changes = tuple(further_changes(question.axis, plan, seed, _period(question)))
-    options = [looked(each) for each in _options(question.axis, plan, [(), *((one,) for one in changes)])]
+    options: list[_Option] = []
+    for each in _options(question.axis, plan, [(), *((one,) for one in changes)]):
+        options.append(looked(each))
+        told(0.5 * len(options) / (1 + len(changes)))
     if all(each.decides < _ENOUGH for each in options):
         leading = sorted(options, key=_surest)[:_COMBINED]
         single = [each.changes[0] for each in leading if each.changes]
@@ -293,6 +304,7 @@ def next_experiment(
     order = [*sorted(promising, key=lambda each: each.plan.duration)[:1], *surest]
     order = [each for number, each in enumerate(order) if each not in order[:number]]
     tried: list[_Option] = []
+    told(0.75)
     for option in order[:_BEST] if order[0].decides >= _NOT_WORTH_IT else order[:1]:
         tried.append(_thorough(question, expected, effects, seed, option))
         if tried[-1].decides >= _ENOUGH:

@@ -1,19 +1,77 @@
-"""Writing words and values for one document: its language, its axis's units, its decimals."""
+"""Writing words and values for one document: its language, its axis's units, its decimals, its marks.
+
+Values and their uncertainties are rounded together, alike in every table.
+"""
 
 from __future__ import annotations
 
 import datetime as dt
 import math
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from zlmreport.language import Language, Words
 from zlmreport.measurement.measurement_set import MeasurementSet
-from zlmreport.presenting.marks import NO_MARKS, Marks
 from zlmreport.quantities.arrays import FloatArray, decimals_of
-from zlmreport.quantities.formatting import fixed_number, general_number
+from zlmreport.quantities.formatting import fixed_number, general_number, rounded_pair
 from zlmreport.quantities.units import CELSIUS, Scale, Unit
+
+if TYPE_CHECKING:
+    from zlmreport.evaluation.evaluation import Parameter
+    from zlmreport.job.keys import JobKeys
+
+#: Behind the name of what the customer supplied, and of what an external provider did.
+BY_CUSTOMER = "†"
+EXTERNAL = "‡"
+
+
+@dataclass(frozen=True, slots=True)
+class Marks:
+    """Whose the values of a job are, where they are not the laboratory's own.
+
+    Attributes
+    ----------
+    by_customer, external
+        Dotted job keys.
+    """
+
+    by_customer: frozenset[str] = frozenset()
+    external: frozenset[str] = frozenset()
+
+    @classmethod
+    def of(cls, keys: JobKeys) -> Marks:
+        """Return the marks that a job asks for."""
+        return cls(
+            frozenset(keys.provided_by_customer),
+            frozenset(key for each in keys.external for key in each.keys),
+        )
+
+    def after(self, *keys: str) -> str:
+        """Return the marks behind the name of what comes from these keys: ``' †'``; empty for most.
+
+        Parameters
+        ----------
+        keys
+            Dotted. A group is marked if anything in it is somebody else's, and a key if its group is.
+        """
+        found = [
+            mark
+            for mark, named in ((BY_CUSTOMER, self.by_customer), (EXTERNAL, self.external))
+            if any(_related(key, each) for key in keys for each in named)
+        ]
+        return f" {''.join(found)}" if found else ""
+
+
+def _related(key: str, other: str) -> bool:
+    """Whether two keys are one, or one of them is a group that the other is in."""
+    return f"{key}.".startswith(f"{other}.") or f"{other}.".startswith(f"{key}.")
+
+
+#: Of a document whose every value is the laboratory's own.
+NO_MARKS = Marks()
+
 
 #: What stands in a table where a value does not exist.
 NOTHING = "–"
@@ -110,3 +168,36 @@ class Writer:
         """Write the range of a logged condition (SI) in the unit that is printed."""
         decimals = _DECIMALS_OF_CELSIUS if scale is CELSIUS else _DECIMALS_OF_CONDITIONS
         return f"{self.span(scale.from_si(values), decimals)} {scale.symbol}"
+
+
+#: An uncertainty that is none.
+_NONE = "0"
+
+
+def written(parameter: Parameter, writer: Writer) -> tuple[str, str]:
+    """Write a parameter and its U, without unit: rounded together to two significant digits of U.
+
+    A value of which no uncertainty is known has the decimals of the readings (ILAC-P14:09/2020; EA-4/02
+    M:2022).
+    """
+    expanded = parameter.expanded_uncertainty
+    if not expanded:
+        return writer.deviation(parameter.printed_value), NOTHING if expanded is None else _NONE
+    return with_uncertainty(parameter.printed_value, expanded, writer)
+
+
+def written_uncertainty(expanded: float, writer: Writer) -> str:
+    """Write an U (m or rad) by itself, without unit; NaN is nothing."""
+    if math.isnan(expanded):
+        return NOTHING
+    return with_uncertainty(0.0, expanded, writer)[1] if expanded else _NONE
+
+
+def with_uncertainty(value: float, expanded: float, writer: Writer) -> tuple[str, str]:
+    """Write a value and an U that is not zero (m or rad), without unit, rounded together."""
+    unit = writer.deviation_unit
+    return rounded_pair(
+        unit.from_si(value),
+        unit.from_si(expanded),
+        writer.language.decimal_sign,
+    )

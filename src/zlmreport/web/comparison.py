@@ -21,9 +21,8 @@ from zlmreport.job.job import Job
 from zlmreport.language import Language, Words
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.model.study import Fitted
-from zlmreport.presenting.amounts import written
 from zlmreport.presenting.model import parameter_rows
-from zlmreport.presenting.writer import NOTHING, Writer
+from zlmreport.presenting.writer import NOTHING, Writer, written
 from zlmreport.quantities.arrays import FloatArray
 from zlmreport.web.bench import Bench, Loaded
 from zlmreport.web.panels import symbol

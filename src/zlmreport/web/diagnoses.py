@@ -21,12 +21,15 @@ from typing import Any
 
 from zlmreport.errors import ZlmreportError
 from zlmreport.language import Language
+from zlmreport.model.comparison import Told, untold
 from zlmreport.planning.deciding import experiment_of_tie, experiment_values
 from zlmreport.plugins import Registry, find_plugins
 from zlmreport.web.bench import Bench
 from zlmreport.web.remembered import Answers
 from zlmreport.web.view import diagnosed
 
+_SHARE = "share-done"
+_TOLD = f'{{"{_SHARE}"'
 _COMMAND = (sys.executable, "-m", "zlmreport.web.diagnoses")
 
 
@@ -50,11 +53,12 @@ class Diagnoses:
     _worker: subprocess.Popen[str] | None = None
     _asked: str = ""
     _began: float = 0.0
+    _share: float = 0.0
     _answer: dict[str, Any] | None = None
     _lock: Lock = field(default_factory=Lock)
 
     def of(self, content: str) -> dict[str, Any]:
-        """Return the diagnosis of a job of this content, or for how many seconds it has been under way."""
+        """Return the diagnosis of a job of this content, or for how long it has run, and the share done."""
         with self._lock:
             known = self.answers.recall(content)
             if known is not None:
@@ -64,7 +68,7 @@ class Diagnoses:
             if self._answer is not None and self._answer.get("content", content) != content:
                 self._ask(content)  # the job changed while its files were read
             if self._answer is None:
-                return {"seconds": round(time.monotonic() - self._began, 1)}
+                return {"seconds": round(time.monotonic() - self._began, 1), "share": self._share}
             self._asked = ""  # what failed may do better when it is asked for again
             return self._answer
 
@@ -89,7 +93,7 @@ class Diagnoses:
         if self._asked and self._answer is None:
             self._end()
         worker = self._running()
-        self._asked, self._answer, self._began = content, None, time.monotonic()
+        self._asked, self._answer, self._began, self._share = content, None, time.monotonic(), 0.0
         assert worker.stdin is not None  # noqa: S101 - opened as a pipe
         try:
             worker.stdin.write("\n")
@@ -102,7 +106,11 @@ class Diagnoses:
 
     def _listen(self, worker: subprocess.Popen[str], content: str) -> None:
         assert worker.stdout is not None  # noqa: S101 - opened as a pipe
-        line = worker.stdout.readline()
+        while _TOLD in (line := worker.stdout.readline()):
+            with self._lock:
+                if worker is not self._worker or content != self._asked:
+                    return
+                self._share = json.loads(line)[_SHARE]
         with self._lock:
             if worker is not self._worker or content != self._asked:
                 return
@@ -144,15 +152,19 @@ def main() -> None:
     registry = find_plugins(files=plugins)
     bench = Bench(path, registry)
     for _ in sys.stdin:
-        print(json.dumps(answer(bench, registry)), flush=True)  # noqa: T201 - the answer
+        print(json.dumps(answer(bench, registry, _tell)), flush=True)  # noqa: T201 - the answer
 
 
-def answer(bench: Bench, registry: Registry) -> dict[str, Any]:
+def _tell(share: float) -> None:
+    print(json.dumps({_SHARE: round(share, 3)}), flush=True)  # noqa: T201 - read as the answer is
+
+
+def answer(bench: Bench, registry: Registry, told: Told = untold) -> dict[str, Any]:
     """Return the diagnosis of the job in all languages, what decides its tie, and of which content it is."""
     try:
         loaded = bench.loaded()
         study = loaded.study
-        diagnosis = study.diagnosis(registry.effects)
+        diagnosis = study.diagnosis(registry.effects, told)
         experiment = experiment_of_tie(study, diagnosis, registry.effects)
     except ZlmreportError as error:
         return {"problems": [str(each) for each in error.problems]}

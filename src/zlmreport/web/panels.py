@@ -18,7 +18,6 @@ from zlmreport.language import Language, Words
 from zlmreport.model.design import Design
 from zlmreport.model.study import Fitted, corrected
 from zlmreport.plugins import Registry
-from zlmreport.presenting.amounts import written
 from zlmreport.presenting.model import (
     ErrorRows,
     ParameterRow,
@@ -26,7 +25,7 @@ from zlmreport.presenting.model import (
     no_table_takes_away,
     parameter_rows,
 )
-from zlmreport.presenting.writer import NOTHING, Writer
+from zlmreport.presenting.writer import NOTHING, Writer, written
 from zlmreport.quantities.formatting import spans
 from zlmreport.web.bench import Loaded
 

@@ -141,6 +141,7 @@ TEXTS: Mapping[str, Words] = MappingProxyType(
         "stopped": Words(en="The diagnosis was stopped.", de="Die Diagnose wurde angehalten."),
         "diagnose": Words(en="Diagnose", de="Diagnose beginnen"),
         "seconds": Words(en="{seconds} s", de="{seconds} s"),
+        "underWay": Words(en="{share} %, {seconds} s", de="{share} %, {seconds} s"),
         "working": Words(en="Working …", de="Einen Moment …"),
         "setAside": Words(en="Set this reading aside", de="Diesen Messwert beiseite legen"),
         "setAllAside": Words(en="Set these readings aside", de="Diese Messwerte beiseite legen"),
