@@ -12,13 +12,12 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from zlmreport.compensation.basis import FittedModel, Periodic, basis_of_means, basis_of_model
+from zlmreport.compensation.basis import FittedModel, basis_of_means, basis_of_model, with_table
 from zlmreport.compensation.confirmation import ConfirmationVerdict, confirm
-from zlmreport.compensation.curve import curve_of, rows_of
+from zlmreport.compensation.curve import curve_of
 from zlmreport.compensation.forecast import figures
 from zlmreport.compensation.making import Made, make
 from zlmreport.errors import Place
-from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.model.axis_model import AxisModel, Term
@@ -86,26 +85,18 @@ def drawn_axis(random: np.random.Generator, registry: Registry) -> Description:
     return Description(Axis("X"), plan, int(random.integers(1 << 30)), tuple(terms), noise=noise)
 
 
-def with_table(measurements: MeasurementSet, made: Made) -> MeasurementSet:
-    """Return a test of an axis as its control would have moved it with a table."""
-    row = np.where(measurements.approach == Approach.POSITIVE, 0, 1)
-    gone = made.decoded.at(measurements.target_positions)[row, measurements.target]
-    return replace(measurements, deviation=read_only_floats(measurements.deviation - gone))
-
-
 def table_from(source: str, before: MeasurementSet, terms: tuple[Term, ...], registry: Registry) -> Made:
     """Return the table of a test, by its means or by its model."""
     control = registry.controller("linuxcnc")
     curve = curve_of(before, _PLACE)
-    rows = rows_of(curve, _PLACE)
     if source == "means":
         basis = basis_of_means(curve, before)
     else:
         observed = observations_of(before)
         model = AxisModel(tuple(Term(each.effect) for each in terms))
         fitted = fit(model, observed.design, observed.deviation)
-        basis = basis_of_model(curve, FittedModel(before, observed, fitted), _PLACE, rows, Periodic.FITTING)
-    return make(basis, rows, before.axis, "LOOP", _PLACE, control, control.options())
+        basis = basis_of_model(curve, FittedModel(before, observed, fitted))
+    return make(basis, before.axis, "LOOP", _PLACE, control, control.options())
 
 
 def loops(source: str, count: int, seed: int = 1) -> Loops:
@@ -114,7 +105,8 @@ def loops(source: str, count: int, seed: int = 1) -> Loops:
     for _ in range(count):
         axis = drawn_axis(random, registry)
         made = table_from(source, simulate(axis).measurements, axis.effects, registry)
-        second = with_table(again(axis, int(random.integers(1 << 30))), made)
+        second = again(axis, int(random.integers(1 << 30)))
+        second = with_table(second, made.decoded.at(second.target_positions))
         curve = curve_of(second, _PLACE)
         shown = figures(np.stack([curve.forward, curve.reverse]), curve).in_unit(1.0)
         found.count += 1

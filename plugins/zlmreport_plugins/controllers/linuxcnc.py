@@ -50,6 +50,7 @@ class LinuxCnc:
     confidence = "verified"
     is_directional = True
     is_equidistant = False
+    most_rows = _MOST_ROWS
     notes: tuple[Words, ...] = (
         Words(
             en="In the section of the joint state COMP_FILE and COMP_FILE_TYPE, and start LinuxCNC again. "

@@ -41,9 +41,6 @@ _ZERO_AT_THE_START = Words(
 )
 
 
-_MOST_ROWS = 256
-
-
 class _OnPaper:
     """What these controls share: a file, read back as it is documented."""
 
@@ -52,6 +49,11 @@ class _OnPaper:
     is_equidistant = False
     notes: tuple[Words, ...] = (_NO_TRIAL, _MEAN_ONLY)
     options: type[Options] = Options
+
+
+def _refuse_more_than(rows: int, table: CompensationTable) -> None:
+    if len(table.positions) > rows:
+        raise InputError.at(table.place, f"the control takes {rows} rows; state a longer step")
 
 
 def _columns(table: CompensationTable) -> tuple[list[float], FloatArray, FloatArray]:
@@ -256,6 +258,7 @@ class Fanuc(_OnPaper):
 
     identifier = "fanuc"
     title = Words(en="Fanuc (pitch error compensation)", de="Fanuc (Steigungsfehlerkompensation)")
+    most_rows = 128  # of old controls
     is_equidistant = True
     options: type[Options] = FanucOptions
     notes: tuple[Words, ...] = (
@@ -276,8 +279,7 @@ class Fanuc(_OnPaper):
 
         The value at a number belongs to the interval before it.
         """
-        if len(table.positions) > 128:
-            raise InputError.at(table.place, "the control takes 128 points; state a longer step")
+        _refuse_more_than(self.most_rows, table)
         quantum, rows = options.magnification * 1e-3, len(table.positions)
         remedy = "raise magnification (3623), or state a shorter step"
         if options.reverse is None:
@@ -347,6 +349,7 @@ class Heidenhain(_OnPaper):
 
     identifier = "heidenhain"
     title = Words(en="HEIDENHAIN (.COM)", de="HEIDENHAIN (.COM)")
+    most_rows = 256
     is_directional = True
     notes: tuple[Words, ...] = (
         _NO_TRIAL,
@@ -360,8 +363,7 @@ class Heidenhain(_OnPaper):
 
     def files(self, table: CompensationTable, options: Any) -> Mapping[str, str]:  # noqa: ARG002
         """Return the table, and the line that gives it to the axis."""
-        if len(table.positions) > _MOST_ROWS:
-            raise InputError.at(table.place, f"the control takes {_MOST_ROWS} rows; state a longer step")
+        _refuse_more_than(self.most_rows, table)
         name = table.axis.name
         assigned = [
             "BEGIN CONFIG .CMA",

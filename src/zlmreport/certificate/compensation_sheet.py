@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -25,6 +25,7 @@ from zlmreport.certificate.document import (
     Symbol,
     Table,
 )
+from zlmreport.compensation.grid import GridReason
 from zlmreport.figures.figure import Curve, Figure, Panel, Role
 from zlmreport.figures.prescribed import DEVIATION_TITLE, POSITION_TITLE
 from zlmreport.language import Words
@@ -64,12 +65,24 @@ _NO_MEASUREMENT = Words(
     de="Eine Vorhersage ist keine Messung: die Achse mit ihrer Tabelle braucht eine eigene Prüfung "
     "(zlmreport compensate --confirm).",
 )
+_BOTH_SET_UPS = Words(
+    en="A second test shows the scatter of both tests, and the errors of two set-ups of this test's budget.",
+    de="Eine zweite Prüfung zeigt die Streuung beider Prüfungen und die Fehler zweier Aufbauten nach dem "
+    "Budget dieser Prüfung.",
+)
+_SCATTER_ALONE = Words(
+    en="A second test shows the scatter of both tests; of the set-up's errors the job states no budget.",
+    de="Eine zweite Prüfung zeigt die Streuung beider Prüfungen; für die Fehler des Aufbaus nennt der "
+    "Auftrag kein Budget.",
+)
 _ALTERNATIVE = Words(
     en="The mean deviations with the table, from {low} to {high}; and what the table leaves of them, from "
     "{least} to {most}.",
     de="Die mittleren Abweichungen mit der Tabelle, von {low} bis {high}; und was die Tabelle davon "
     "übrig lässt, von {least} bis {most}.",
 )
+#: U of E, M, B and A by their symbols, before and with the table, in the unit of deviations.
+Uncertainties = tuple[Mapping[str, float], Mapping[str, float]]
 _FIGURES = {
     "E": Words(en="Systematic deviation", de="Systematische Abweichung"),
     "M": Words(en="Mean bidirectional deviation", de="Mittlere Abweichung beider Richtungen"),
@@ -78,7 +91,9 @@ _FIGURES = {
 }
 
 
-def compensation_sheet(job: Job, measurements: MeasurementSet, made: Made) -> Certificate:
+def compensation_sheet(
+    job: Job, measurements: MeasurementSet, made: Made, uncertainties: Uncertainties
+) -> Certificate:
     """Return the document: what the table is for, what it leaves, how to load it, how to check it."""
     keys = job.keys.certificate
     writer = Writer.of(measurements, keys.language)
@@ -94,7 +109,7 @@ def compensation_sheet(job: Job, measurements: MeasurementSet, made: Made) -> Ce
         letterhead=None,
         cover=(
             Facts(tuple(_facts(job, made, writer))),
-            _forecast(made, writer),
+            _forecast(made, writer, uncertainties),
             *_remarks(made, writer),
             Graph(_figure(made, writer)),
         ),
@@ -135,7 +150,7 @@ def _facts(job: Job, made: Made, writer: Writer) -> Iterator[tuple[str, str]]:
     )
 
 
-def _forecast(made: Made, writer: Writer) -> Table:
+def _forecast(made: Made, writer: Writer, uncertainties: Uncertainties) -> Table:
     """Return E, M, B and A before, after, and in a second test."""
     say, unit = writer.say, writer.deviation_unit
     factor = unit.from_si(1.0)
@@ -151,8 +166,7 @@ def _forecast(made: Made, writer: Writer) -> Table:
             (
                 Symbol(symbol),
                 say(_FIGURES[symbol]),
-                _number(value, writer),
-                _number(after[symbol], writer),
+                *with_uncertainty(symbol, (value, after[symbol]), uncertainties, writer),
                 second,
             )
         )
@@ -182,6 +196,7 @@ def remarks(made: Made, writer: Writer) -> Iterator[Words]:
     def amount(value: float) -> str:
         return f"{_number(unit.from_si(value), writer)} {unit.symbol}"
 
+    yield _grid(made, writer, amount)
     yield Words(
         en="Anywhere between the {rows} rows up to {between} are left, most at {at}; rounding takes "
         "{rounding}.",
@@ -193,12 +208,14 @@ def remarks(made: Made, writer: Writer) -> Iterator[Words]:
         at=writer.length(round(forecast.between_at, 6)),
         rounding=amount(forecast.rounding),
     )
-    if made.basis.left_out:
-        names = ", ".join(f"{name} ({writer.length(wave)})" for name, wave in made.basis.left_out)
+    if made.left_out:
+        names = ", ".join(f"{name} ({writer.length(wave)})" for name, wave in made.left_out)
         yield Words(
             en="Left out, for no row carries it: {names}. It stays, with up to {error}.",
             de="Weggelassen, weil keine Zeile es trägt: {names}. Es bleibt, mit bis zu {error}.",
         ).given(names=names, error=amount(forecast.left_out))
+    if forecast.second_test:
+        yield _BOTH_SET_UPS if forecast.has_set_up else _SCATTER_ALONE
     if abs(forecast.constant) > forecast.rounding:
         yield Words(
             en="The control's table begins at zero: a constant of {constant} was taken out.",
@@ -211,6 +228,49 @@ def remarks(made: Made, writer: Writer) -> Iterator[Words]:
             de="Die Tabelle hat eine Spalte: die mittlere Umkehrspanne, {play} (vorwärts − rückwärts), "
             "bleibt dem Loseparameter der Steuerung.",
         ).given(play=amount(forecast.play))
+
+
+_GRIDS = {
+    GridReason.STATED: Words(
+        en="{rows} rows, {step} apart, as stated: the lines between them miss up to {added}.",
+        de="{rows} Zeilen im Abstand von {step}, wie verlangt: Geraden dazwischen verfehlen bis zu {added}.",
+    ),
+    GridReason.TARGETS: Words(
+        en="{rows} rows at the targets: the lines between them miss up to {added}, and U of a mean is "
+        "{allowed} (scatter, k = 2).",
+        de="{rows} Zeilen an den Zielpositionen: Geraden dazwischen verfehlen bis zu {added}, und U eines "
+        "Mittelwerts ist {allowed} (Streuung, k = 2).",
+    ),
+    GridReason.UNCERTAINTY: Words(
+        en="{rows} rows, {step} apart, are the fewest whose lines miss no more than U of a mean, {allowed} "
+        "(scatter, k = 2): up to {added}.",
+        de="{rows} Zeilen im Abstand von {step} sind die wenigsten, deren Geraden nicht mehr verfehlen als U "
+        "eines Mittelwerts, {allowed} (Streuung, k = 2): bis zu {added}.",
+    ),
+    GridReason.CONTROL: Words(
+        en="{rows} rows, {step} apart: the lines between them miss up to {added}, more than U of a mean, "
+        "{allowed} (scatter, k = 2), for the control takes no more rows.",
+        de="{rows} Zeilen im Abstand von {step}: die Geraden dazwischen verfehlen bis zu {added}, mehr als U "
+        "eines Mittelwerts, {allowed} (Streuung, k = 2), denn mehr Zeilen nimmt die Steuerung nicht.",
+    ),
+    GridReason.SUPPORT: Words(
+        en="{rows} rows, {step} apart: the lines between them miss up to {added}, more than U of a mean, "
+        "{allowed} (scatter, k = 2); the targets support no finer rows.",
+        de="{rows} Zeilen im Abstand von {step}: die Geraden dazwischen verfehlen bis zu {added}, mehr als U "
+        "eines Mittelwerts, {allowed} (Streuung, k = 2); feinere Zeilen tragen die Zielpositionen nicht.",
+    ),
+}
+
+
+def _grid(made: Made, writer: Writer, amount: Callable[[float], str]) -> Words:
+    """Return where the table has its rows, and why."""
+    grid = made.grid
+    return _GRIDS[grid.reason].given(
+        rows=len(grid.rows),
+        step=writer.length(round(float(grid.rows[1] - grid.rows[0]), 6)),
+        added=amount(grid.added),
+        allowed=amount(grid.allowed) if grid.allowed else NOTHING,
+    )
 
 
 def _loading(made: Made, writer: Writer) -> tuple[Block, ...]:
@@ -289,6 +349,15 @@ def _figure(made: Made, writer: Writer) -> Figure:
         ),
         spans_are_alike=False,
     )
+
+
+def with_uncertainty(
+    symbol: str, values: tuple[float, float], uncertainties: Uncertainties, writer: Writer
+) -> Iterator[str]:
+    """Yield a parameter before and after, each with its U where it is known."""
+    for value, known in zip(values, uncertainties, strict=True):
+        text = _number(value, writer)
+        yield f"{text} ± {_number(known[symbol], writer)}" if symbol in known else text
 
 
 def _number(value: float, writer: Writer) -> str:

@@ -12,11 +12,23 @@ from typing import Any
 import numpy as np
 
 from zlmreport import pipeline
-from zlmreport.certificate.compensation_sheet import compensation_sheet, remarks
+from zlmreport.certificate.compensation_sheet import (
+    Uncertainties,
+    compensation_sheet,
+    remarks,
+    with_uncertainty,
+)
 from zlmreport.cli.terminal import Colour, print_json, said, shown_path, table, wrapped
-from zlmreport.compensation.basis import Basis, FittedModel, Periodic, basis_of_means, basis_of_model
+from zlmreport.compensation.basis import (
+    Basis,
+    FittedModel,
+    Periodic,
+    basis_of_means,
+    basis_of_model,
+    with_table,
+)
 from zlmreport.compensation.confirmation import Confirmation, ConfirmationVerdict, confirm
-from zlmreport.compensation.curve import ErrorCurve, curve_of, rows_of
+from zlmreport.compensation.curve import ErrorCurve, curve_of
 from zlmreport.compensation.forecast import Expected, Figures, figures
 from zlmreport.compensation.making import Made, make
 from zlmreport.errors import InputError, Place
@@ -30,9 +42,9 @@ from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.plugin.protocols import Controller
 from zlmreport.plugins import Registry, find_plugins
 from zlmreport.presenting.writer import NOTHING, Writer
-from zlmreport.quantities.arrays import FloatArray
 from zlmreport.quantities.formatting import fixed_number, general_number
 from zlmreport.quantities.units import Unit
+from zlmreport.uncertainty.budget import Budget
 
 SCHEMA = "zlmreport/compensation/1"
 CONFIRMATION_SCHEMA = "zlmreport/confirmation/1"
@@ -58,18 +70,19 @@ def run(options: Namespace) -> int:
         raise InputError.at(_COMMAND, "one job makes a table; --confirm BEFORE.yaml AFTER.yaml takes two")
     job = load(options.jobs[0], registry)
     made, measurements = _made(job, registry, options)
+    uncertainties = _uncertainties(job, measurements, made, registry)
     written: Sequence[Path] = ()
     if options.output:
-        sheet = registry.renderer("pdf").render(compensation_sheet(job, measurements, made))
+        sheet = registry.renderer("pdf").render(compensation_sheet(job, measurements, made, uncertainties))
         contents = {end: text.encode() for end, text in made.files.items()} | {_SHEET: sheet}
         number = job.keys.certificate.number
         documents = [Document(options.output / f"{number}{end}", each) for end, each in contents.items()]
         demand_free(document.path for document in documents)
         written = write(documents)
     if options.json:
-        print_json(_values(job, made, written))
+        print_json(_values(job, made, uncertainties, written))
         return 0
-    print(*_lines(job, made, Writer.of(measurements, Language.ENGLISH)), sep="\n")
+    print(*_lines(job, made, uncertainties, Writer.of(measurements, Language.ENGLISH)), sep="\n")
     print()
     for path in written:
         print(shown_path(path))
@@ -96,24 +109,23 @@ def _made(job: Job, registry: Registry, options: Namespace) -> tuple[Made, Measu
         )
     measurements = pipeline.read(job, registry)
     curve = curve_of(measurements, job.source.place)
-    rows = rows_of(
-        curve,
+    basis = _basis(job, curve, measurements, registry, options)
+    budget = pipeline.budget_of_job(job, measurements, registry)
+    made = make(
+        basis,
+        job.axis,
+        job.keys.certificate.number,
         _COMMAND,
+        controller,
+        own,
         step=job.axis.position_unit.to_si(options.step) if options.step else None,
-        is_equidistant=controller.is_equidistant,
+        budget=budget if isinstance(budget, Budget) else None,
     )
-    basis = _basis(job, curve, measurements, registry, options, rows)
-    number = job.keys.certificate.number
-    return make(basis, rows, job.axis, number, _COMMAND, controller, own), measurements
+    return made, measurements
 
 
-def _basis(  # noqa: PLR0913, PLR0917 - of what, and how it is asked for
-    job: Job,
-    curve: ErrorCurve,
-    measurements: MeasurementSet,
-    registry: Registry,
-    options: Namespace,
-    rows: FloatArray,
+def _basis(
+    job: Job, curve: ErrorCurve, measurements: MeasurementSet, registry: Registry, options: Namespace
 ) -> Basis:
     """Return what is known of the axis: its means, or its model where that is asked for."""
     is_of_model = options.source == "model"
@@ -132,7 +144,7 @@ def _basis(  # noqa: PLR0913, PLR0917 - of what, and how it is asked for
         study = Study.of(job, measurements, registry.effects, pipeline.read_sessions(job, registry))
         fitted = FittedModel(measurements, study.observed, study.fitted().fit)
     if is_of_model and fitted:
-        return basis_of_model(curve, fitted, _COMMAND, rows, Periodic(options.periodic or Periodic.FITTING))
+        return basis_of_model(curve, fitted, Periodic(options.periodic or Periodic.FITTING))
     return basis_of_means(curve, measurements, fitted)
 
 
@@ -252,23 +264,53 @@ def _interval(expected: Expected | None, factor: float) -> str:
     return " to ".join(fixed_number(each * factor, 2) for each in (expected.low, expected.high))
 
 
-def _values(job: Job, made: Made, written: Sequence[Path]) -> dict[str, Any]:
+def _uncertainties(
+    job: Job, measurements: MeasurementSet, made: Made, registry: Registry
+) -> tuple[dict[str, float], dict[str, float]]:
+    """Return U before and with the table, by the first of the job's standards that has these parameters."""
+    curve, unit = made.basis.curve, job.axis.deviation_unit
+    taken = np.stack([curve.forward, curve.reverse]) - made.forecast.left
+
+    def of(readings: MeasurementSet) -> dict[str, float]:
+        for each in pipeline.evaluated(job, readings, registry):
+            found = {
+                parameter.quantity.symbol: unit.from_si(parameter.expanded_uncertainty)
+                for parameter in each.evaluation.parameters
+                if parameter.quantity.symbol in {"E", "M", "B", "A"} and parameter.expanded_uncertainty
+            }
+            if "E" in found:
+                return found
+        return {}
+
+    before = of(measurements)
+    return before, of(with_table(measurements, taken)) if before else {}
+
+
+def _values(job: Job, made: Made, uncertainties: Uncertainties, written: Sequence[Path]) -> dict[str, Any]:
     unit, position = job.axis.deviation_unit, job.axis.position_unit
     factor = unit.from_si(1.0)
     number, forecast = job.keys.certificate.number, made.forecast
     files = [str(path) for path in written] or [f"{number}{end}" for end in made.files]
+    grid = made.grid
     return {
         "schema": SCHEMA,
         "certificate": {"number": number},
         "controller": made.controller.identifier,
         "confidence": made.controller.confidence,
         "files": files,
-        "rows": len(made.meant.positions),
+        "rows": len(grid.rows),
+        "grid": {
+            "reason": grid.reason.value,
+            "positions": position.from_si(grid.rows).tolist(),
+            "added": grid.added * factor,
+            "allowed": grid.allowed * factor,
+        },
         "unit": unit.ascii,
-        "left_out": [name for name, _ in made.basis.left_out],
+        "left_out": [name for name, _ in made.left_out],
         "forecast": {
             "before": forecast.before.in_unit(factor),
             "after": forecast.after.in_unit(factor),
+            "expanded_uncertainty": dict(zip(("before", "after"), uncertainties, strict=True)),
             "second_test": {name: each.in_unit(factor) for name, each in forecast.second_test.items()},
             "between_grid_points": {
                 "largest": forecast.between * factor,
@@ -280,7 +322,7 @@ def _values(job: Job, made: Made, written: Sequence[Path]) -> dict[str, Any]:
     }
 
 
-def _lines(job: Job, made: Made, writer: Writer) -> Iterator[str]:
+def _lines(job: Job, made: Made, uncertainties: Uncertainties, writer: Writer) -> Iterator[str]:
     unit, number = job.axis.deviation_unit, job.keys.certificate.number
     title = writer.say(made.controller.title)
     yield f"{Colour.BOLD.of(number)}  axis {job.axis.name}: {title}, {made.controller.confidence}"
@@ -290,7 +332,8 @@ def _lines(job: Job, made: Made, writer: Writer) -> Iterator[str]:
     rows = []
     for symbol, value in before.items():
         second = _interval(made.forecast.second_test.get(symbol), factor)
-        rows.append((symbol, fixed_number(value, 2), fixed_number(after[symbol], 2), second, unit.symbol))
+        both = with_uncertainty(symbol, (value, after[symbol]), uncertainties, writer)
+        rows.append((symbol, *both, second, unit.symbol))
     yield from table([("", "before", "after", "a second test, 95 %", ""), *rows], indent="  ")
     yield ""
     for remark in remarks(made, writer):

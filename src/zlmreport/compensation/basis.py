@@ -8,14 +8,14 @@ table can follow it.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
 
 import numpy as np
 
 from zlmreport.compensation.curve import ErrorCurve
-from zlmreport.errors import InputError, Place
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.model.curve import shortest_wave
@@ -58,6 +58,28 @@ class Scatter:
 
 
 @dataclass(frozen=True, slots=True)
+class Part:
+    """What the readings say of one part of the deviations: what both directions share, or what parts them.
+
+    These are (e↑ ± e↓)/√2 at each target, and scatter alike. What a model does not describe may be large in
+    one and nothing in the other: geometry belongs to a position, whichever way it is approached.
+
+    Attributes
+    ----------
+    rest : (m,) array
+        What the means show beyond the model, m or rad.
+    directions : (m, p) array
+        Orthonormal: what the model can imitate; the readings decide it, scatter included.
+    trust
+        How far the rest is believed, from 0 to 1.
+    """
+
+    rest: FloatArray
+    directions: FloatArray
+    trust: float
+
+
+@dataclass(frozen=True, slots=True)
 class Basis:
     """What a table is made from, and what it is held against.
 
@@ -65,30 +87,43 @@ class Basis:
     ----------
     curve
         The means of the test.
-    wanted
-        What the table is to take away.
     known
-        What the axis does anywhere, waves that are left out included.
+        What the axis does anywhere, all its waves included.
     estimate : (2, m) array
         What another test of this plan would show at the targets without a table, m or rad.
-    trust
-        How far the means are believed beyond the model: 1 for means without one.
-    directions : (2·m, p) array
-        Orthonormal: along these the model's own uncertainty moves the estimate.
+    parts
+        What is behind the estimate: what both directions share, and if both were measured what parts them.
     scatter
         Of the readings; None where the test cannot tell.
-    left_out
-        Periodic effects that no row carries, each with the length of its shortest wave, m or rad.
+    without
+        What a table can take away that leaves out the waves of these names.
+    waves
+        The periodic effects of the model, each with the length of its shortest wave, m or rad.
+    periodic
+        What is to become of the waves.
     """
 
     curve: ErrorCurve
-    wanted: Function
     known: Function
     estimate: FloatArray
-    trust: float
-    directions: FloatArray
+    parts: tuple[Part, ...]
     scatter: Scatter | None
-    left_out: tuple[tuple[str, float], ...] = ()
+    without: Callable[[frozenset[str]], Function]
+    waves: Mapping[str, float] = field(default_factory=dict)
+    periodic: Periodic = Periodic.FITTING
+
+    def left_out(self, rows: FloatArray) -> dict[str, float]:
+        """Return the waves that a table with these rows is not to carry, by name with their lengths."""
+        return dict(self.waves) if self.periodic is Periodic.OUT else too_fine(self.waves, rows)
+
+    def wanted(self, rows: FloatArray) -> Function:
+        """Return what a table with these rows is to take away."""
+        return self.without(frozenset(self.left_out(rows)))
+
+    @property
+    def expanded_uncertainty(self) -> float:
+        """Of a mean deviation by the scatter of the readings, k = 2, m or rad; 0 if the test cannot tell."""
+        return 2 * self.scatter.single / math.sqrt(self.curve.runs) if self.scatter else 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -140,10 +175,10 @@ def waves_of(fit: Fit) -> dict[str, float]:
     return {name: wave for name, wave in found.items() if np.isfinite(wave)}
 
 
-def waves_too_fine(fit: Fit, rows: FloatArray) -> dict[str, float]:
-    """Return those whose waves a table cannot follow with rows at these positions, m or rad."""
+def too_fine(waves: Mapping[str, float], rows: FloatArray) -> dict[str, float]:
+    """Return those waves that a table cannot follow with rows at these positions, m or rad."""
     step = float(np.diff(rows).max(initial=0.0)) * (1 - _ROUNDING)
-    return {name: wave for name, wave in waves_of(fit).items() if step * ROWS_A_PERIOD > wave}
+    return {name: wave for name, wave in waves.items() if step * ROWS_A_PERIOD > wave}
 
 
 def compensated(fitted: FittedModel) -> MeasurementSet:
@@ -152,9 +187,15 @@ def compensated(fitted: FittedModel) -> MeasurementSet:
     What time decides stays in them, and so does a wave that such rows cannot follow.
     """
     measurements, targets = fitted.measurements, fitted.measurements.target_positions
-    table = fitted.sign * fitted.carried(frozenset(waves_too_fine(fitted.fit, targets)))(targets)
+    table = fitted.carried(frozenset(too_fine(waves_of(fitted.fit), targets)))(targets)
+    return with_table(measurements, table)
+
+
+def with_table(measurements: MeasurementSet, taken: FloatArray) -> MeasurementSet:
+    """Return readings less what a table takes away at the targets, e = actual − nominal, shape (2, m)."""
     row = np.where(measurements.approach == Approach.POSITIVE, 0, 1)
-    left = measurements.deviation - table[row, measurements.target]
+    sign = -1.0 if measurements.is_indication else 1.0
+    left = measurements.deviation - sign * taken[row, measurements.target]
     return replace(measurements, deviation=read_only_floats(left))
 
 
@@ -163,62 +204,42 @@ def basis_of_means(
 ) -> Basis:
     """Return the means of a test as they are; a model, if there is one, says what is between them."""
     means = np.stack([curve.forward, curve.reverse])
-    wanted = _interpolated(curve.positions, means)
-    known = wanted
+    known = alone = _interpolated(curve.positions, means)
     if fitted is not None:
         model = fitted.carried()
         known = _sum(model, _interpolated(curve.positions, means - model(curve.positions)))
+    targets = len(curve.positions)
+    part = Part(np.zeros(targets), np.eye(targets), 1.0)
     scatter = _scatter(measurements.deviations())
-    return Basis(curve, wanted, known, means, 1.0, np.empty((means.size, 0)), scatter)
+    parts = (part,) * (1 + curve.is_bidirectional)
+    return Basis(curve, known, means, parts, scatter, lambda _: alone)
 
 
-def basis_of_model(
-    curve: ErrorCurve, fitted: FittedModel, place: Place, rows: FloatArray, periodic: Periodic
-) -> Basis:
-    """Return what a model says, and beyond it the means as far as they can be believed.
-
-    Parameters
-    ----------
-    curve, fitted
-        The means, and the model.
-    place
-        Where the table is asked for.
-    rows : (g,) array
-        Where the table will have its rows, m or rad.
-    periodic
-        What becomes of periodic effects.
-
-    Raises
-    ------
-    InputError
-        If a wave is wanted that the rows cannot follow.
-    """
+def basis_of_model(curve: ErrorCurve, fitted: FittedModel, periodic: Periodic = Periodic.FITTING) -> Basis:
+    """Return what a model says, and beyond it the means as far as they can be believed."""
     measurements = fitted.measurements
-    fine = waves_too_fine(fitted.fit, rows)
-    if periodic is Periodic.IN and fine:
-        unit = measurements.axis.position_unit
-        wave = unit.from_si(min(fine.values()))
-        raise InputError.at(
-            place,
-            f"{', '.join(fine)}: a wave of {wave:g} {unit.symbol} needs {ROWS_A_PERIOD} rows in each of its "
-            f"periods; state --step {wave / ROWS_A_PERIOD:g} or less, or leave it out",
-        )
-    out = waves_of(fitted.fit) if periodic is Periodic.OUT else fine
     left = corrected(measurements, fitted.observed, fitted.fit).deviations()
     scatter = _scatter(left) or Scatter(fitted.fit.rms, 0.0, fitted.fit.degrees)
-    directions = _directions(fitted)
-    trust, rest = _believed(_both(_means(left)), scatter, curve.runs, directions.shape[1])
+    beyond, imitated = (
+        parted(values, is_bidirectional=curve.is_bidirectional)
+        for values in (fitted.sign * _both(_means(left)), _imitated(fitted))
+    )
+    own = scatter.single**2 / curve.runs
+    parts = tuple(
+        _part(rest, columns, own) for rest, columns in zip(beyond, np.moveaxis(imitated, -2, 0), strict=True)
+    )
     explained = _both(_means(measurements.deviations())) - _both(_means(left))
-    beyond = _interpolated(curve.positions, fitted.sign * rest)
+    rest = joined(np.stack([part.trust * part.rest for part in parts]))
+    kept = _interpolated(curve.positions, rest)
     return Basis(
         curve,
-        _sum(fitted.carried(frozenset(out)), beyond),
-        _sum(fitted.carried(), beyond),
-        fitted.sign * (explained + rest),
-        trust,
-        directions,
+        _sum(fitted.carried(), kept),
+        fitted.sign * explained + rest,
+        parts,
         scatter,
-        tuple(out.items()),
+        lambda left_out: _sum(fitted.carried(left_out), kept),
+        waves_of(fitted.fit),
+        periodic,
     )
 
 
@@ -260,27 +281,42 @@ def _scatter(deviations: FloatArray) -> Scatter | None:
     )
 
 
-def _believed(means: FloatArray, scatter: Scatter, runs: int, taken: int) -> tuple[float, FloatArray]:
-    """Return how far means of residuals are believed, 0 to 1, and what is then left of them.
+def parted(values: FloatArray, *, is_bidirectional: bool) -> FloatArray:
+    """Return values of shape (…, 2, m) as what both directions share and what parts them, (e↑ ± e↓)/√2.
 
-    What the means vary beyond their own scatter is real: var(r) = τ² + u², and r is worth τ²/(τ² + u²) of
-    itself (James and Stein). The model has taken some of their degrees of freedom.
+    A test of one direction has the first part only, and that is the values themselves.
     """
-    own = scatter.single**2 / runs
-    total = float(np.sum(means**2)) / max(1, means.size - taken)
-    trust = max(0.0, 1.0 - own / total) if total else 0.0
-    return trust, trust * means
+    if not is_bidirectional:
+        return values[..., :1, :]
+    forward, reverse = values[..., 0, :], values[..., 1, :]
+    return np.asarray(np.stack([forward + reverse, forward - reverse], axis=-2) / np.sqrt(2))
 
 
-def _directions(fitted: FittedModel) -> FloatArray:
-    """Return an orthonormal basis of what the model can imitate at the targets, shape (2·m, p)."""
+def joined(parts: FloatArray) -> FloatArray:
+    """Return parts of shape (…, 1 or 2, m) as values of both directions, shape (…, 2, m)."""
+    if parts.shape[-2] == 1:
+        return np.repeat(parts, 2, axis=-2)
+    return parted(parts, is_bidirectional=True)  # its own inverse
+
+
+def _part(rest: FloatArray, columns: FloatArray, own: float) -> Part:
+    """Return one part of the deviations, and how far its residuals are believed.
+
+    What they vary beyond their own scatter is real: var(r) = τ² + u², and r is worth τ²/(τ² + u²) of itself
+    (James and Stein). The model has taken some of their degrees of freedom.
+    """
+    left, singular, _ = np.linalg.svd(columns.T, full_matrices=False)
+    directions = left[:, singular > _ROUNDING * max(singular.max(initial=0.0), 1e-300)]
+    total = float(np.sum(rest**2)) / max(1, len(rest) - directions.shape[1])
+    return Part(rest, directions, max(0.0, 1.0 - own / total) if total else 0.0)
+
+
+def _imitated(fitted: FittedModel) -> FloatArray:
+    """Return what each parameter of the model does to the means at the targets, shape (p, 2, m)."""
     measurements = fitted.measurements
     columns = []
     for column in fitted.fit.base(fitted.observed.design).T:
         every = np.full(len(measurements.deviation), np.nan)
         every[fitted.observed.reading] = column
-        columns.append(_both(_means(measurements.arranged(every))).ravel())
-    if not columns:
-        return np.empty((2 * len(measurements.target_positions), 0))
-    left, singular, _ = np.linalg.svd(np.nan_to_num(np.array(columns)).T, full_matrices=False)
-    return np.asarray(left[:, singular > _ROUNDING * singular.max()])
+        columns.append(np.nan_to_num(_both(_means(measurements.arranged(every)))))
+    return np.array(columns).reshape(-1, 2, len(measurements.target_positions))

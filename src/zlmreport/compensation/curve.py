@@ -102,38 +102,6 @@ def curve_of(measurements: MeasurementSet, place: Place) -> ErrorCurve:
     )
 
 
-def rows_of(
-    curve: ErrorCurve, place: Place, *, step: float | None = None, is_equidistant: bool = False
-) -> FloatArray:
-    """Return where a table has its rows, m or rad, shape (g,).
-
-    Parameters
-    ----------
-    curve
-        The deviations.
-    place
-        Where the table is asked for.
-    step
-        Distance of the rows, m or rad; None for rows at the targets.
-    is_equidistant
-        Whether the control takes no other grid: then the targets' own number of rows.
-
-    Raises
-    ------
-    InputError
-        If the step does not divide the measured length into at least one interval.
-    """
-    first, last = float(curve.positions[0]), float(curve.positions[-1])
-    if step is not None:
-        intervals = (last - first) / step
-        if intervals < 1:
-            raise InputError.at(place, "the step is longer than the measured length; state a shorter one")
-        return read_only_floats(first + step * np.arange(int(intervals + 1e-9) + 1))
-    if is_equidistant:
-        return read_only_floats(np.linspace(first, last, len(curve.positions)))
-    return curve.positions
-
-
 def table_of(
     deviations: FloatArray, rows: FloatArray, axis: Axis, number: str, place: Place
 ) -> CompensationTable:

@@ -7,10 +7,13 @@ from itertools import pairwise
 
 import numpy as np
 
-from zlmreport.compensation.basis import Basis
+from zlmreport.compensation.basis import Basis, joined
 from zlmreport.compensation.curve import CompensationTable, ErrorCurve
 from zlmreport.evaluation.statistics import position_statistics
 from zlmreport.quantities.arrays import FloatArray, read_only_floats
+from zlmreport.uncertainty.budget import Budget, effect_along
+from zlmreport.uncertainty.contribution import Acts
+from zlmreport.uncertainty.draws import single_draws
 
 #: Places between two rows at which the table is looked at.
 _BETWEEN = 16
@@ -68,6 +71,8 @@ class Forecast:
         Largest difference between the table as it is written and as it was meant, m or rad.
     constant
         By how much the control's table is meant to be off all over: some begin at zero, m or rad.
+    has_set_up
+        Whether the second test has errors of a set-up: where the job gives a budget.
     play
         The mean lost motion that a table without directions leaves to another parameter, m or rad.
     """
@@ -81,11 +86,16 @@ class Forecast:
     left_out: float
     rounding: float
     constant: float
+    has_set_up: bool
     play: float
 
 
 def forecast(
-    basis: Basis, meant: CompensationTable, decoded: CompensationTable, active: CompensationTable | None
+    basis: Basis,
+    meant: CompensationTable,
+    decoded: CompensationTable,
+    active: CompensationTable | None,
+    budget: Budget | None = None,
 ) -> Forecast:
     """Return the forecast of a table.
 
@@ -97,6 +107,8 @@ def forecast(
         The table, and what the control makes of its files.
     active
         What was active during the test and is replaced; None for nothing.
+    budget
+        Of the set-up with which both tests are done; None where nothing is known of it.
     """
     curve = basis.curve
     means = np.stack([curve.forward, curve.reverse])
@@ -113,13 +125,16 @@ def forecast(
     return Forecast(
         figures(means, curve),
         figures(means - change, curve),
-        _second_test(basis, basis.estimate - change) if basis.scatter else {},
+        _second_test(basis, basis.estimate - change, budget) if basis.scatter else {},
         read_only_floats(means - change),
         float(worst_at[worst]),
         float(fine[worst]),
-        float(np.abs(known - basis.wanted(fine)).max()) if basis.left_out else 0.0,
+        float(np.abs(known - basis.wanted(meant.positions)(fine)).max())
+        if basis.left_out(meant.positions)
+        else 0.0,
         float(np.abs(off - constant).max()),
         constant,
+        budget is not None,
         0.0 if is_directional else float(np.mean(rows[0] - rows[1])),
     )
 
@@ -132,19 +147,19 @@ def _fine(rows: FloatArray, targets: FloatArray) -> FloatArray:
     return inside
 
 
-def _second_test(basis: Basis, left: FloatArray) -> dict[str, Expected]:
+def _second_test(basis: Basis, left: FloatArray, budget: Budget | None) -> dict[str, Expected]:
     """Draw second tests of the same plan, and return what they show.
 
-    Each has the axis as one of those that the first test may have seen, and scatter of its own.
+    Each has the axis as one of those that the first test may have seen, and scatter of its own. Both tests
+    have the errors of a set-up, each its own.
     """
     scatter, curve = basis.scatter, basis.curve
     assert scatter is not None  # noqa: S101  # its caller asked
     random = np.random.default_rng(_SEED)
     single = _deviation(scatter.single, scatter.degrees, random)
-    own = single / np.sqrt(curve.runs)
-    model = random.standard_normal((_DRAWS, basis.directions.shape[1])) @ basis.directions.T
-    beyond = np.sqrt(basis.trust) * random.standard_normal((_DRAWS, left.size))
-    axes = left + (own * (model + beyond)).reshape(_DRAWS, *left.shape)
+    axes = left + _unknown(basis, single / np.sqrt(curve.runs), random)
+    if budget is not None:
+        axes += _of_set_up(budget, curve, random) - _of_set_up(budget, curve, random)
     shown = axes if curve.is_bidirectional else axes[:, :1]
     common = _deviation(scatter.run, curve.runs - 1, random)[..., np.newaxis, np.newaxis]
     common = common * random.standard_normal((_DRAWS, 1, 1, curve.runs))
@@ -155,6 +170,51 @@ def _second_test(basis: Basis, left: FloatArray) -> dict[str, Expected]:
         symbol: Expected(float(values.mean()), *map(float, np.quantile(values, [_LOW, _HIGH])))
         for symbol, values in drawn.items()
     }
+
+
+def _unknown(basis: Basis, own: FloatArray, random: np.random.Generator) -> FloatArray:
+    """Draw by how much the axis differs from the estimate, shape (N, 2, m), m or rad.
+
+    A part of the deviations is what the model can imitate, and what it cannot: of a variance τ² that is known
+    only from the residuals r. With means of variance u² the posterior is that of universal kriging: along the
+    model's directions the axis is as uncertain as the means, N(0, u²); across them it is t·r + N(0, t·u²),
+    t = τ²/(τ² + u²). As τ² + u² comes from r with so many degrees of freedom, t differs from draw to draw.
+    Nothing is drawn twice: what lies along the model's directions cannot be told from the model.
+
+    Parameters
+    ----------
+    basis
+        What is known.
+    own : (N, 1) array
+        u, m or rad.
+    random
+        Draws.
+    """
+    drawn = []
+    for part in basis.parts:
+        free = len(part.rest) - part.directions.shape[1]
+        unit = own * random.standard_normal((_DRAWS, len(part.rest)))
+        along = unit @ part.directions @ part.directions.T
+        total = float(np.sum(part.rest**2)) / random.chisquare(max(1, free), (_DRAWS, 1))
+        trust = np.maximum(0.0, 1.0 - own**2 / total) if total.all() else np.zeros_like(own)
+        drawn.append(along + np.sqrt(trust) * (unit - along) + (trust - part.trust) * part.rest)
+    return joined(np.stack(drawn, axis=-2))
+
+
+def _of_set_up(budget: Budget, curve: ErrorCurve, random: np.random.Generator) -> FloatArray:
+    """Draw the errors of a set-up in the mean deviations, shape (N, 2, m), m or rad.
+
+    What differs from reading to reading or drifts is left out: it is in the scatter of the readings.
+    """
+
+    def drawn(acts: Acts, *shape: int) -> FloatArray:
+        return single_draws(budget.acting(acts), (_DRAWS, *shape), random)
+
+    targets = len(curve.positions)
+    errors = drawn(Acts.ALONG_THE_LENGTH, 1, 1) * effect_along(curve.positions)
+    errors = errors + drawn(Acts.AT_EACH_POSITION, 1, targets) + drawn(Acts.AT_EACH_APPROACH, 2, targets)
+    errors[:, 1:] += drawn(Acts.BETWEEN_DIRECTIONS, 1, 1)
+    return errors
 
 
 def _deviation(estimate: float, degrees: int, random: np.random.Generator) -> FloatArray:

@@ -6,13 +6,15 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any, Protocol
 
-from zlmreport.compensation.basis import Basis
+from zlmreport.compensation.basis import ROWS_A_PERIOD, Basis, Periodic
 from zlmreport.compensation.curve import CompensationTable, table_of
 from zlmreport.compensation.forecast import Forecast, forecast
-from zlmreport.errors import Place
+from zlmreport.compensation.grid import Grid, grid_of
+from zlmreport.errors import InputError, Place
 from zlmreport.language import Words
 from zlmreport.measurement.axis import Axis
-from zlmreport.quantities.arrays import FloatArray, read_only_floats
+from zlmreport.quantities.arrays import read_only_floats
+from zlmreport.uncertainty.budget import Budget
 
 
 class TableWriter(Protocol):
@@ -21,6 +23,7 @@ class TableWriter(Protocol):
     identifier: str
     title: Words
     confidence: str
+    is_equidistant: bool
     notes: tuple[Words, ...]
 
     def files(self, table: CompensationTable, options: Any) -> Mapping[str, str]:
@@ -40,6 +43,10 @@ class Made:
         The control.
     basis
         What is known of the axis.
+    grid
+        Where the table has its rows, and why.
+    left_out
+        Periodic effects that no row carries, each with the length of its shortest wave, m or rad.
     meant, decoded
         The table, and what the control makes of its files.
     active
@@ -52,6 +59,8 @@ class Made:
 
     controller: TableWriter
     basis: Basis
+    grid: Grid
+    left_out: tuple[tuple[str, float], ...]
     meant: CompensationTable
     decoded: CompensationTable
     active: CompensationTable | None
@@ -59,8 +68,16 @@ class Made:
     forecast: Forecast
 
 
-def make(  # noqa: PLR0913, PLR0917 - of what, on which rows, for whom
-    basis: Basis, rows: FloatArray, axis: Axis, number: str, place: Place, controller: TableWriter, own: Any
+def make(  # noqa: PLR0913, PLR0917 - of what, on which grid, for whom
+    basis: Basis,
+    axis: Axis,
+    number: str,
+    place: Place,
+    controller: TableWriter,
+    own: Any,
+    *,
+    step: float | None = None,
+    budget: Budget | None = None,
 ) -> Made:
     """Make a table.
 
@@ -68,19 +85,32 @@ def make(  # noqa: PLR0913, PLR0917 - of what, on which rows, for whom
     ----------
     basis
         What is known of the axis.
-    rows : (g,) array
-        Where it has its rows, m or rad.
     axis, number, place
         The axis with the table that was active; the name of the job; where the table is asked for.
     controller, own
         The control, and its keys.
+    step
+        Distance of the rows, m or rad; None for the grid that `grid_of` chooses.
+    budget
+        Of the measuring set-up; None where nothing is known of it.
 
     Raises
     ------
     InputError
-        If the control would refuse the table, or cut it off.
+        If the control would refuse the table, or cut it off; if a wave is wanted that no row can follow.
     """
-    meant = table_of(basis.wanted(rows), rows, axis, number, place)
+    most = getattr(controller, "most_rows", None)
+    grid = grid_of(basis, place, step=step, is_equidistant=controller.is_equidistant, most_rows=most)
+    rows, left_out = grid.rows, basis.left_out(grid.rows)
+    if basis.periodic is Periodic.IN and left_out:
+        unit = axis.position_unit
+        wave = unit.from_si(min(left_out.values()))
+        raise InputError.at(
+            place,
+            f"{', '.join(left_out)}: a wave of {wave:g} {unit.symbol} needs {ROWS_A_PERIOD} rows in each of "
+            f"its periods; state --step {wave / ROWS_A_PERIOD:g} or less, or leave it out",
+        )
+    meant = table_of(basis.wanted(rows)(rows), rows, axis, number, place)
     files = controller.files(meant, own)
     decoded = controller.read(files, meant, own)
     old = axis.compensation_table
@@ -92,4 +122,14 @@ def make(  # noqa: PLR0913, PLR0917 - of what, on which rows, for whom
             forward=read_only_floats(old.values),
             reverse=read_only_floats(old.reverse or old.values),
         )
-    return Made(controller, basis, meant, decoded, active, files, forecast(basis, meant, decoded, active))
+    return Made(
+        controller,
+        basis,
+        grid,
+        tuple(left_out.items()),
+        meant,
+        decoded,
+        active,
+        files,
+        forecast(basis, meant, decoded, active, budget),
+    )

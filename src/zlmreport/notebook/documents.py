@@ -10,7 +10,7 @@ from typing import Any, Literal
 from zlmreport import pipeline
 from zlmreport.certificate.document import Certificate as ComposedCertificate
 from zlmreport.compensation.basis import basis_of_means
-from zlmreport.compensation.curve import curve_of, rows_of
+from zlmreport.compensation.curve import curve_of
 from zlmreport.compensation.making import Made, make
 from zlmreport.errors import InputError, Place, did_you_mean
 from zlmreport.files import Document, demand_free, write
@@ -270,7 +270,7 @@ def compensate(  # noqa: PLR0913 - each by its name
     number
         The stem of the names of the files.
     step
-        Between rows, mm or °; the targets without it.
+        Between rows, mm or °; without it the targets, or what the control takes in their place.
     unconfirmed
         Whether a format that was never tried on the control is written.
     **keys
@@ -293,12 +293,14 @@ def compensate(  # noqa: PLR0913 - each by its name
             "unconfirmed=True writes it all the same: try it with care, one point first",
         )
     options = checked(writer.options, keys, "compensate")
-    curve = curve_of(data.measurements, _PLACE)
-    rows = rows_of(
-        curve,
+    basis = basis_of_means(curve_of(data.measurements, _PLACE), data.measurements)
+    made = make(
+        basis,
+        axis,
+        number,
         _PLACE,
+        writer,
+        options,
         step=None if step is None else axis.position_unit.to_si(step),
-        is_equidistant=writer.is_equidistant,
     )
-    basis = basis_of_means(curve, data.measurements, None)
-    return Compensation(data, make(basis, rows, axis, number, _PLACE, writer, options), number)
+    return Compensation(data, made, number)

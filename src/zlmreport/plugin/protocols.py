@@ -233,6 +233,9 @@ def taken_by(program: PartProgram) -> type:
 class Controller(Protocol):
     """A writer and reader of compensation tables in the words of a control.
 
+    One more attribute, ``most_rows``, is the number of rows that the control takes; one that lacks it takes
+    any number.
+
     Attributes
     ----------
     identifier

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from zlmreport.compensation.basis import waves_too_fine
+from zlmreport.compensation.basis import too_fine, waves_of
 from zlmreport.language import Language, Words
 from zlmreport.measurement.axis import Axis
 from zlmreport.model import wording
@@ -188,7 +188,10 @@ def deviation(value: float | None, axis: Axis, language: Language) -> str:
 
 def no_table_takes_away(fit: Fit, language: Language) -> str:
     """Return the sentences on effects that no table of positions takes away; empty if there are none."""
-    named = ((_MOVES, moves_with_time(fit)), (_TOO_FINE, waves_too_fine(fit, fit.design.target_positions)))
+    named = (
+        (_MOVES, moves_with_time(fit)),
+        (_TOO_FINE, too_fine(waves_of(fit), fit.design.target_positions)),
+    )
     said = (words.given(effects=", ".join(effects)) for words, effects in named if effects)
     return " ".join(words.in_language(language) for words in said)
 

@@ -95,7 +95,7 @@ def compensate(command: str) -> CommandParser:
         "--step",
         metavar="S",
         type=position,
-        help="distance of the rows, mm or degrees; without it rows at the targets",
+        help="distance of the rows, mm or degrees; without it a rule says where they are, and why",
     )
     parser.add_argument(
         "--from",
