@@ -29,7 +29,7 @@ from zlmreport.planning.methods import Method
 from zlmreport.planning.plan import Plan
 from zlmreport.plugins import find_plugins
 from zlmreport.simulation.description import Description
-from zlmreport.simulation.machine import emulated_machine
+from zlmreport.simulation.simulate import emulated_machine
 from zlmreport_plugins.instruments.text_readout import TextDecoder, TextReadoutOptions
 from zlmreport_plugins.instruments.umd import Setup, UmdDecoder
 from zlmreport_plugins.instruments.umd.lines import MODELS

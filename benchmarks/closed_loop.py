@@ -22,7 +22,7 @@ from zlmreport.emulation.emulator import Scene
 from zlmreport.job.simulation import load_simulation
 from zlmreport.plugins import find_plugins
 from zlmreport.simulation.files import description_of
-from zlmreport.simulation.machine import EmulatedMachine, emulated_machine
+from zlmreport.simulation.simulate import EmulatedMachine, emulated_machine
 
 sys.path.append(str(Path(__file__).parents[1] / "tests"))
 sys.path.append(str(Path(__file__).parent))

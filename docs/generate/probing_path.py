@@ -8,7 +8,7 @@ from pathlib import Path
 from zlmreport.job.loading import load
 from zlmreport.language import Language
 from zlmreport.plugins import find_plugins
-from zlmreport_step_gauge.paths.picture import path_svg
+from zlmreport_step_gauge.paths.foretold import path_svg
 from zlmreport_step_gauge.paths.plan import path_of_job
 
 _JOB = Path(__file__).parents[2] / "configs" / "step-gauge" / "job.yaml"

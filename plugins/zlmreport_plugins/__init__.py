@@ -45,8 +45,6 @@ OFFERS: Mapping[str, Mapping[str, tuple[str, ...]]] = {
             "time-periodic",
         )
     },
-    "fanuc": {"part_program": ("fanuc",)},
-    "heidenhain": {"part_program": ("heidenhain",)},
     "html": {"renderer": ("html",)},
     "ids3010": {"instrument": ("ids3010",)},
     "iso230_2": {
@@ -59,7 +57,6 @@ OFFERS: Mapping[str, Mapping[str, tuple[str, ...]]] = {
     },
     "json_results": {"renderer": ("csv", "json", "xlsx")},
     "laser_csv": {"source": ("laser-csv",)},
-    "linuxcnc": {"part_program": ("linuxcnc",)},
     "nd28x": {"instrument": ("nd28x",)},
     "nmtba": {"standard": ("nmtba",)},
     "notifiers": {
@@ -68,11 +65,11 @@ OFFERS: Mapping[str, Mapping[str, tuple[str, ...]]] = {
             "mail",
         )
     },
+    "part_programs": {"part_program": ("fanuc", "heidenhain", "linuxcnc", "siemens-840d")},
     "pdf": {"renderer": ("pdf",)},
     "pdf_typst": {"renderer": ("pdf-typst",)},
     "renishaw_rtl": {"source": ("renishaw-rtl",)},
     "serial_interferometer": {"source": ("serial-interferometer",)},
-    "siemens_840d": {"part_program": ("siemens-840d",)},
     "text_readout": {"instrument": ("text-readout",)},
     "umd": {
         "instrument": (

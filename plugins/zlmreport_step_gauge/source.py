@@ -30,8 +30,17 @@ from zlmreport_step_gauge.deviations import deviations_of
 from zlmreport_step_gauge.gauge import Side, StepGauge
 from zlmreport_step_gauge.keys import MachineKeys
 from zlmreport_step_gauge.measurements import Sign, Targets, measurement_set
-from zlmreport_step_gauge.points import Direction, Points, Unnumbered, by_order, numbered, wrong_side
-from zlmreport_step_gauge.probed import ProbedPoint, face_of, gridded
+from zlmreport_step_gauge.probed import (
+    Direction,
+    Points,
+    ProbedPoint,
+    Unnumbered,
+    by_order,
+    face_of,
+    gridded,
+    numbered,
+    wrong_side,
+)
 from zlmreport_step_gauge.set_up import GaugeSetUp
 from zlmreport_step_gauge.tables import Row, measured, read_named_columns
 

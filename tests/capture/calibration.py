@@ -12,7 +12,7 @@ import numpy as np
 
 from capture.virtual import PORT, World, inhabited
 from zlmreport.capture.events import Event, Recorded
-from zlmreport.capture.history import History, read_history
+from zlmreport.capture.journal import History, read_history
 from zlmreport.cli import main
 from zlmreport.emulation.emulator import Scene
 from zlmreport.evaluation.evaluate import evaluate
@@ -21,7 +21,7 @@ from zlmreport.job.types import Options
 from zlmreport.planning.methods import Method
 from zlmreport.plugins import Registry, find_plugins
 from zlmreport.simulation.files import description_of
-from zlmreport.simulation.machine import EmulatedMachine, emulated_machine
+from zlmreport.simulation.simulate import EmulatedMachine, emulated_machine
 
 #: How long the machine rests before its program, s: µMD0 takes four of them to say what it
 #: is, and a bad line may take more.

@@ -15,7 +15,7 @@ from typing import Any
 
 from capture.operated import OperatedAxis
 from processes import PATIENCE, ZLMREPORT, group
-from zlmreport.capture.history import History, read_history
+from zlmreport.capture.journal import History, read_history
 from zlmreport.emulation.channels import PseudoTerminal, serve
 from zlmreport.emulation.emulator import Emulator, Scene, Troubles
 from zlmreport.job.simulation import load_simulation

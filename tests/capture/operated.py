@@ -6,7 +6,7 @@ from bisect import bisect_right
 
 from zlmreport.planning.methods import path
 from zlmreport.simulation.description import Description
-from zlmreport.simulation.machine import emulated_machine
+from zlmreport.simulation.simulate import emulated_machine
 
 #: How fast an operator moves the axis by hand, m/s.
 _JOG = 0.5

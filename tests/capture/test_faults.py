@@ -12,8 +12,7 @@ from capture.faulty_line import FaultyLine
 from zlmreport.capture.events import Missed, Recorded
 from zlmreport.emulation.emulator import MovingAxis, Scene
 from zlmreport_plugins.instruments.umd import Setup, UmdDecoder
-from zlmreport_plugins.instruments.umd.emulator import UmdEmulator
-from zlmreport_plugins.instruments.umd.lines import MODELS
+from zlmreport_plugins.instruments.umd.lines import MODELS, UmdEmulator
 
 #: Together more than 10,000 faults.
 LEAST = {"umd0": 1300, "umd1": 3300, "umd2": 5500, "nd28x": 60, "ids3010": 300, "text-readout": 100}

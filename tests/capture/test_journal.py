@@ -12,8 +12,7 @@ from capture.moves import Axis, kinds, planned
 from capture.recording import header, recorded, written
 from processes import PYTHON, run
 from zlmreport.capture.events import Ended, Interrupted, Resumed
-from zlmreport.capture.history import read_history, sealed
-from zlmreport.capture.journal import Journal
+from zlmreport.capture.journal import Journal, read_history, sealed
 from zlmreport.errors import AccessError
 from zlmreport.live.reading import Fault
 from zlmreport.planning.methods import Method

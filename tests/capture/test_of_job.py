@@ -8,8 +8,7 @@ from pathlib import Path
 import pytest
 
 from zlmreport import pipeline
-from zlmreport.capture.history import read_history
-from zlmreport.capture.journal import Journal
+from zlmreport.capture.journal import Journal, read_history
 from zlmreport.capture.of_job import Assignment, assignment_of, demand_same_test, header_of, instrument_of
 from zlmreport.errors import AccessError, InputError, Place
 from zlmreport.job.job import Job

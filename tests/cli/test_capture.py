@@ -19,7 +19,7 @@ from cli.commands import Run
 from environments import ROOT
 from processes import PATIENCE, ZLMREPORT, group
 from zlmreport.capture.events import Recorded
-from zlmreport.capture.history import read_history
+from zlmreport.capture.journal import read_history
 from zlmreport.cli import main
 
 PLUGIN = Path(__file__).with_name("scripted.py")

@@ -7,7 +7,7 @@ import pytest
 
 from zlmreport.compensation.basis import Basis, Periodic, Scatter
 from zlmreport.compensation.curve import ErrorCurve
-from zlmreport.compensation.grid import Grid, GridReason, grid_of
+from zlmreport.compensation.making import Grid, GridReason, grid_of
 from zlmreport.errors import Place
 from zlmreport.quantities.arrays import FloatArray
 

@@ -10,8 +10,7 @@ import pytest
 from simulation.describing import described, hidden
 from zlmreport.planning.methods import Method, path, visits
 from zlmreport.simulation.description import Course, Description, Noise
-from zlmreport.simulation.machine import EmulatedMachine, StartedMachine, emulated_machine
-from zlmreport.simulation.simulate import simulate
+from zlmreport.simulation.simulate import EmulatedMachine, StartedMachine, emulated_machine, simulate
 
 LEAD = 3.0
 NOISY = Noise(reading=0.5e-6, drift=0.2e-6, outlier_share=0.1, outlier_size=5e-6)

@@ -11,9 +11,9 @@ from processes import PATIENCE
 from step_gauge.paths import planned
 from zlmreport.emulation.channels import LocalSocket, serve
 from zlmreport.emulation.emulator import Troubles
-from zlmreport_step_gauge.machines.answers import MachineError
 from zlmreport_step_gauge.machines.emulated import Boxes, CoordinateMachine
 from zlmreport_step_gauge.machines.server import DmeServer, PointFault
+from zlmreport_step_gauge.machines.session import MachineError
 from zlmreport_step_gauge.paths.path import Point, Probing
 from zlmreport_step_gauge.paths.plan import PlannedPath
 

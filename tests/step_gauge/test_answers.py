@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from zlmreport_step_gauge.machines.answers import (
+from zlmreport_step_gauge.machines.session import (
     Answer,
     Kind,
     MachineError,

@@ -10,8 +10,8 @@ import pytest
 from step_gauge.paths import planned
 from zlmreport.language import Language
 from zlmreport_step_gauge.gauge import Side
+from zlmreport_step_gauge.paths.foretold import path_svg
 from zlmreport_step_gauge.paths.path import PathKind
-from zlmreport_step_gauge.paths.picture import path_svg
 from zlmreport_step_gauge.paths.plan import PlannedPath
 from zlmreport_step_gauge.paths.views import View, path_views
 

@@ -22,10 +22,10 @@ from zlmreport.plugin import (
     general_number,
 )
 from zlmreport_step_gauge.keys import STANDARD_PORT
-from zlmreport_step_gauge.machines.answers import MachineError
 from zlmreport_step_gauge.machines.emulated import machine_of_job
 from zlmreport_step_gauge.machines.run import LiveProbing, run_probing
 from zlmreport_step_gauge.machines.server import DmeServer, PointFault
+from zlmreport_step_gauge.machines.session import MachineError
 from zlmreport_step_gauge.paths.path import Point, Probing
 
 #: As the command line names the machine.

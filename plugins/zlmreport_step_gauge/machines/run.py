@@ -31,8 +31,14 @@ from zlmreport.plugin import (
     unwritable,
 )
 from zlmreport_step_gauge.keys import MachineKeys, StepGaugeKeys
-from zlmreport_step_gauge.machines.answers import MachineError, UnreadableError, is_missed_face, read_data
-from zlmreport_step_gauge.machines.session import Connection, Session
+from zlmreport_step_gauge.machines.session import (
+    Connection,
+    MachineError,
+    Session,
+    UnreadableError,
+    is_missed_face,
+    read_data,
+)
 from zlmreport_step_gauge.paths.path import Point, Probing, ProbingPath
 from zlmreport_step_gauge.paths.plan import PlannedPath, path_of_job, remaining
 from zlmreport_step_gauge.paths.programs import beginning, command, coordinates, direction, plain

@@ -38,9 +38,8 @@ from zlmreport.capture.events import (
 )
 from zlmreport.capture.motion import Programme, Route
 from zlmreport.capture.place import Place, Stop
-from zlmreport.capture.plausible import expected_deviation, misread_by
 from zlmreport.capture.progress import Progress
-from zlmreport.capture.standstill import Pace, Track, Window
+from zlmreport.capture.standstill import Pace, Track, Window, expected_deviation, misread_by
 from zlmreport.capture.visits import FASTEST, ListedVisit, Settings
 from zlmreport.live.reading import Fault, LiveReading
 from zlmreport.measurement.approach import Approach

@@ -25,7 +25,7 @@ from zlmreport.certificate.document import (
     Symbol,
     Table,
 )
-from zlmreport.compensation.grid import GridReason
+from zlmreport.compensation.making import GridReason
 from zlmreport.figures.figure import Curve, Figure, Panel, Role
 from zlmreport.figures.prescribed import DEVIATION_TITLE, POSITION_TITLE
 from zlmreport.language import Words
@@ -162,14 +162,8 @@ def _forecast(made: Made, writer: Writer, uncertainties: Uncertainties) -> Table
         if expected is not None:
             low, high = (_number(each * factor, writer) for each in (expected.low, expected.high))
             second = f"{low} … {high}"
-        rows.append(
-            (
-                Symbol(symbol),
-                say(_FIGURES[symbol]),
-                *with_uncertainty(symbol, (value, after[symbol]), uncertainties, writer),
-                second,
-            )
-        )
+        found, left = with_uncertainty(symbol, (value, after[symbol]), uncertainties, writer)
+        rows.append((Symbol(symbol), say(_FIGURES[symbol]), found, left, second))
     columns = (
         Column(say(Words(en="Symbol", de="Zeichen"))),
         Column(say(Words(en="Parameter", de="Kenngröße"))),

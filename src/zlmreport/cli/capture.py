@@ -15,8 +15,7 @@ from pathlib import Path
 from zlmreport import pipeline
 from zlmreport.capture.events import DatumMoved, Ended, Event, Interrupted, Resumed, Unclear, ZeroLost
 from zlmreport.capture.follower import Follower
-from zlmreport.capture.history import History, read_history
-from zlmreport.capture.journal import Journal, captured, demand_nothing_captured
+from zlmreport.capture.journal import History, Journal, captured, demand_nothing_captured, read_history
 from zlmreport.capture.of_job import (
     Assignment,
     assignment_of,

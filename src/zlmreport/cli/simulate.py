@@ -16,8 +16,7 @@ from zlmreport.language import Language
 from zlmreport.planning.plan import Plan
 from zlmreport.plugins import find_plugins
 from zlmreport.simulation.files import description_of, job_text, live_job_text, readings_table
-from zlmreport.simulation.machine import StartedMachine, emulated_machine
-from zlmreport.simulation.simulate import simulate
+from zlmreport.simulation.simulate import StartedMachine, emulated_machine, simulate
 
 _COMMAND = "zlmreport simulate"
 _SECONDS_A_MINUTE = 60

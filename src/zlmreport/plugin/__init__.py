@@ -16,8 +16,8 @@ _ROOMS = {
         "OperatorCommented=Commented OperatorRetake=Retake OperatorSkipped=Skipped ReadingRecorded=Recorded "
         "ZeroLost"
     ),
-    "zlmreport.capture.history": "JournalEntry=Entry JournalHistory=History read_journal=read_history",
-    "zlmreport.capture.options": "CaptureOptions",
+    "zlmreport.capture.journal": "JournalEntry=Entry JournalHistory=History read_journal=read_history",
+    "zlmreport.capture.of_job": "CaptureOptions",
     "zlmreport.capture.records": "JournalHeader=Header",
     "zlmreport.certificate.attachments": "Attachment CertificateSource=Source Relationship",
     "zlmreport.certificate.circumstances": "Fact",

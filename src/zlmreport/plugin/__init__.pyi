@@ -1,8 +1,8 @@
 """The door for type checkers; ``python docs/generate`` writes it."""
 
 from zlmreport.capture.events import Ended as CaptureEnded, Resumed as CaptureResumed, Closed as DatumClosed, DatumHolds, DatumMoved, DatumTaken, Commented as OperatorCommented, Retake as OperatorRetake, Skipped as OperatorSkipped, Recorded as ReadingRecorded, ZeroLost
-from zlmreport.capture.history import Entry as JournalEntry, History as JournalHistory, read_history as read_journal
-from zlmreport.capture.options import CaptureOptions
+from zlmreport.capture.journal import Entry as JournalEntry, History as JournalHistory, read_history as read_journal
+from zlmreport.capture.of_job import CaptureOptions
 from zlmreport.capture.records import Header as JournalHeader
 from zlmreport.certificate.attachments import Attachment, Source as CertificateSource, Relationship
 from zlmreport.certificate.circumstances import Fact

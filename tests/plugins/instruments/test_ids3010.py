@@ -11,8 +11,7 @@ from plugins.instruments.lines import plugged_in, readings_of
 from zlmreport.emulation.emulator import MovingAxis, Planned, Scene, Trouble, Troubles
 from zlmreport.errors import AccessError
 from zlmreport.live.reading import Fault
-from zlmreport_plugins.instruments.ids3010 import Answer, Ids3010, answer_to, question
-from zlmreport_plugins.instruments.ids3010.emulator import Ids3010Emulator
+from zlmreport_plugins.instruments.ids3010 import Answer, Ids3010, Ids3010Emulator, answer_to, question
 
 EXCHANGE = questions_and_answers()
 

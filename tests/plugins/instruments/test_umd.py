@@ -14,8 +14,7 @@ from zlmreport.emulation.emulator import MovingAxis, Planned, Scene, Trouble, Tr
 from zlmreport.live.dialogue import WrongDeviceError
 from zlmreport.live.reading import Fault, LiveReading
 from zlmreport_plugins.instruments.umd import Setup, UmdDecoder, UmdOptions, cycle_length
-from zlmreport_plugins.instruments.umd.emulator import UmdEmulator
-from zlmreport_plugins.instruments.umd.lines import MODELS, AxisCounts, Frame, frame_in
+from zlmreport_plugins.instruments.umd.lines import MODELS, AxisCounts, Frame, UmdEmulator, frame_in
 
 UMD = {model.identifier: model for model in MODELS}
 #: λ/2 in standard air, m.

@@ -33,7 +33,6 @@ from zlmreport.plugin import (
     refractive_index,
     streamed_readings,
 )
-from zlmreport_plugins.instruments.umd.emulator import UmdEmulator
 from zlmreport_plugins.instruments.umd.lines import (
     MODELS,
     AxisCounts,
@@ -41,6 +40,7 @@ from zlmreport_plugins.instruments.umd.lines import (
     Frame,
     LowSpeed,
     Model,
+    UmdEmulator,
     frame_in,
 )
 
