@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from itertools import chain
+from itertools import chain, takewhile
 
 import pytest
 
@@ -24,7 +24,7 @@ from zlmreport.capture.events import (
     WrongDirection,
     ZeroLost,
 )
-from zlmreport.capture.follower import Follower, follow
+from zlmreport.capture.follower import Follower
 from zlmreport.capture.progress import Progress
 from zlmreport.live.reading import Fault
 from zlmreport.measurement.approach import Approach
@@ -539,5 +539,7 @@ def test_in_a_later_run_the_check_is_a_visit_itself() -> None:
 def test_following_ends_when_the_test_is_over() -> None:
     axis, visits = Axis(), listed(Method.UNIDIRECTIONAL)
     readings = chain(axis.stand(), axis.go(0, 100, 200), iter(axis.reading, None))
-    *_, last = follow(readings, Progress.begin(visits, None), SETTINGS)
+    follower = Follower(Progress.begin(visits, None), SETTINGS)
+    until_halted = takewhile(lambda _: not follower.is_halted, readings)
+    *_, last = chain.from_iterable(map(follower.feed, until_halted))
     assert type(last).__name__ == "Finished"

@@ -57,7 +57,7 @@ def test_the_table_is_the_one_that_the_control_ran(folder: Path) -> None:
         assert written == pytest.approx(np.loadtxt(DATA / loaded), abs=1.1e-6)
         sheet = PdfReader(folder / f"out{kind}" / "LOOP-1-compensation.pdf")
         text = " ".join(" ".join(page.extract_text() for page in sheet.pages).split())
-        assert "Worked row: at 150 mm the axis stood too far by +31.36" in text
+        assert "Worked row: at 300 mm the axis was off by +50.39" in text
         assert "If it doubles, the sign is wrong" in text
 
 

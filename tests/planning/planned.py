@@ -11,8 +11,7 @@ from zlmreport.job.loading import load
 from zlmreport.planning.planned_test import PlannedTest, planned_test
 from zlmreport.planning.visibility import SeenEffect
 from zlmreport.plugins import Plugin, collect
-from zlmreport_plugins import effects
-from zlmreport_plugins.part_programs import fanuc, heidenhain, linuxcnc
+from zlmreport_plugins import effects, part_programs
 from zlmreport_plugins.renderers import json_results
 from zlmreport_plugins.sources import laser_csv
 from zlmreport_plugins.standards import iso230_2, vdi
@@ -34,7 +33,7 @@ output: {formats: [json]}
 WHOLE_PITCHES = "plan: {targets: {positions: [0, 60, 120, 180, 240, 300, 360, 420, 480, 540, 600]}}"
 REGISTRY = collect(
     (Plugin(module.__name__), module)
-    for module in (effects, laser_csv, iso230_2, vdi, json_results, linuxcnc, fanuc, heidenhain)
+    for module in (effects, laser_csv, iso230_2, vdi, json_results, part_programs)
 )
 
 

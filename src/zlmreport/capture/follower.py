@@ -547,12 +547,3 @@ class Follower:
         if stop.target == following.target or stop.heading is None:
             return WrongDirection(following, stop.approach)
         return NotNext(stop.target, stop.heading, following)
-
-
-def follow(readings: Iterable[LiveReading], progress: Progress, settings: Settings) -> Iterator[Event]:
-    """Yield what happens while readings come, until nothing more is taken or they end."""
-    follower = Follower(progress, settings)
-    for reading in readings:
-        yield from follower.feed(reading)
-        if follower.is_halted:
-            return

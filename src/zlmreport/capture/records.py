@@ -5,43 +5,13 @@ from __future__ import annotations
 import dataclasses
 import datetime as dt
 import math
+import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import Any, TypeAlias
+from typing import Any, TypeAlias, get_args
 
-from zlmreport.capture.events import (
-    Closed,
-    Commented,
-    DatumHolds,
-    DatumMoved,
-    DatumTaken,
-    Elsewhere,
-    Ended,
-    Event,
-    Finished,
-    Frozen,
-    Interrupted,
-    Mean,
-    Missed,
-    MovedBeforeDatum,
-    Moving,
-    NotChecked,
-    NotNext,
-    Passed,
-    Placed,
-    Recorded,
-    Repeated,
-    Resumed,
-    Retake,
-    Settling,
-    Skipped,
-    TooSlow,
-    TrackLost,
-    Unclear,
-    WrongDirection,
-    ZeroLost,
-)
+from zlmreport.capture.events import Event, Mean, Moving, Recorded, Settling
 from zlmreport.capture.visits import ListedVisit, Settings
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.axis import AxisKind
@@ -51,37 +21,20 @@ Record: TypeAlias = dict[str, Any]
 #: Events of the moment: shown, and not kept.
 MOMENTARY = (Moving, Settling)
 
-_KINDS: Mapping[str, type] = MappingProxyType(
-    {
-        "datum": DatumTaken,
-        "moved-before-datum": MovedBeforeDatum,
-        "datum-holds": DatumHolds,
-        "datum-moved": DatumMoved,
-        "not-checked": NotChecked,
-        "reading": Recorded,
-        "passed": Passed,
-        "missed": Missed,
-        "repeated": Repeated,
-        "wrong-direction": WrongDirection,
-        "not-next": NotNext,
-        "unclear": Unclear,
-        "placed": Placed,
-        "elsewhere": Elsewhere,
-        "frozen": Frozen,
-        "zero-lost": ZeroLost,
-        "track-lost": TrackLost,
-        "too-slow": TooSlow,
-        "closed": Closed,
-        "finished": Finished,
-        "interrupted": Interrupted,
-        "resumed": Resumed,
-        "ended": Ended,
-        "retake": Retake,
-        "skipped": Skipped,
-        "comment": Commented,
-    }
+#: Records whose names are not those of their events, as journals have them since the first.
+_OTHER_NAMES = {"datum-taken": "datum", "recorded": "reading", "commented": "comment"}
+
+
+def _name(kind: type) -> str:
+    """Return the name of an event's records: ``moved-before-datum`` of `MovedBeforeDatum`."""
+    name = re.sub("(?<=[a-z])(?=[A-Z])", "-", kind.__name__).lower()
+    return _OTHER_NAMES.get(name, name)
+
+
+_NAMES: Mapping[type, str] = MappingProxyType(
+    {kind: _name(kind) for kind in get_args(Event) if kind not in MOMENTARY}
 )
-_NAMES = {kind: name for name, kind in _KINDS.items()}
+_KINDS: Mapping[str, type] = MappingProxyType({name: kind for kind, name in _NAMES.items()})
 #: Fields that a record leaves out where they say nothing, with what they are then.
 _UNSTATED: Mapping[str, Any] = MappingProxyType(
     {"late": 0.0, "position": None, "mean": None, "expected": None, "factor": None, "drift": None}

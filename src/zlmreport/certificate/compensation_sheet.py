@@ -26,7 +26,7 @@ from zlmreport.certificate.document import (
     Table,
 )
 from zlmreport.compensation.making import GridReason
-from zlmreport.figures.figure import Curve, Figure, Panel, Role
+from zlmreport.figures.figure import Band, Curve, Figure, Panel, Role
 from zlmreport.figures.prescribed import DEVIATION_TITLE, POSITION_TITLE
 from zlmreport.language import Words
 from zlmreport.presenting.writer import NOTHING, Writer
@@ -83,6 +83,8 @@ _ALTERNATIVE = Words(
 )
 #: U of E, M, B and A by their symbols, before and with the table, in the unit of deviations.
 Uncertainties = tuple[Mapping[str, float], Mapping[str, float]]
+#: Of what is left, m or rad: the rounding of doubles is no curve.
+_DIGITS_DRAWN = 12
 _FIGURES = {
     "E": Words(en="Systematic deviation", de="Systematische Abweichung"),
     "M": Words(en="Mean bidirectional deviation", de="Mittlere Abweichung beider Richtungen"),
@@ -269,17 +271,17 @@ def _grid(made: Made, writer: Writer, amount: Callable[[float], str]) -> Words:
 
 def _loading(made: Made, writer: Writer) -> tuple[Block, ...]:
     say, unit = writer.say, writer.deviation_unit
-    middle = len(made.meant.positions) // 2
-    at = made.meant.positions[middle : middle + 1]
+    worst = int(np.argmax(np.abs(made.meant.forward + made.meant.reverse)))  # what a check can see best
+    at = made.meant.positions[worst : worst + 1]
 
     def both(values: FloatArray) -> str:
         up, down = (_signed(unit.from_si(float(each[0])), writer) for each in values)
         return f"{up} ↑, {down} ↓ {unit.symbol}"
 
     worked = Words(
-        en="Worked row: at {at} the axis stood too far by {stood} (actual − target, ↑ moving forward, "
+        en="Worked row: at {at} the axis was off by {stood} (actual − target, ↑ moving forward, "
         "↓ moving back); the table takes away {taken}.",
-        de="Beispielzeile: bei {at} stand die Achse zu weit um {stood} (Ist − Soll, ↑ vorwärts, "
+        de="Beispielzeile: bei {at} wich die Achse um {stood} ab (Ist − Soll, ↑ vorwärts, "
         "↓ rückwärts); die Tabelle nimmt {taken} weg.",
     ).given(at=writer.length(float(at[0])), stood=both(made.meant.at(at)), taken=both(made.decoded.at(at)))
     return (
@@ -315,7 +317,10 @@ def _figure(made: Made, writer: Writer) -> Figure:
         *curves(targets, means, ("x̄↑", "x̄↓"), measured),
         *curves(rows, table, ("C↑", "C↓"), (Role.MODEL_POSITIVE, Role.MODEL_NEGATIVE)),
     )
-    left = curves(targets, made.forecast.left, ("x̄↑", "x̄↓"), measured)
+    known = printed(made.grid.allowed)
+    left = curves(targets, np.round(made.forecast.left, _DIGITS_DRAWN), ("x̄↑", "x̄↓"), measured)
+    beside = np.full(len(targets), known)
+    band = Band("±U", Role.NOISE, targets, read_only_floats(-beside), read_only_floats(beside))
     unit = writer.deviation_unit.symbol
     words = {
         name: f"{_number(float(printed(value)), writer)} {unit}"
@@ -339,7 +344,11 @@ def _figure(made: Made, writer: Writer) -> Figure:
         y_unit=unit,
         panels=(
             Panel(Words(en="Before, and the table", de="Vorher, und die Tabelle"), curves=before),
-            Panel(Words(en="With the table", de="Mit Tabelle"), curves=left),
+            Panel(
+                Words(en="With the table, and U of a mean", de="Mit Tabelle, und U eines Mittelwerts"),
+                bands=(band,) if known else (),
+                curves=left,
+            ),
         ),
         spans_are_alike=False,
     )
