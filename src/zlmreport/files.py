@@ -312,6 +312,44 @@ class Appended:
             os.fsync(self._handle)
 
 
+class JournalFile(Appended):
+    """The file of a journal: one writer has it, and what goes wrong is said to who can mend it.
+
+    Parameters
+    ----------
+    path
+        The file; it and its folder are made if they are not there.
+    busy
+        What to do when another has it.
+    after
+        What to do when a record cannot be written.
+
+    Raises
+    ------
+    AccessError
+        If it cannot be written, or another has it.
+    """
+
+    def __init__(self, path: Path, busy: str, after: str = "") -> None:
+        self._after = after
+        try:
+            super().__init__(path)
+        except OSError as error:
+            raise unwritable(path, error) from error
+        try:
+            self.lock()
+        except OSError as error:
+            self.close()
+            raise AccessError.at(Place(str(path)), busy) from error
+
+    def append(self, record: bytes) -> None:
+        """Add a record; raise `AccessError` if the disk does not take it."""
+        try:
+            super().append(record)
+        except OSError as error:
+            raise unwritable(self._path, error, self._after) from error
+
+
 def demand_free(paths: Iterable[Path]) -> None:
     """Refuse to write where there are files that somebody may have worked on.
 

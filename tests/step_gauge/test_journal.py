@@ -73,3 +73,11 @@ def test_a_folder_that_cannot_be_made_is_said(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("", encoding="ascii")
     with pytest.raises(AccessError, match="cannot be written"):
         Journal(tmp_path / "file" / "raw.csv", PATH)
+
+
+def test_two_runs_do_not_write_one_journal(tmp_path: Path) -> None:
+    with (
+        Journal(tmp_path / "raw.csv", PATH),
+        pytest.raises(AccessError, match="being written by another run"),
+    ):
+        Journal(tmp_path / "raw.csv", PATH)

@@ -22,9 +22,9 @@ from typing import Protocol, Self
 from zlmreport.plugin import (
     MILLIMETRE,
     AccessError,
-    Appended,
     InputError,
     Job,
+    JournalFile,
     Place,
     Problem,
     take_names,
@@ -67,7 +67,7 @@ class Journal:
     Raises
     ------
     AccessError
-        If it cannot be written, or the result is there already.
+        If it cannot be written, another run writes it, or the result is there already.
     InputError
         If there is a journal of another path.
     """
@@ -80,10 +80,7 @@ class Journal:
             raise AccessError.at(
                 Place(str(result)), "is there already; the gauge has been probed. Remove it to probe it again"
             )
-        try:
-            self._file = Appended(self._part)
-        except OSError as error:
-            raise unwritable(self._part, error) from error
+        self._file = JournalFile(self._part, "is being written by another run on this gauge; end that first")
         try:
             self.done = self._sound()
         except BaseException:
@@ -125,10 +122,7 @@ class Journal:
         return self._result
 
     def _append(self, *lines: str) -> None:
-        try:
-            self._file.append("".join(f"{line}\n" for line in lines).encode("ascii"))
-        except OSError as error:
-            raise unwritable(self._part, error) from error
+        self._file.append("".join(f"{line}\n" for line in lines).encode("ascii"))
 
     def _head(self) -> tuple[str, ...]:
         radius = MILLIMETRE.from_si(self._path.tip_radius)

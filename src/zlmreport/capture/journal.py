@@ -20,7 +20,7 @@ from zlmreport.capture.events import Event, Order, Recorded, Unclear
 from zlmreport.capture.progress import Progress
 from zlmreport.capture.records import MOMENTARY, SCHEMA, Header, Record, finite, from_record, to_record
 from zlmreport.errors import AccessError, Place
-from zlmreport.files import Appended, read, unreadable, unwritable
+from zlmreport.files import JournalFile, read, unreadable
 from zlmreport.live.reading import LiveReading
 from zlmreport.measurement.provenance import SourceFile
 from zlmreport.measurement.text_file import LARGEST
@@ -226,12 +226,11 @@ class Journal:
         When the question that is open was asked, s from the start of the capture.
     """
 
-    def __init__(self, path: Path, file: Appended, header: Header, last_sum: str) -> None:
+    def __init__(self, file: JournalFile, header: Header, last_sum: str) -> None:
         self.header = header
         self.progress = Progress.begin(header.visits, header.datum)
         self.elapsed = self.asked = 0.0
         self.visited: float | None = None
-        self._path = path
         self._file = file
         self._sum = last_sum
 
@@ -247,7 +246,7 @@ class Journal:
         with _closed_on_error(_opened(path)) as file:
             demand_nothing_captured(path)
             file.cut(0)
-            journal = cls(path, file, header, "")
+            journal = cls(file, header, "")
             journal._write(header.to_record())
             return journal
 
@@ -269,7 +268,7 @@ class Journal:
                     "holds nothing yet: not even its first line is whole; leave --resume out",
                 )
             file.cut(history.sound)
-            journal = cls(path, file, history.header, history.last_sum)
+            journal = cls(file, history.header, history.last_sum)
             journal.progress = history.progress
             for entry in history.entries:
                 journal._remember(entry.event, entry.elapsed)
@@ -314,14 +313,7 @@ class Journal:
 
     def _write(self, record: Record) -> None:
         line, self._sum = sealed(record, self._sum)
-        try:
-            self._file.append(line)
-        except OSError as error:
-            raise unwritable(
-                self._path,
-                error,
-                "; what happened last is not in it: see to the disk, then go on with --resume",
-            ) from error
+        self._file.append(line)
 
 
 def demand_nothing_captured(path: Path) -> None:
@@ -340,7 +332,7 @@ def demand_nothing_captured(path: Path) -> None:
 
 
 @contextlib.contextmanager
-def _closed_on_error(file: Appended) -> Iterator[Appended]:
+def _closed_on_error(file: JournalFile) -> Iterator[JournalFile]:
     try:
         yield file
     except BaseException:
@@ -348,20 +340,12 @@ def _closed_on_error(file: Appended) -> Iterator[Appended]:
         raise
 
 
-def _opened(path: Path) -> Appended:
-    """Open a journal, make it if there is none, and keep others from writing it."""
-    try:
-        file = Appended(path)
-    except OSError as error:
-        raise unwritable(path, error) from error
-    try:
-        file.lock()
-    except OSError as error:
-        file.close()
-        raise AccessError.at(
-            Place(str(path)), "is being written by another capture; end that first, or name another journal"
-        ) from error
-    return file
+def _opened(path: Path) -> JournalFile:
+    return JournalFile(
+        path,
+        "is being written by another capture; end that first, or name another journal",
+        "; what happened last is not in it: see to the disk, then go on with --resume",
+    )
 
 
 def _is_there(history: History) -> str:

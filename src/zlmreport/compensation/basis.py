@@ -66,15 +66,12 @@ class Part:
 
     Attributes
     ----------
-    rest : (m,) array
-        What the means show beyond the model, m or rad.
     directions : (m, p) array
         Orthonormal: what the model can imitate; the readings decide it, scatter included.
     trust
-        How far the rest is believed, from 0 to 1.
+        How far the means are believed beyond that, from 0 to 1.
     """
 
-    rest: FloatArray
     directions: FloatArray
     trust: float
 
@@ -209,7 +206,7 @@ def basis_of_means(
         model = fitted.carried()
         known = _sum(model, _interpolated(curve.positions, means - model(curve.positions)))
     targets = len(curve.positions)
-    part = Part(np.zeros(targets), np.eye(targets), 1.0)
+    part = Part(np.eye(targets), 1.0)
     scatter = _scatter(measurements.deviations())
     parts = (part,) * (1 + curve.is_bidirectional)
     return Basis(curve, known, means, parts, scatter, lambda _: alone)
@@ -229,7 +226,7 @@ def basis_of_model(curve: ErrorCurve, fitted: FittedModel, periodic: Periodic = 
         _part(rest, columns, own) for rest, columns in zip(beyond, np.moveaxis(imitated, -2, 0), strict=True)
     )
     explained = _both(_means(measurements.deviations())) - _both(_means(left))
-    rest = joined(np.stack([part.trust * part.rest for part in parts]))
+    rest = joined(np.stack([part.trust * each for part, each in zip(parts, beyond, strict=True)]))
     kept = _interpolated(curve.positions, rest)
     return Basis(
         curve,
@@ -308,7 +305,7 @@ def _part(rest: FloatArray, columns: FloatArray, own: float) -> Part:
     left, singular, _ = np.linalg.svd(columns.T, full_matrices=False)
     directions = left[:, singular > _ROUNDING * max(singular.max(initial=0.0), 1e-300)]
     total = float(np.sum(rest**2)) / max(1, len(rest) - directions.shape[1])
-    return Part(rest, directions, max(0.0, 1.0 - own / total) if total else 0.0)
+    return Part(directions, max(0.0, 1.0 - own / total) if total else 0.0)
 
 
 def _imitated(fitted: FittedModel) -> FloatArray:

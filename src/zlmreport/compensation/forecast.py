@@ -175,11 +175,10 @@ def _second_test(basis: Basis, left: FloatArray, budget: Budget | None) -> dict[
 def _unknown(basis: Basis, own: FloatArray, random: np.random.Generator) -> FloatArray:
     """Draw by how much the axis differs from the estimate, shape (N, 2, m), m or rad.
 
-    A part of the deviations is what the model can imitate, and what it cannot: of a variance τ² that is known
-    only from the residuals r. With means of variance u² the posterior is that of universal kriging: along the
-    model's directions the axis is as uncertain as the means, N(0, u²); across them it is t·r + N(0, t·u²),
-    t = τ²/(τ² + u²). As τ² + u² comes from r with so many degrees of freedom, t differs from draw to draw.
-    Nothing is drawn twice: what lies along the model's directions cannot be told from the model.
+    With means of variance u² the posterior of each part is that of universal kriging: along the model's
+    directions the axis is as uncertain as the means, N(0, u²); across them N(0, t·u²) about t times what the
+    means show there, t being the trust of the part. Nothing is drawn twice: what lies along the model's
+    directions cannot be told from the model.
 
     Parameters
     ----------
@@ -192,12 +191,9 @@ def _unknown(basis: Basis, own: FloatArray, random: np.random.Generator) -> Floa
     """
     drawn = []
     for part in basis.parts:
-        free = len(part.rest) - part.directions.shape[1]
-        unit = own * random.standard_normal((_DRAWS, len(part.rest)))
+        unit = own * random.standard_normal((_DRAWS, len(part.directions)))
         along = unit @ part.directions @ part.directions.T
-        total = float(np.sum(part.rest**2)) / random.chisquare(max(1, free), (_DRAWS, 1))
-        trust = np.maximum(0.0, 1.0 - own**2 / total) if total.all() else np.zeros_like(own)
-        drawn.append(along + np.sqrt(trust) * (unit - along) + (trust - part.trust) * part.rest)
+        drawn.append(along + np.sqrt(part.trust) * (unit - along))
     return joined(np.stack(drawn, axis=-2))
 
 

@@ -70,7 +70,7 @@ _ROOMS = {
     ),
     "zlmreport.figures.scale": "round_ticks",
     "zlmreport.figures.shapes": "GRAPH_TEXT_SIZE=TEXT_SIZE INK_COLOUR=INK ROLE_STYLES=ROLES",
-    "zlmreport.files": "Appended take_names unwritable",
+    "zlmreport.files": "JournalFile take_names unwritable",
     "zlmreport.job.document_keys": "Customer Laboratory",
     "zlmreport.job.evaluation_keys": "ProgramKeys",
     "zlmreport.job.extends": "FileFormat",
