@@ -8,6 +8,7 @@ and are evaluated as a job is.
 from __future__ import annotations
 
 import argparse
+import sys
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -33,8 +34,10 @@ from zlmreport_step_gauge.location import locate
 from zlmreport_step_gauge.measurements import Targets, measurement_set
 from zlmreport_step_gauge.probed import ProbedPoint, gridded
 from zlmreport_step_gauge.set_up import Expansion, GaugeSetUp, StatedRadius
-from zlmreport_step_gauge.simulated_cmm import MachineErrors, Simulated, SimulatedTest, simulate
 from zlmreport_step_gauge.uncertainty import gauge_contributions
+
+sys.path.append(str(Path(__file__).parents[1] / "tests"))
+from step_gauge.simulated_cmm import MachineErrors, Simulated, SimulatedTest, simulate
 
 GAUGE = Path(__file__).parents[1] / "configs" / "step-gauge" / "gauge.yaml"
 HERE = Place("simulated")

@@ -6,19 +6,16 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 
 import numpy as np
 
 from zlmreport.errors import Place
 from zlmreport_step_gauge.calibration import read_calibration, section
-from zlmreport_step_gauge.simulated_cmm import (
-    MachineErrors,
-    SimulatedTest,
-    initial_points_csv,
-    probed_csv,
-    simulate,
-)
+
+sys.path.append(str(Path(__file__).parents[2] / "tests"))
+from step_gauge.simulated_cmm import MachineErrors, SimulatedTest, initial_points_csv, probed_csv, simulate
 
 HERE = Path(__file__).parent
 MACHINE = MachineErrors(

@@ -9,6 +9,7 @@ import pytest
 
 from step_gauge.gauges import gauge, set_up
 from step_gauge.probing import FILE, RADIUS, deviations, probed, touched
+from step_gauge.simulated_cmm import MachineErrors, SimulatedTest, simulate
 from zlmreport.errors import InputError
 from zlmreport_step_gauge.deviations import RadiusSource, deviations_of, radius_uncertainty
 from zlmreport_step_gauge.gauge import Side
@@ -16,7 +17,6 @@ from zlmreport_step_gauge.initial_points import InitialPoints
 from zlmreport_step_gauge.location import locate
 from zlmreport_step_gauge.probed import ProbedPoint
 from zlmreport_step_gauge.set_up import Expansion, StatedRadius
-from zlmreport_step_gauge.simulated_cmm import MachineErrors, SimulatedTest, simulate
 
 GAUGE = gauge()
 STATED = StatedRadius(RADIUS, 0.2e-6)

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from environments import ROOT
+from step_gauge.simulated_cmm import MachineErrors, SimulatedTest, simulate
 from zlmreport.errors import InputError, Place
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.measurement_set import MeasurementSet
@@ -20,7 +21,6 @@ from zlmreport_step_gauge.gauge import StepGauge
 from zlmreport_step_gauge.initial_points import InitialPoints
 from zlmreport_step_gauge.location import Located, locate
 from zlmreport_step_gauge.set_up import GaugeSetUp
-from zlmreport_step_gauge.simulated_cmm import MachineErrors, SimulatedTest, simulate
 
 DATA = ROOT / "tests" / "data" / "step_gauge"
 RAW, LOG, CALYPSO = DATA / "stepgauge_raw.csv", DATA / "stepgauge.res", DATA / "STEPGAUGE_1_chr.txt"

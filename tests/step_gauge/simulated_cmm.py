@@ -21,7 +21,7 @@ Vector = tuple[float, float, float]
 #: Where P1 to P3 lie on the front face, and how far from the foot P7 is, as parts of the block's size.
 _ON_FACE = ((0.35, -0.25), (-0.35, -0.25), (0.0, 0.35))
 _INTO_THE_GAP = 0.4
-_ORIGIN = "Simulated by zlmreport_step_gauge.simulated_cmm."
+_ORIGIN = "Simulated by configs/step-gauge/make.py."
 
 
 @dataclass(frozen=True, slots=True)
