@@ -13,7 +13,7 @@ from job.jobs import SOUND
 from zlmreport.cli import main
 from zlmreport.plugins import Registry
 
-_COMMANDS = ("report", "check", "plugins", "schema")
+_COMMANDS = ("report", "plugins")
 READINGS = "1 2 3 -1 -2 -3"
 
 

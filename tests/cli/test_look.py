@@ -13,7 +13,7 @@ from openpyxl import Workbook
 from cli.commands import Shop
 from environments import ROOT
 from zlmreport.cli import main
-from zlmreport.cli.look import look
+from zlmreport.cli.init import looked_at
 from zlmreport.errors import ZlmreportError
 from zlmreport.plugins import find_plugins
 
@@ -90,7 +90,7 @@ def table(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Any:
 @pytest.mark.parametrize("kind", TABLES)
 def test_table_is_read_by_the_keys_that_are_proposed(kind: str, table: Any) -> None:
     content, keys = TABLES[kind]
-    looked = look(table(content), REGISTRY)
+    looked = looked_at(table(content), REGISTRY)
     assert (looked.source.identifier, looked.proposal.keys) == ("laser-csv", keys)
     np.testing.assert_allclose(
         looked.read.deviations()[:, :, 0] * 1e6, [[1.5, 2.5], [-0.5, 0.5]], rtol=0, atol=1e-7
@@ -115,7 +115,7 @@ def test_what_nobody_can_see_in_a_file_is_asked(table: Any, capsys: pytest.Captu
 
 
 def test_unit_that_stands_in_the_header_is_not_asked(table: Any) -> None:
-    asked = " ".join(look(table(TABLES["a German protocol"][0]), REGISTRY).proposal.asks)
+    asked = " ".join(looked_at(table(TABLES["a German protocol"][0]), REGISTRY).proposal.asks)
     assert "sign:" in asked
     assert "units:" not in asked
 
@@ -123,7 +123,7 @@ def test_unit_that_stands_in_the_header_is_not_asked(table: Any) -> None:
 def test_files_of_instruments_find_their_readers() -> None:
     data = ROOT / "tests" / "data" / "sources"
     found = {
-        name: look(data / name, REGISTRY).source.identifier
+        name: looked_at(data / name, REGISTRY).source.identifier
         for name in ("bidirectional.rtl", "ecmc_13e6c326.dat")
     }
     assert found == {"bidirectional.rtl": "renishaw-rtl", "ecmc_13e6c326.dat": "ecmc"}
@@ -133,7 +133,7 @@ def test_files_of_instruments_find_their_readers() -> None:
 def test_file_that_nobody_reads_is_told_with_its_name(content: bytes, table: Any) -> None:
     path = table(content)
     with pytest.raises(ZlmreportError, match=r"x-axis\.csv"):
-        look(path, REGISTRY)
+        looked_at(path, REGISTRY)
 
 
 def test_file_that_is_not_there_is_told(shop: Shop) -> None:

@@ -1,4 +1,4 @@
-"""The command line: one module a command.
+"""The command line: a module for a command, or for a few that are read together.
 
 This module is all that ``--version`` and ``--help`` load; a command's own module, and with it all that is
 slow to load, comes when the command is given.
@@ -21,6 +21,15 @@ from zlmreport.files import confined, reason
 #: What a shell sees of a program that these signals ended.
 _INTERRUPTED = 128 + 2
 _BROKEN_PIPE = 128 + 13
+#: Commands that stand with others in a module, each as a function of its last word.
+_TOGETHER = {
+    "check": "report",
+    "fleet backup": "fleet_ledger",
+    "fleet rebuild": "fleet_ledger",
+    "fleet report": "fleet_ledger",
+    "look": "init",
+    "schema": "plugins",
+}
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -37,9 +46,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     options = None
     try:
         command, options = parse(sys.argv[1:] if arguments is None else arguments)
-        module = importlib.import_module(f"zlmreport.cli.{command.replace(' ', '_')}")
+        module = importlib.import_module(f"zlmreport.cli.{_TOGETHER.get(command, command)}")
+        run = getattr(module, command.split()[-1] if command in _TOGETHER else "run")
         with confined(options.confine):
-            code: int = module.run(options)
+            code: int = run(options)
         sys.stdout.flush()
     except SystemExit:  # by argparse, after --help and --version
         return 0 if options is None else ZlmreportError.exit_code

@@ -26,7 +26,7 @@ from zlmreport.capture.of_job import (
 )
 from zlmreport.certificate.clauses import demand_mandatory_items
 from zlmreport.cli.capture_display import Display, JsonLines, LiveDisplay, PlainLines, is_watched, visit_named
-from zlmreport.cli.job_lines import requirements
+from zlmreport.cli.jobs import requirements
 from zlmreport.cli.terminal import Colour, shown_path, visible
 from zlmreport.errors import AccessError, InputError, Place
 from zlmreport.job.job import Job

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from argparse import Namespace
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 from zlmreport import pipeline
 from zlmreport.certificate.forecast import Forecast, forecasts
-from zlmreport.cli import model_learn
 from zlmreport.cli.model_lines import change_lines, diagnosis_lines, fit_lines, history_lines, point_lines
 from zlmreport.cli.model_values import (
     Change,
@@ -20,13 +19,18 @@ from zlmreport.cli.model_values import (
     point_values,
     points_of,
 )
-from zlmreport.cli.terminal import print_json, progress, shown_path
-from zlmreport.errors import InputError, Place, Problem, did_you_mean
+from zlmreport.cli.terminal import print_json, progress, shown_path, table
+from zlmreport.errors import AccessError, InputError, Place, Problem, ZlmreportError, did_you_mean
+from zlmreport.files import Document, read, reason, write
 from zlmreport.job.edit import NamedEffect, edit_effects
+from zlmreport.job.extends import JOB
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
+from zlmreport.job.parse import LARGEST
 from zlmreport.language import Language
 from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.model.diagnosis import Verdict
+from zlmreport.model.priors import Lesson, as_text, learned
 from zlmreport.model.report import report
 from zlmreport.model.study import Fitted, Study, addition, refuse_useless
 from zlmreport.planning.deciding import experiment_of_tie, experiment_values
@@ -34,6 +38,8 @@ from zlmreport.plugins import Registry, find_plugins
 from zlmreport.presenting.writer import Writer
 
 _KEY = "model.effects"
+
+_LEARN = Place("zlmreport model learn")
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,7 +74,7 @@ class _Session:
 def run(options: Namespace) -> int:
     """Do what the action says with a job's error model."""
     if options.action == "learn":
-        return model_learn.run(options)
+        return learn(options)
     registry = find_plugins(files=options.plugin)
     job = load(options.job, registry)
     session = _Session(
@@ -170,3 +176,69 @@ def _demand_effects(session: _Session) -> None:
             "the job names no effect in model.effects; begin with: zlmreport model add "
             f"{session.shown_path} offset",
         )
+
+
+def learn(options: Namespace) -> int:
+    """Learn from every test in a folder whose model describes its readings."""
+    registry, folder = find_plugins(files=options.plugin), options.job
+    if not folder.is_dir():
+        raise AccessError.at(_LEARN, f"{shown_path(folder)} is no folder of jobs")
+    lessons, told = _lessons(sorted(folder.rglob("*.yaml")), registry)
+    if not lessons:
+        reasons = "".join(f"\n  {name}: {why}" for name, why in told)
+        raise InputError.at(
+            _LEARN,
+            f"no job in {shown_path(folder)} has an error model that describes its readings{reasons}",
+        )
+    found = learned(lessons)
+    if options.output:
+        write([Document(options.output, as_text(found, folder.resolve().name).encode())])
+    if options.json:
+        print_json(found.model_dump(mode="json", by_alias=True))
+        return 0
+    if not options.output:
+        print(as_text(found, folder.resolve().name), end="")
+        return 0
+    print(*table(told, indent="  "), sep="\n")
+    print(f"\n{found.tests} tests taught {shown_path(options.output)}")
+    print(f"next: name it in a job: model: {{priors: {options.output.name}}}")
+    return 0
+
+
+def _lessons(paths: list[Path], registry: Registry) -> tuple[list[Lesson], list[tuple[str, str]]]:
+    """Return what tests teach whose models describe their readings, and what is to be said of each job."""
+    lessons: list[Lesson] = []
+    told: list[tuple[str, str]] = []
+    seen: dict[tuple[str, ...], str] = {}
+    for path in paths:
+        name = shown_path(path)
+        try:
+            if JOB.schema.encode() not in read(path, LARGEST):
+                continue  # what jobs extend, a simulation, a fleet
+            job = load(path, registry)
+            if not job.effects:
+                told.append((name, "left out: it has no error model"))
+                continue
+            alone = replace(job, sessions=(), priors=None)
+            measurements = pipeline.read(alone, registry)
+            readings = tuple(each.sha256 for each in measurements.provenance.files)
+            if readings in seen:
+                told.append((name, f"left out: the readings of {seen[readings]}"))
+                continue
+            if lessons and lessons[0].kind != job.axis.kind:
+                told.append((name, f"left out: its axis is {job.axis.kind}"))
+                continue
+            diagnosis = Study.of(alone, measurements, registry.effects).diagnosis(registry.effects)
+        except ZlmreportError as error:
+            told.append((name, f"left out: {error.problems[0].message}"))
+            continue
+        except OSError as error:  # of the file itself: a pipe, a folder of this name, nobody's to read
+            told.append((name, f"left out: it cannot be read: {reason(error)}"))
+            continue
+        if diagnosis.verdict is not Verdict.ADEQUATE:
+            told.append((name, f"left out: its model is not adequate ({diagnosis.verdict})"))
+            continue
+        seen[readings] = name
+        lessons.append(Lesson.of(diagnosis.fit))
+        told.append((name, "learned"))
+    return lessons, told

@@ -1,4 +1,4 @@
-"""``zlmreport plugins``: what is installed, and what is not and why."""
+"""``zlmreport plugins``: what is installed, what is not and why; ``zlmreport schema``: the keys of a job."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from argparse import Namespace
 from collections.abc import Iterator
 from pathlib import Path
 
-from zlmreport.cli.terminal import Colour, shown_path, table
+from zlmreport.cli.terminal import Colour, print_json, shown_path, table
 from zlmreport.language import Language
 from zlmreport.plugin.kinds import KINDS
 from zlmreport.plugins import DISABLE, Plugin, Registry, find_plugins
@@ -44,3 +44,11 @@ def listing(registry: Registry) -> Iterator[str]:
 def _origin(plugin: Plugin) -> str:
     """Return where a plugin comes from: what was installed, or its file."""
     return plugin.release or shown_path(Path(plugin.module))
+
+
+def schema(options: Namespace) -> int:
+    """Print the schema, with the keys of all installed plugins."""
+    from zlmreport.job.schema import job_schema  # noqa: PLC0415 - brings all keys, which a listing does not need
+
+    print_json(job_schema(find_plugins(files=options.plugin)))
+    return 0

@@ -1,18 +1,18 @@
-"""``zlmreport JOB.yaml``: the certificates of jobs, signed if that is asked for."""
+"""``zlmreport JOB.yaml``: certificates of jobs, signed if that is asked for; ``check``: all but the files."""
 
 from __future__ import annotations
 
 import os
 import sys
 from argparse import Namespace
+from collections.abc import Iterator
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from zlmreport import pipeline
 from zlmreport.cli.arguments.documents import SIGN_PASSWORD
-from zlmreport.cli.job_lines import report
-from zlmreport.cli.jobs import Result, do_all, load_all
+from zlmreport.cli.jobs import Result, do_all, findings, load_all, report
 from zlmreport.errors import InputError, Place
 from zlmreport.files import write
 from zlmreport.job.loading import chosen_formats
@@ -22,6 +22,7 @@ from zlmreport.plugins import Registry, find_plugins
 if TYPE_CHECKING:
     from zlmreport.job.job import Job
     from zlmreport.signing.signer import Signer
+
 
 _PLACE = Place("zlmreport --sign")
 
@@ -103,3 +104,33 @@ def _password(of: str) -> str:
     from getpass import getpass  # noqa: PLC0415 - only at a terminal
 
     return getpass(f"Password of {of}: ", stream=sys.stderr)
+
+
+def check(options: Namespace) -> int:
+    """Check all jobs and return the worst exit code; nothing is written."""
+    registry = find_plugins(files=options.plugin)
+
+    def evaluated(result: Result, job: Job) -> Result:
+        if "instrument" in type(job.source.options).model_fields:
+            from zlmreport.cli.capture import awaits_capture, demand_capturable  # noqa: PLC0415 - only for live readings
+
+            if awaits_capture(job):
+                demand_capturable(job, registry)
+                return result
+        certificate = pipeline.compose(job, registry)
+        return replace(
+            result,
+            evaluations=certificate.evaluations,
+            diagnosis=certificate.diagnosis,
+            doubts=certificate.doubts,
+            budget=certificate.budget,
+        )
+
+    def lines(result: Result) -> Iterator[str]:
+        if result.job is None or result.evaluations:
+            return findings(result)
+        from zlmreport.cli.capture import planned  # noqa: PLC0415 - only for live readings
+
+        return planned(result.path, result.job, registry)
+
+    return do_all(load_all(options.jobs, registry), evaluated, lines, options)

@@ -81,7 +81,7 @@ def parse(arguments: Sequence[str]) -> tuple[str, argparse.Namespace]:
     """
     words = 2 if " ".join(arguments[:2]) in _COMMANDS else 1
     if _may_be_an_extensions(arguments):
-        from zlmreport.cli.arguments.extension import command_of_extension, parser_of
+        from zlmreport.cli.extension import command_of_extension, parser_of
 
         own = command_of_extension(arguments)
         if own:

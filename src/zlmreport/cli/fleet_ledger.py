@@ -1,14 +1,17 @@
-"""``zlmreport fleet report``: the overview of a fleet, for people, for Prometheus and for calendars."""
+"""``zlmreport fleet report``, ``backup``, ``rebuild``: what is made of a ledger, and the ledger itself."""
 
 from __future__ import annotations
 
+import datetime as dt
 import os
+import sys
 from argparse import Namespace
 from datetime import datetime
 from functools import partial
 from pathlib import Path
 
-from zlmreport.cli.terminal import shown_path
+from zlmreport.cli.terminal import shown_path, visible
+from zlmreport.errors import AccessError, Place
 from zlmreport.files import Document, write
 from zlmreport.fleet.appointments import calendar
 from zlmreport.fleet.basis import path_in
@@ -21,8 +24,10 @@ from zlmreport.job.fleet import FleetFile, is_retired, job_files, load_fleet
 from zlmreport.language import Language
 from zlmreport.plugins import find_plugins
 
+_INCOMPLETE = 4
 
-def run(options: Namespace) -> int:
+
+def report(options: Namespace) -> int:
     """Write the files anew, each whole or not at all; the ledger is only read."""
     fleet = load_fleet(options.fleet, extensions=lambda: find_plugins(files=options.plugin).extensions)
     state = _state(fleet)
@@ -53,3 +58,30 @@ def _state(fleet: FleetFile) -> FleetState:
 def _night(past: PastNight) -> Night:
     ended = datetime.fromisoformat(past.ended) if past.ended else None
     return Night(datetime.fromisoformat(past.began), ended, past.notices)
+
+
+def backup(options: Namespace) -> int:
+    """Copy the ledger; the file is whole or not there."""
+    fleet = load_fleet(options.fleet)
+    with Ledger.open(fleet.ledger, fleet.name, create=False) as ledger:
+        try:
+            options.output.parent.mkdir(parents=True, exist_ok=True)
+            ledger.backup(options.output)
+        except OSError as error:
+            message = f"cannot be written: {error.strerror or error}"
+            raise AccessError.at(Place(str(options.output)), message) from error
+    print(shown_path(options.output))
+    return 0
+
+
+def rebuild(options: Namespace) -> int:
+    """Make the ledger again, and say what could not be taken into it."""
+    from zlmreport.fleet.rebuilding import rebuild as from_certificates  # noqa: PLC0415 - reads them with all rooms
+
+    fleet = load_fleet(options.fleet)
+    now = dt.datetime.now(dt.UTC).isoformat(timespec="seconds")
+    rebuilt = from_certificates(fleet, find_plugins(files=options.plugin), now)
+    for problem in rebuilt.problems:
+        print(visible(str(problem)), file=sys.stderr)
+    print(f"{len(rebuilt.numbers)} certificates are in the ledger; the next night compares each")
+    return _INCOMPLETE if rebuilt.problems else 0
