@@ -6,6 +6,7 @@ slow to load, comes when the command is given.
 
 from __future__ import annotations
 
+import atexit
 import gc
 import importlib
 import os
@@ -39,8 +40,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     # Pydantic looks for plugins of its own among all distributions before it makes its first model.
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
-    # What is loaded and made at the beginning stays: the collector would walk it again and again for nothing.
+    # What is loaded and made at the beginning stays, and goes with the process: the collector would walk it
+    # again and again for nothing, and at the end most of all.
     gc.set_threshold(100_000)
+    atexit.register(gc.freeze)
     for stream in (sys.stdout, sys.stderr):
         _write_what_cannot_be_encoded_as_escapes(stream)
     options = None
