@@ -25,11 +25,9 @@ from zlmreport.plugins import find_plugins
 from zlmreport.quantities.arrays import FloatArray
 from zlmreport.testing import simulated_test
 from zlmreport.uncertainty.axis_interval import axis_intervals
-from zlmreport.uncertainty.budget import Budget, effect_along
-from zlmreport.uncertainty.contribution import Acts, Contribution, Distribution
-from zlmreport.uncertainty.draws import single_draws
+from zlmreport.uncertainty.budget import Acts, Budget, Contribution, Distribution, effect_along
 from zlmreport.uncertainty.drift import Drift, drawn_drifts, drift_range, reading_times
-from zlmreport.uncertainty.monte_carlo import propagate
+from zlmreport.uncertainty.monte_carlo import propagate, single_draws
 
 _MICROMETRE = 1e-6
 #: Standard deviation of the readings, µm, and the full ranges of drift beside it.
@@ -47,9 +45,11 @@ def drifting(full_range: float) -> Budget:
     return Budget((contribution(full_range / 12**0.5, Acts.IN_TIME, Distribution.RECTANGULAR),))
 
 
-def _instrument(size: float, acts: Acts) -> Budget:
+def _instrument(size: float, acts: Acts, full_range: float = 0.0) -> Budget:
+    """Return the budget of an instrument, and of a drift beside it where it has a range, µm."""
     resolution = contribution(0.03, Acts.AT_EACH_READING, Distribution.RECTANGULAR)
-    return Budget((contribution(size, acts), resolution), of_the_instrument=2 * size * _MICROMETRE)
+    drifts = drifting(full_range).contributions if full_range else ()
+    return Budget((contribution(size, acts), resolution, *drifts), of_the_instrument=2 * size * _MICROMETRE)
 
 
 #: The worlds: what is special in them, the stated budget, and how its drift truly goes.
@@ -58,6 +58,10 @@ WORLDS: Mapping[str, tuple[Budget, Drift | None]] = {
     **{
         f"drift of {full_range} µm, {kind.value}": (drifting(full_range), kind)
         for full_range in _DRIFTS
+        for kind in Drift
+    },
+    **{
+        f"instrument, and drift of 0.6 µm, {kind.value}": (_instrument(0.2, Acts.AT_EACH_POSITION, 0.6), kind)
         for kind in Drift
     },
 }

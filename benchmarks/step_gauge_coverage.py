@@ -22,9 +22,14 @@ from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.plugins import find_plugins
 from zlmreport.quantities.arrays import BoolArray
-from zlmreport.uncertainty import terms
-from zlmreport.uncertainty.budget import Budget
-from zlmreport.uncertainty.contribution import Acts, Contribution, Distribution
+from zlmreport.uncertainty.budget import (
+    Acts,
+    Budget,
+    Contribution,
+    Distribution,
+    from_range,
+    temperature_range,
+)
 from zlmreport.uncertainty.expanded import mean_uncertainty
 from zlmreport_step_gauge.calibration import read_calibration, section
 from zlmreport_step_gauge.deviations import deviations_of
@@ -150,8 +155,8 @@ def _measured(simulated: Simulated, set_up: GaugeSetUp) -> MeasurementSet:
 def _temperature(gauge: StepGauge) -> Contribution:
     """Return the contribution that a job states as uncertainty.device_temperature."""
     length = gauge.faces[-1].nominal - gauge.faces[0].nominal
-    full_range = terms.temperature_range(gauge.expansion_coefficient or 0.0, length, RANGE)
-    size = terms.from_range(full_range, Distribution.RECTANGULAR)
+    full_range = temperature_range(gauge.expansion_coefficient or 0.0, length, RANGE)
+    size = from_range(full_range, Distribution.RECTANGULAR)
     return Contribution(
         same("temperature"), size, Acts.ALONG_THE_LENGTH, Distribution.RECTANGULAR, same(""), same("")
     )

@@ -17,8 +17,7 @@ from zlmreport.certificate.build import GENERATOR, build
 from zlmreport.certificate.clauses import missing_items
 from zlmreport.certificate.information import findings
 from zlmreport.certificate.results import Evaluated
-from zlmreport.correction.corrections import corrected
-from zlmreport.correction.of_job import corrections_of, without_excluded
+from zlmreport.correction.corrections import corrected, corrections_of, without_excluded
 from zlmreport.errors import InputError
 from zlmreport.evaluation.decision import decided, decision_rule
 from zlmreport.evaluation.evaluate import evaluate
@@ -35,9 +34,8 @@ from zlmreport.plugin.protocols import (
     relationship_of,
 )
 from zlmreport.uncertainty.budget import Budget, NoBudget
-from zlmreport.uncertainty.completeness import refusals
 from zlmreport.uncertainty.expanded import with_uncertainty
-from zlmreport.uncertainty.job_budget import budget_of
+from zlmreport.uncertainty.job_budget import budget_of, refusals
 
 if TYPE_CHECKING:
     from zlmreport.certificate.conditions import Described

@@ -11,8 +11,7 @@ from zlmreport.compensation.forecast import Expected, forecast
 from zlmreport.errors import Place
 from zlmreport.language import same
 from zlmreport.measurement.axis import Axis
-from zlmreport.uncertainty.budget import Budget
-from zlmreport.uncertainty.contribution import Acts, Contribution, Distribution
+from zlmreport.uncertainty.budget import Acts, Budget, Contribution, Distribution
 
 RUNS, SINGLE = 4, 2e-6
 #: u of a mean.

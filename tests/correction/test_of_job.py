@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 from certificate.documents import COMPLETE, certificate, job, registry, text_of
-from zlmreport.correction.of_job import corrections_of
+from zlmreport.correction.corrections import corrections_of
 from zlmreport.correction.refractive_index import refractive_index
 from zlmreport.errors import InputError
 from zlmreport.pipeline import read

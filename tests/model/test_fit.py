@@ -24,13 +24,13 @@ from zlmreport.model.estimate import InstrumentError, Plausibility
 from zlmreport.model.fit import Assumptions, Fit, fit
 from zlmreport.model.noise import noise_parts
 from zlmreport.model.observations import of_readings
-from zlmreport.model.repeats import Spread
 from zlmreport.quantities.arrays import FloatArray
 
 DESIGN = linear_test(targets=11)
 READINGS = known(DESIGN) + realistic_noise(DESIGN)
 WAVE = 0.23
-INDEPENDENT = Assumptions(parts=(), spread=Spread.POOLED)
+EVEN = np.ones(len(READINGS))
+INDEPENDENT = Assumptions(parts=(), weights=EVEN)
 
 
 def _columns(fitted: Fit, design: Design) -> FloatArray:
@@ -42,7 +42,7 @@ def _value(fitted: Fit, name: str) -> float:
 
 
 def test_generalized_least_squares_is_that_of_the_textbook() -> None:
-    fitted = fit(USUAL, DESIGN, READINGS, Assumptions(spread=Spread.POOLED))
+    fitted = fit(USUAL, DESIGN, READINGS, Assumptions(weights=EVEN))
     columns, parts = _columns(fitted, DESIGN), noise_parts(DESIGN)
     shared = sum(fitted.noise.ratios[part.source] * part.factor @ part.factor.T for part in parts)
     inverse = np.linalg.inv(np.eye(len(READINGS)) + shared)
@@ -265,5 +265,7 @@ def test_where_scatter_grows_the_quiet_end_is_known_as_well_as_its_own_scatter_a
 
 
 def test_pooled_scatter_of_a_clean_test_is_its_noise() -> None:
-    fitted = fit(USUAL, linear_test(), known(linear_test()) + noise(linear_test()), INDEPENDENT)
+    design = linear_test()
+    even = Assumptions(parts=(), weights=np.ones(len(design.position)))
+    fitted = fit(USUAL, design, known(design) + noise(design), even)
     assert fitted.noise.sigma == pytest.approx(SIGMA, rel=0.15)

@@ -12,7 +12,6 @@ from model.axis_tests import EFFECTS, known, linear_test, model_of, noise
 from zlmreport.model.estimate import InstrumentError
 from zlmreport.model.fit import Assumptions, Fit, fit
 from zlmreport.model.observations import of_readings
-from zlmreport.model.repeats import Spread
 from zlmreport.quantities.arrays import FloatArray
 
 DESIGN = linear_test(targets=10, runs=10)
@@ -26,7 +25,7 @@ BETWEEN = replace(linear_test(targets=17, runs=1, seed=4), span=DESIGN.span)
 def one_way(request: pytest.FixtureRequest) -> tuple[Fit, FloatArray]:
     """Return a cubic through the readings of one direction, and the readings."""
     chosen = np.flatnonzero(request.param == DESIGN.direction)
-    assumed = Assumptions(InstrumentError(U_INSTRUMENT), parts=(), spread=Spread.POOLED)
+    assumed = Assumptions(InstrumentError(U_INSTRUMENT), parts=(), weights=np.ones(len(chosen)))
     found = fit(model_of(EFFECTS["polynomial"]), of_readings(DESIGN, chosen), READINGS[chosen], assumed)
     return found, READINGS[chosen]
 

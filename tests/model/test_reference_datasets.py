@@ -12,10 +12,8 @@ from documents.pages import DOCS
 from model.reference_datasets import LINEAR, NONLINEAR, Dataset, dataset, jacobian
 from zlmreport.model.axis_model import AxisModel, Term
 from zlmreport.model.fit import Assumptions, Fit, fit
-from zlmreport.model.repeats import Spread
 from zlmreport.quantities.arrays import FloatArray
 
-_INDEPENDENT = Assumptions(parts=(), spread=Spread.POOLED)
 _PAGE = (DOCS / "explanation" / "error-model.md").read_text(encoding="utf-8")
 _ROW = re.compile(r"^\| ([A-Z]\w+) \| [^|]+ \| (\d+) \| (\d+) \| (\d+|–) \| (\d+|–) \|$", re.MULTILINE)
 #: For each dataset: digits certified, and those stated for parameters, standard deviations and residuals.
@@ -30,7 +28,12 @@ _LIBRARIES = 0.5
 def _fitted(name: str) -> tuple[Dataset, Fit]:
     found = dataset(name)
     effect = LINEAR[name] if name in LINEAR else NONLINEAR[name].effect
-    return found, fit(AxisModel((Term(effect),)), found.design, found.values, _INDEPENDENT)
+    return found, fit(
+        AxisModel((Term(effect),)),
+        found.design,
+        found.values,
+        Assumptions(parts=(), weights=np.ones(len(found.values))),
+    )
 
 
 def _digits(found: FloatArray, certified: FloatArray) -> float:

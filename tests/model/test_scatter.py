@@ -7,7 +7,6 @@ import pytest
 
 from model.axis_tests import SIGMA, linear_test, noise, pendulum_test
 from zlmreport.model.repeats import (
-    Spread,
     SpreadFactor,
     apart_in_time,
     noise_floor,
@@ -112,19 +111,6 @@ def test_where_it_scatters_most_is_named() -> None:
     by_run = next(each for each in found if each.factor is SpreadFactor.RUN)
     assert by_run.widest == 3
     assert by_run.p_value < 0.01
-
-
-def test_pooled_scatter_is_equal_whatever_the_readings() -> None:
-    assert np.array_equal(weights(DESIGN, _uneven(4.0), Spread.POOLED), np.ones(len(DESIGN.position)))
-
-
-def test_own_weights_are_the_variances_of_each_position_and_direction() -> None:
-    readings = _uneven(4.0)
-    cell = (DESIGN.target == 4) & (DESIGN.direction > 0)
-    other = (DESIGN.target == 17) & (DESIGN.direction < 0)
-    found = weights(DESIGN, readings, Spread.OWN)
-    expected = np.var(readings[cell], ddof=1) / np.var(readings[other], ddof=1)
-    assert found[cell][0] / found[other][0] == pytest.approx(expected, rel=1e-9)
 
 
 def test_clean_readings_do_not_stand_off() -> None:

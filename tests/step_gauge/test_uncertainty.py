@@ -15,7 +15,7 @@ from step_gauge.gauges import gauge, set_up
 from step_gauge.probing import RADIUS
 from step_gauge.test_measurements import measured
 from zlmreport.quantities.arrays import FloatArray
-from zlmreport.uncertainty.contribution import Acts
+from zlmreport.uncertainty.budget import Acts
 from zlmreport_step_gauge.set_up import Expansion, GaugeSetUp, StatedRadius
 from zlmreport_step_gauge.uncertainty import gauge_contributions, parted
 

@@ -10,8 +10,7 @@ from zlmreport.evaluation.evaluate import evaluate
 from zlmreport.language import same
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.plugin.protocols import Standard
-from zlmreport.uncertainty.budget import Budget
-from zlmreport.uncertainty.contribution import Acts, Contribution, Distribution
+from zlmreport.uncertainty.budget import Acts, Budget, Contribution, Distribution
 from zlmreport.uncertainty.monte_carlo import TRIALS, Expanded, propagate
 
 MICROMETRE = 1e-6

@@ -11,7 +11,7 @@ from certificate.documents import COMPLETE, job, registry
 from zlmreport import pipeline
 from zlmreport.language import Language
 from zlmreport.uncertainty.air import air_contributions
-from zlmreport.uncertainty.contribution import Acts
+from zlmreport.uncertainty.budget import Acts
 
 #: Over 1 m; measured at 20 °C, 1013.25 hPa and 50 %.
 AIR = {"air_temperature": 20, "air_pressure": 1013.25, "relative_humidity": 50}

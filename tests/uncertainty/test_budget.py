@@ -9,8 +9,7 @@ import pytest
 
 from uncertainty.budgets import MICROMETRE, budget, contribution, expanded
 from zlmreport.testing import simulated_test
-from zlmreport.uncertainty.budget import Budget, effect_along
-from zlmreport.uncertainty.contribution import Acts
+from zlmreport.uncertainty.budget import Acts, Budget, effect_along
 
 SOME = Budget(
     (

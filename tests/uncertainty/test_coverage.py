@@ -15,8 +15,7 @@ from zlmreport.job.types import Options
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.testing import simulated_test
 from zlmreport.uncertainty.axis_interval import _pooled
-from zlmreport.uncertainty.budget import Budget
-from zlmreport.uncertainty.contribution import Acts, Distribution
+from zlmreport.uncertainty.budget import Acts, Budget, Distribution
 
 TRIALS = 400
 SIMULATED = 800

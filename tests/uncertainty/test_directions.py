@@ -11,8 +11,7 @@ from uncertainty.budgets import BY_CHANCE, ISO, MICROMETRE, budget, contribution
 from zlmreport.evaluation.evaluate import evaluate
 from zlmreport.job.types import Options
 from zlmreport.testing import bidirectional_test
-from zlmreport.uncertainty.budget import Budget
-from zlmreport.uncertainty.contribution import Acts
+from zlmreport.uncertainty.budget import Acts, Budget
 from zlmreport.uncertainty.expanded import mean_uncertainty
 
 #: Two targets, 100 µm apart in their means, three runs without scatter.

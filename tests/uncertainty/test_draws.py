@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from uncertainty.budgets import MICROMETRE, contribution
-from zlmreport.uncertainty.contribution import Acts, Distribution
-from zlmreport.uncertainty.draws import single_draws, stratified_draws
+from zlmreport.uncertainty.budget import Acts, Distribution
+from zlmreport.uncertainty.monte_carlo import single_draws, stratified_draws
 
 COUNT = 20_000
 #: Four standard deviations of a root mean square of so many draws: 1/√(2·COUNT) if they are normal, less

@@ -16,8 +16,7 @@ from zlmreport import pipeline
 from zlmreport.errors import InputError
 from zlmreport.language import Language
 from zlmreport.measurement.measurement_set import MeasurementSet
-from zlmreport.uncertainty.budget import Budget, NoBudget
-from zlmreport.uncertainty.contribution import Acts, Contribution, Distribution
+from zlmreport.uncertainty.budget import Acts, Budget, Contribution, Distribution, NoBudget
 from zlmreport.uncertainty.job_budget import budget_of
 
 MICROMETRE = 1e-6

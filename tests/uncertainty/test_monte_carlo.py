@@ -17,8 +17,7 @@ from zlmreport.job.types import Options
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.testing import bidirectional_test, simulated_test
 from zlmreport.testing.measurements import poor_tests
-from zlmreport.uncertainty.budget import Budget
-from zlmreport.uncertainty.contribution import Acts, Distribution
+from zlmreport.uncertainty.budget import Acts, Budget, Distribution
 from zlmreport.uncertainty.monte_carlo import propagate
 
 LENGTH, POSITION, READING = Acts.ALONG_THE_LENGTH, Acts.AT_EACH_POSITION, Acts.AT_EACH_READING
@@ -170,7 +169,7 @@ def test_other_readings_are_given_other_errors() -> None:
 _AGAIN = """
 from uncertainty.budgets import budget, uncertainties
 from zlmreport.testing import simulated_test
-from zlmreport.uncertainty.contribution import Acts, Distribution
+from zlmreport.uncertainty.budget import Acts, Distribution
 of = budget(0.5, Acts.AT_EACH_READING, Distribution.RECTANGULAR)
 print(repr(uncertainties(of, simulated_test(), trials=500)))
 """

@@ -11,8 +11,7 @@ from zlmreport.evaluation.evaluation import Evaluation
 from zlmreport.job.types import Options
 from zlmreport.measurement.approach import Approach
 from zlmreport.testing import bidirectional_test, simulated_test
-from zlmreport.uncertainty.budget import Budget
-from zlmreport.uncertainty.contribution import Acts
+from zlmreport.uncertainty.budget import Acts, Budget
 from zlmreport.uncertainty.expanded import mean_uncertainty
 
 ALL_WAYS = Budget(

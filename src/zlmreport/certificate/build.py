@@ -175,13 +175,11 @@ def _linked(job: Job, modelled: Modelled | None, writer: Writer) -> Linked | Non
 
 def _without_readings(evaluated: tuple[Evaluated, ...]) -> tuple[Evaluated, ...]:
     """Return evaluations whose figures lack the single readings behind their curves."""
-    return tuple(
-        replace(each, figures=tuple(map(_figure_without_readings, each.figures))) for each in evaluated
-    )
 
+    def bare(figure: Figure) -> Figure:
+        return replace(figure, panels=tuple(replace(panel, readings=()) for panel in figure.panels))
 
-def _figure_without_readings(figure: Figure) -> Figure:
-    return replace(figure, panels=tuple(replace(panel, readings=()) for panel in figure.panels))
+    return tuple(replace(each, figures=tuple(map(bare, each.figures))) for each in evaluated)
 
 
 def _logo(job: Job) -> Logo | None:

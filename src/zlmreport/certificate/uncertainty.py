@@ -24,8 +24,7 @@ from zlmreport.language import Words
 from zlmreport.quantities.formatting import percentage, rounded_pair
 from zlmreport.quantities.units import MICROMETRE
 from zlmreport.uncertainty import wording
-from zlmreport.uncertainty.budget import Budget, NoBudget
-from zlmreport.uncertainty.contribution import Acts, Contribution
+from zlmreport.uncertainty.budget import Acts, Budget, Contribution, NoBudget
 from zlmreport.uncertainty.monte_carlo import TRIALS
 
 if TYPE_CHECKING:

@@ -50,34 +50,25 @@ def fit_lines(fitted: Fitted, job: Job) -> Iterator[str]:
     yield f"  {error_line(fitted.error, fitted.fit.design.axis)}"
     yield ""
     yield from _parameters(fitted.fit)
-    yield from _weighted(fitted.fit)
     yield from _one_way(fitted.fit)
 
 
-def _weighted(fit: Fit) -> Iterator[str]:
-    """Yield that readings have unequal weights, and why."""
-    if fit.noise.is_weighted:
-        axis = fit.design.axis
-        least, largest = (deviation(size, axis, _ENGLISH) for size in fit.noise.span)
-        unit = axis.deviation_unit.symbol
-        yield ""
-        yield from wrapped(
-            f"readings are weighted, for they scatter unequally: a single one by {least} to {largest} {unit}"
-        )
-
-
 def _one_way(fit: Fit) -> Iterator[str]:
-    """Yield the polynomial of each direction in powers of the position, as it may be given to a control."""
-    name, unit = fit.design.axis.name, fit.design.axis.position_unit.symbol
-    found = tuple(one_way(fit))
-    if found:
-        yield ""
-    for each in found:
-        powers = [(name, power) for power in range(len(each.values))]
-        yield from wrapped(f"Δ{each.approach.arrow} = {polynomial(each.values.tolist(), powers)}")
-    if found:
-        first, last = (general_number(fit.design.axis.position_unit.from_si(end)) for end in fit.design.span)
-        yield f"  Δ and {name} in {unit}, {name} from {first} to {last}; each direction by itself"
+    """Yield that readings have unequal weights, and the polynomial of each direction."""
+    axis, (least, largest) = fit.design.axis, fit.noise.span
+    if least < largest:
+        sizes = f"{deviation(least, axis, _ENGLISH)} to {deviation(largest, axis, _ENGLISH)}"
+        said_of = f"readings are weighted, for they scatter unequally: a single one by {sizes}"
+        yield from ("", *wrapped(f"{said_of} {axis.deviation_unit.symbol}"))
+    curves = tuple(one_way(fit))
+    for number, (approach, values, _) in enumerate(curves):
+        powers = [(axis.name, power) for power in range(len(values))]
+        yield from () if number else ("",)
+        yield from wrapped(f"Δ{approach.arrow} = {polynomial(values.tolist(), powers)}")
+    if curves:
+        first, last = (general_number(axis.position_unit.from_si(end)) for end in fit.design.span)
+        where = f"{axis.name} from {first} to {last}; each direction by itself"
+        yield f"  Δ and {axis.name} in {axis.position_unit.symbol}, {where}"
 
 
 def polynomial(coefficients: Sequence[float], powers: Sequence[tuple[str, int]]) -> str:

@@ -110,12 +110,12 @@ def fit_values(fitted: Fitted) -> dict[str, Any]:
         "noise": report_noise(fitted.fit.noise, axis),
         "polynomials": [
             {
-                "direction": "+" if each.approach > 0 else "-",
+                "direction": "+" if approach > 0 else "-",
                 "unit": axis.position_unit.ascii,
-                "coefficients": each.values.tolist(),
-                "covariance": each.covariance.tolist(),
+                "coefficients": values.tolist(),
+                "covariance": covariance.tolist(),
             }
-            for each in one_way(fitted.fit)
+            for approach, values, covariance in one_way(fitted.fit)
         ],
     }
 

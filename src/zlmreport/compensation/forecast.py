@@ -11,9 +11,8 @@ from zlmreport.compensation.basis import Basis, joined
 from zlmreport.compensation.curve import CompensationTable, ErrorCurve
 from zlmreport.evaluation.statistics import position_statistics
 from zlmreport.quantities.arrays import FloatArray, read_only_floats
-from zlmreport.uncertainty.budget import Budget, effect_along
-from zlmreport.uncertainty.contribution import Acts
-from zlmreport.uncertainty.draws import single_draws
+from zlmreport.uncertainty.budget import Acts, Budget, effect_along
+from zlmreport.uncertainty.monte_carlo import single_draws
 
 #: Places between two rows at which the table is looked at.
 _BETWEEN = 16

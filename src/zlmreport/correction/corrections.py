@@ -5,19 +5,33 @@ units: n is the index of the air now, n₀ that when it was set to zero, Dp the 
 It displayed the count over the index nₐ that it assumed. Solved for D:
 
     D = (nₐ/n)·(displayed displacement) − Dp·(n − n₀)/n.
+
+At the end stands what a job asks for: which corrections, and which readings are set aside.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
+from zlmreport.correction.refractive_index import STANDARD_HUMIDITY, STANDARD_PRESSURE, refractive_index
+from zlmreport.errors import InputError, Problem
+from zlmreport.job.job import Job
+from zlmreport.job.measurement_keys import AirKeys, DeadPathKeys, ExclusionKeys, MaterialKeys
 from zlmreport.language import Words
-from zlmreport.measurement.measurement_set import MeasurementSet
-from zlmreport.measurement.provenance import Correction
+from zlmreport.measurement.approach import Approach
+from zlmreport.measurement.axis import Axis, AxisKind
+from zlmreport.measurement.measurement_set import CONDITIONS, STATE_OF_AIR, MeasurementSet
+from zlmreport.measurement.provenance import Correction, Exclusion
 from zlmreport.quantities.arrays import FloatArray, read_only_floats
-from zlmreport.quantities.units import above_reference
+from zlmreport.quantities.formatting import general_number
+from zlmreport.quantities.units import MICROMETRE_PER_METRE_KELVIN, REFERENCE_TEMPERATURE, above_reference
+
+#: Target positions nearer to each other than this share of their unit are the same.
+_SAME = 1e-6
+_KEY = "measurement.excluded"
 
 
 def displacement_in_air(displayed: FloatArray, index: FloatArray, assumed_index: float) -> FloatArray:
@@ -182,3 +196,198 @@ def _largest(change: FloatArray) -> float:
 
 def _millionths(index: float) -> float:
     return round(1e6 * (float(index) - 1.0), 2)
+
+
+def without_excluded(measurements: MeasurementSet, job: Job) -> MeasurementSet:
+    """Return readings without those that a job sets aside.
+
+    A reading that is set aside is missing from the set, and stands in its provenance with its value.
+
+    Raises
+    ------
+    InputError
+        For each that there is not, that is missing already, or that is named twice.
+    """
+    keys = job.keys.measurement.excluded
+    if not keys:
+        return measurements
+    problems: list[Problem] = []
+    found: dict[int, Exclusion] = {}
+    for index, each in enumerate(keys):
+        place = job.place_of(f"{_KEY}.{index}")
+        try:
+            reading = _reading(each, measurements)
+        except LookupError as error:
+            problems.append(Problem(place, f"{_KEY}: {error.args[0]}"))
+            continue
+        if reading in found:
+            problems.append(Problem(place, f"{_KEY}: this reading stands in the list twice; once is enough"))
+        found[reading] = Exclusion(
+            reading,
+            float(measurements.target_positions[measurements.target[reading]]),
+            Approach(int(measurements.approach[reading])),
+            int(measurements.run[reading]),
+            float(measurements.deviation[reading]),
+            each.reason,
+        )
+    if problems:
+        raise InputError(problems)
+    deviation = measurements.deviation.copy()
+    deviation[list(found)] = np.nan
+    provenance = replace(measurements.provenance, exclusions=tuple(found.values()))
+    return replace(measurements, deviation=read_only_floats(deviation), provenance=provenance)
+
+
+def _reading(key: ExclusionKeys, measurements: MeasurementSet) -> int:
+    """Return the place of the reading that a key names; raise `LookupError` saying why there is none."""
+    axis = measurements.axis
+    unit = axis.position_unit
+    targets = unit.from_si(measurements.target_positions)
+    nearest = int(np.argmin(np.abs(targets - key.target)))
+    if abs(float(targets[nearest]) - key.target) > _SAME:
+        raise LookupError(
+            f"there is no target {_position(axis, key.target)}; the nearest is "
+            f"{_position(axis, float(targets[nearest]))}"
+        )
+    approach = Approach.POSITIVE if key.direction == "+" else Approach.NEGATIVE
+    at_target = (measurements.target == nearest) & (measurements.approach == approach)
+    found = np.flatnonzero(at_target & (measurements.run == key.run))
+    where = f"{_position(axis, key.target)} {approach.arrow}"
+    if not found.size:
+        runs: Sequence[int] = sorted(set(measurements.run[at_target].tolist()))
+        there = f"runs there: {', '.join(map(str, runs))}" if runs else "nothing was read there"
+        raise LookupError(f"there is no reading of run {key.run} at {where}; {there}")
+    if np.isnan(measurements.deviation[found[0]]):
+        raise LookupError(
+            f"the reading of run {key.run} at {where} is missing already; take it out of the list"
+        )
+    return int(found[0])
+
+
+def _position(axis: Axis, value: float) -> str:
+    return f"{general_number(value)} {axis.position_unit.symbol}"
+
+
+_NANOMETRE = 1e-9
+
+
+def corrections_of(job: Job, measurements: MeasurementSet) -> Corrections | None:
+    """Return what a job corrects its readings for; None where it asks for nothing.
+
+    Raises
+    ------
+    InputError
+        With everything that a correction needs and neither the readings nor the job tell.
+    """
+    keys = job.keys.corrections
+    if keys is None or not (keys.air or keys.dead_path or keys.material):
+        return None
+    problems: list[Problem] = []
+    if job.axis.kind is not AxisKind.LINEAR:
+        message = "corrections of lengths do not apply to a rotary axis: take corrections out"
+        problems.append(Problem(job.place_of("corrections"), message))
+    if keys.dead_path and not keys.air:
+        message = "corrections.dead_path needs the index of the air: add corrections.air"
+        problems.append(Problem(job.place_of("corrections.dead_path"), message))
+    air = _air(keys.air, job, measurements, problems) if keys.air else None
+    expansion = _expansion(keys.material, job, measurements, problems) if keys.material else None
+    if problems:
+        raise InputError(problems)
+    to_si = job.axis.position_unit.to_si
+    return Corrections(
+        datum=_datum(measurements) if keys.datum is None else to_si(keys.datum),
+        air=air,
+        dead_path=_signed(keys.dead_path, to_si(keys.dead_path.length)) if keys.dead_path else None,
+        expansion=expansion,
+    )
+
+
+def _datum(measurements: MeasurementSet) -> float:
+    """Return where the instrument was set to zero, as the readings tell; or else the first target."""
+    if measurements.datum is None:
+        return float(measurements.target_positions[0])
+    return measurements.datum
+
+
+def air_conditions(job: Job, measurements: MeasurementSet) -> list[FloatArray]:
+    """Return temperature, pressure and humidity of the air at each reading, SI.
+
+    Raises
+    ------
+    InputError
+        If one of them is known neither from the readings nor from the job.
+    """
+    problems: list[Problem] = []
+    found = _conditions(STATE_OF_AIR, "corrections.air", job, measurements, problems)
+    if found is None:
+        raise InputError(problems)
+    return found
+
+
+def _air(keys: AirKeys, job: Job, measurements: MeasurementSet, problems: list[Problem]) -> Air | None:
+    wavelength = keys.wavelength * _NANOMETRE
+    conditions = _conditions(STATE_OF_AIR, "corrections.air", job, measurements, problems)
+    if conditions is None:
+        return None
+    temperature, pressure, humidity = conditions
+    index = refractive_index(temperature, pressure, humidity, wavelength)
+    if isinstance(keys.assumed, float):
+        return Air(index, keys.assumed)
+    if keys.assumed == "vacuum":
+        return Air(index, 1.0)
+    return Air(index, _standard_index(wavelength))
+
+
+def _standard_index(wavelength: float) -> float:
+    """Return the index of air at 20 °C, 1013.25 hPa and 50 %."""
+    state = (REFERENCE_TEMPERATURE, STANDARD_PRESSURE, STANDARD_HUMIDITY)
+    temperature, pressure, humidity = map(np.array, state)
+    return float(refractive_index(temperature, pressure, humidity, wavelength))
+
+
+def _expansion(
+    keys: MaterialKeys, job: Job, measurements: MeasurementSet, problems: list[Problem]
+) -> Expansion | None:
+    environment = job.keys.environment
+    coefficient = keys.expansion_coefficient or (environment and environment.expansion_coefficient)
+    if not isinstance(coefficient, float):
+        message = (
+            "corrections.material needs the expansion coefficient: add corrections.material."
+            "expansion_coefficient, µm/(m·K)"
+        )
+        problems.append(Problem(job.place_of("corrections.material"), message))
+    conditions = _conditions((keys.temperature,), "corrections.material", job, measurements, problems)
+    if conditions is None or not isinstance(coefficient, float):
+        return None
+    return Expansion(coefficient * MICROMETRE_PER_METRE_KELVIN, conditions[0])
+
+
+def _conditions(
+    names: Iterable[str], key: str, job: Job, measurements: MeasurementSet, problems: list[Problem]
+) -> list[FloatArray] | None:
+    """Return each condition at each reading, SI: as it was logged, or as the job states it for all."""
+    found = []
+    for name in names:
+        logged = measurements.conditions.get(name)
+        stated = getattr(job.keys.environment, name, None)
+        if logged is not None:
+            missing = int(np.count_nonzero(np.isnan(logged)))
+            if missing:
+                message = f"{key}: {name} was not logged at {missing} of {len(logged)} readings"
+                problems.append(Problem(job.place_of(key), message))
+            found.append(logged)
+        elif isinstance(stated, float):
+            in_si = CONDITIONS[name].unit.to_si(stated)
+            found.append(np.full(len(measurements.deviation), in_si))
+        else:
+            message = (
+                f"{key} needs {name}: log it beside the readings (column {name}), or state "
+                f"environment.{name} as a number"
+            )
+            problems.append(Problem(job.place_of(key), message))
+    return None if problems else found
+
+
+def _signed(keys: DeadPathKeys, length: float) -> float:
+    """Return the dead path, negative where positions rise towards the interferometer."""
+    return length if keys.measured_path == "grows" else -length

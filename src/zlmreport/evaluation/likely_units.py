@@ -86,7 +86,9 @@ def _conditions(job: Job, measurements: MeasurementSet) -> Iterator[Words]:
             meant = _other_unit(value, kind)
             sentence = _UNLIKELY
             if meant:
-                sentence = _MEANT.given(other=_named(meant), meant=_shown(value, meant, kind))
+                sentence = _MEANT.given(
+                    other=_named(meant), meant=float(f"{kind.unit.from_si(meant.to_si(value)):.3g}")
+                )
             yield sentence.given(name=CONDITION_NAMES[name], value=value, unit=kind.unit.symbol)
 
 
@@ -99,10 +101,6 @@ def _other_unit(value: float, kind: ConditionKind) -> Scale | None:
 
 def _named(unit: Scale) -> Words:
     return Words("of 1", "von 1") if unit.symbol == "1" else same(unit.symbol)
-
-
-def _shown(value: float, unit: Scale, kind: ConditionKind) -> float:
-    return float(f"{kind.unit.from_si(unit.to_si(value)):.3g}")
 
 
 def _limits(evaluation: Evaluation) -> Iterator[Words]:

@@ -17,7 +17,7 @@ from zlmreport.job.types import (
 )
 from zlmreport.measurement.axis import AxisKind
 
-#: `zlmreport.uncertainty.contribution.Acts`, by its values.
+#: `zlmreport.uncertainty.budget.Acts`, by its values.
 ActsName: TypeAlias = Literal[
     "along-the-length",
     "between-directions",

@@ -1,10 +1,11 @@
-"""From the readings of a file to a measurement set: the checks that all data sources share."""
+"""From the readings of a file to a measurement set, and what a set must hold to be a test of an axis."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from typing import TypeAlias
 
 import numpy as np
 
@@ -12,11 +13,22 @@ from zlmreport.errors import InputError, Place, Problem
 from zlmreport.language import Words
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.axis import Axis, AxisKind
-from zlmreport.measurement.checks import problems_of
-from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.measurement.measurement_set import CONDITIONS, MeasurementSet
 from zlmreport.measurement.provenance import Provenance
-from zlmreport.quantities.arrays import FloatArray, IntArray, read_only_floats, read_only_integers
+from zlmreport.quantities.arrays import BoolArray, FloatArray, IntArray, read_only_floats, read_only_integers
 
+Check: TypeAlias = Callable[[MeasurementSet, Sequence[Place]], Iterator[Problem]]
+
+#: Steps finer than this (m or rad) are taken within a period of the scale or the screw, where a deviation
+#: of several steps is ordinary.
+_FINE_STEP = 1e-3
+#: What a single target is held against if the job states no travel, m or rad.
+_ONE = 1.0
+#: A full test of so many readings is refused if hardly any of them are there.
+_LARGE_TEST = 1_000_000
+_HARDLY_ANY = 0.01
+#: Of the largest position: what two computations of it may differ by.
+_NOISE = 1e-9
 #: Problems of one file that are named one by one.
 MOST_NAMED = 20
 
@@ -198,3 +210,206 @@ def _capped(problems: Sequence[Problem]) -> list[Problem]:
     if more:
         named.append(Problem(more[0].place, f"and {len(more)} more"))
     return named
+
+
+def problems_of(measurements: MeasurementSet, places: Sequence[Place]) -> list[Problem]:
+    """Return everything that is wrong with the readings together.
+
+    Parameters
+    ----------
+    measurements
+        The readings, arranged but not checked.
+    places
+        Where each of them stands.
+    """
+    misread = list(_columns_are_what_they_say(measurements, places))
+    return misread or [problem for check in _CHECKS for problem in check(measurements, places)]
+
+
+def _columns_are_what_they_say(measurements: MeasurementSet, places: Sequence[Place]) -> Iterator[Problem]:
+    """Refuse what is no test at all: something else was taken for the target position or the run."""
+    targets, runs = len(measurements.target_positions), len(measurements.runs)
+    readings = len(measurements.deviation)
+    full = len(measurements.approaches) * targets * runs
+    if full > _LARGE_TEST and readings < _HARDLY_ANY * full:
+        yield Problem(
+            Place(places[0].file),
+            f"{targets} target positions and {runs} runs would be {full} readings, and there are {readings}; "
+            "is the target the commanded position, and the run the number of the cycle?",
+        )
+    elif runs > 1 and targets == readings >= 4:
+        yield Problem(
+            Place(places[0].file),
+            f"no target position was read twice in {runs} runs; is the target the commanded position, "
+            "or are target and actual position exchanged?",
+        )
+
+
+def _targets_lie_on_the_travel(measurements: MeasurementSet, places: Sequence[Place]) -> Iterator[Problem]:
+    axis = measurements.axis
+    if axis.travel is None:
+        return
+    first, last = sorted(axis.travel)
+    noise = _NOISE * max(abs(first), abs(last))
+    for index, target in enumerate(measurements.target_positions):
+        if not first - noise <= target <= last + noise:
+            reading = int(np.argmax(measurements.target == index))
+            unit = axis.position_unit
+            yield Problem(
+                places[reading],
+                f"target {_position(measurements, index)} lies off the travel (axis.travel in the job), "
+                f"{unit.from_si(first):.9g} to {unit.from_si(last):.9g} {unit.symbol}",
+            )
+
+
+def _no_reading_is_there_twice(measurements: MeasurementSet, places: Sequence[Place]) -> Iterator[Problem]:
+    passes = _passes(measurements)
+    key = passes * len(measurements.target_positions) + measurements.target
+    _, first, same = np.unique(key, return_index=True, return_inverse=True)
+    for reading in np.flatnonzero(first[same] != np.arange(len(key))).tolist():
+        earlier = places[first[same[reading]]]
+        yield Problem(
+            places[reading],
+            f"{_named(measurements, reading)}, stands in line {earlier.line} already; "
+            f"a repeated run has a number of its own{_of_a_turn(measurements, reading)}",
+        )
+
+
+def _of_a_turn(measurements: MeasurementSet, reading: int) -> str:
+    """Return what may be meant where the end of a full turn stands as its beginning."""
+    is_zero = measurements.target_positions[measurements.target[reading]] == 0
+    is_rotary = measurements.axis.kind is AxisKind.ROTARY
+    return "; the target at the end of a full turn is 360" if is_zero and is_rotary else ""
+
+
+def _no_target_is_off_the_list(measurements: MeasurementSet, places: Sequence[Place]) -> Iterator[Problem]:
+    """Refuse a target that most runs do not have, where one that they have was left out."""
+    occupied = _occupied(measurements)
+    regular = _regular_targets(occupied)
+    if np.all(regular):
+        return
+    ordinary_pass = 2 * np.count_nonzero(occupied[:, regular], axis=1) >= np.count_nonzero(regular)
+    passes = _passes(measurements)
+    for reading in np.flatnonzero(~regular[measurements.target] & ordinary_pass[passes]).tolist():
+        left_out = np.flatnonzero(regular & ~occupied[passes[reading]])
+        if left_out.size:
+            targets = measurements.target_positions
+            index = int(measurements.target[reading])
+            meant = int(left_out[np.argmin(np.abs(targets[left_out] - targets[index]))])
+            yield Problem(
+                places[reading],
+                f"target {_position(measurements, index)} is on no other run's list, and "
+                f"{_position(measurements, meant)}, which is, has no reading in this run; was that meant? "
+                "(A target that was left out keeps its row, with an empty cell.)",
+            )
+
+
+def _deviations_are_credible(measurements: MeasurementSet, places: Sequence[Place]) -> Iterator[Problem]:
+    """Refuse deviations that reach the next target: positions given as deviations, or a wrong unit."""
+    largest, what = _largest_deviation(measurements)
+    beyond = np.flatnonzero(np.abs(measurements.deviation) > largest).tolist()
+    axis = measurements.axis
+    limit = f"{what}, {axis.position_unit.from_si(largest):.9g} {axis.position_unit.symbol}"
+    advice = "is it a position given as deviation, or a wrong unit?"
+    if 2 * len(beyond) > np.count_nonzero(~np.isnan(measurements.deviation)) > 2:
+        yield Problem(
+            places[beyond[0]], f"{len(beyond)} deviations from here on are larger than {limit}; {advice}"
+        )
+        return
+    for reading in beyond:
+        value = axis.deviation_unit.from_si(float(measurements.deviation[reading]))
+        yield Problem(
+            places[reading],
+            f"the deviation, {value:.9g} {axis.deviation_unit.symbol}, is larger than {limit}; {advice}",
+        )
+
+
+def _something_was_read(measurements: MeasurementSet, places: Sequence[Place]) -> Iterator[Problem]:
+    if np.all(np.isnan(measurements.deviation)):
+        yield Problem(Place(places[0].file), "every reading is missing; there is nothing to evaluate")
+
+
+def _times_do_not_fall(measurements: MeasurementSet, places: Sequence[Place]) -> Iterator[Problem]:
+    if measurements.time is None:
+        return
+    logged = np.flatnonzero(~np.isnan(measurements.time))
+    for later in np.flatnonzero(np.diff(measurements.time[logged]) < 0) + 1:
+        yield Problem(
+            places[logged[later]],
+            f"the time is before that of the reading in line {places[logged[later - 1]].line}; "
+            "readings stand in the order in which they were taken",
+        )
+
+
+def _conditions_are_credible(measurements: MeasurementSet, places: Sequence[Place]) -> Iterator[Problem]:
+    for name, values in measurements.conditions.items():
+        kind = CONDITIONS.get(name)
+        if kind is None:
+            continue
+        lowest, highest = kind.unit.to_si(kind.lowest), kind.unit.to_si(kind.highest)
+        beyond = np.flatnonzero((values < lowest) | (values > highest))
+        if beyond.size:
+            yield Problem(
+                places[beyond[0]],
+                f"{name} is not between {kind.lowest:g} and {kind.highest:g} {kind.unit.symbol} "
+                f"here (readings like this: {beyond.size}); is its unit right?",
+            )
+
+
+_CHECKS: tuple[Check, ...] = (
+    _targets_lie_on_the_travel,
+    _no_reading_is_there_twice,
+    _no_target_is_off_the_list,
+    _deviations_are_credible,
+    _something_was_read,
+    _times_do_not_fall,
+    _conditions_are_credible,
+)
+
+
+def _passes(measurements: MeasurementSet) -> IntArray:
+    """Return for each reading the index of its pass over the targets: one run in one direction."""
+    _, run = np.unique(measurements.run, return_inverse=True)
+    _, index = np.unique(2 * run + (measurements.approach == Approach.POSITIVE), return_inverse=True)
+    return np.asarray(index, dtype=np.int64)
+
+
+def _occupied(measurements: MeasurementSet) -> BoolArray:
+    """Return which pass has a row for which target, shape (pass, target)."""
+    passes = _passes(measurements)
+    occupied = np.zeros((passes.max() + 1, len(measurements.target_positions)), dtype=np.bool_)
+    occupied[passes, measurements.target] = True
+    return occupied
+
+
+def _regular_targets(occupied: BoolArray) -> BoolArray:
+    """Return which targets more than half of the passes have."""
+    return np.asarray(2 * np.count_nonzero(occupied, axis=0) > len(occupied), dtype=np.bool_)
+
+
+def _largest_deviation(measurements: MeasurementSet) -> tuple[float, str]:
+    """Return the largest deviation that can be one, m or rad, and what it is."""
+    regular = _regular_targets(_occupied(measurements))
+    targets = measurements.target_positions
+    if np.count_nonzero(regular) > 1:
+        targets = targets[regular]
+    if len(targets) > 1:
+        interval = float(np.min(np.diff(targets)))
+        if interval >= _FINE_STEP:
+            return interval, "the smallest target interval"
+        return _FINE_STEP, "any deviation at steps so fine"
+    if measurements.axis.travel is not None:
+        first, last = measurements.axis.travel
+        return max(abs(last - first), _FINE_STEP), "the travel"
+    return _ONE, "any deviation"
+
+
+def _position(measurements: MeasurementSet, index: int) -> str:
+    unit = measurements.axis.position_unit
+    return f"{unit.from_si(float(measurements.target_positions[index])):.9g} {unit.symbol}"
+
+
+def _named(measurements: MeasurementSet, reading: int) -> str:
+    arrow = Approach(int(measurements.approach[reading])).arrow
+    target = _position(measurements, int(measurements.target[reading]))
+    return f"target {target} {arrow}, run {measurements.run[reading]}"

@@ -25,7 +25,7 @@ from zlmreport.model.estimate import (
 )
 from zlmreport.model.noise import Noise, NoisePart, coarse_grid, noise_parts
 from zlmreport.model.observations import of_readings
-from zlmreport.model.repeats import Spread, weights
+from zlmreport.model.repeats import weights
 from zlmreport.model.search import Place, Problem, Solution, Thetas, refine, search, tangents
 from zlmreport.quantities.arrays import FloatArray
 
@@ -43,15 +43,12 @@ class Assumptions:
         The error of the instrument, for the uncertainty of all that is estimated.
     parts
         Sources of shared scatter; None for those that the design can show.
-    spread
-        How the scatter of single readings is taken to differ.
     weights : (N,) array or None
-        Variance of each reading over the mean one, where it is known already.
+        Variance of each reading over the mean one; None to see whether the readings scatter unequally.
     """
 
     instrument: InstrumentError = field(default_factory=InstrumentError)
     parts: tuple[NoisePart, ...] | None = None
-    spread: Spread = Spread.SHRUNK
     weights: FloatArray | None = None
 
 
@@ -225,7 +222,7 @@ def _fit(
 ) -> Fit:
     model.check(design)
     parts = noise_parts(design) if taken.parts is None else taken.parts
-    known = weights(design, deviation, taken.spread) if taken.weights is None else taken.weights
+    known = weights(design, deviation) if taken.weights is None else taken.weights
     noise = Noise(0.0, {}, known)
     problem = Problem(model, design, deviation, whitener(parts, noise))
     solution = search(problem) if start is None else refine(problem, problem.solution(start))

@@ -106,16 +106,10 @@ class Noise:
     weights: FloatArray
 
     @property
-    def is_weighted(self) -> bool:
-        """Whether readings scatter so unequally that they have unequal weights."""
-        return bool(np.ptp(self.weights))
-
-    @property
     def span(self) -> tuple[float, float]:
         """The least and the largest repeatability of a single reading, m or rad."""
-        return self.sigma * float(np.sqrt(self.weights.min())), self.sigma * float(
-            np.sqrt(self.weights.max())
-        )
+        least, largest = np.sqrt([self.weights.min(), self.weights.max()]).tolist()
+        return self.sigma * least, self.sigma * largest
 
     def amount(self, source: NoiseSource) -> float:
         """Return the standard deviation σ·√φ of a source, m or rad."""

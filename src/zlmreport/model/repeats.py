@@ -141,14 +141,6 @@ def noise_floor(design: Design, deviation: FloatArray) -> float | None:
     return float(np.sqrt(within.squares / within.degrees))
 
 
-class Spread(Enum):
-    """How the scatter of single readings is taken to differ."""
-
-    POOLED = "pooled"
-    SHRUNK = "shrunk to the pooled variance where a test asks for it"
-    OWN = "each position and direction its own, as it comes"
-
-
 class SpreadFactor(Enum):
     """By what the scatter may differ."""
 
@@ -268,22 +260,8 @@ def _growth(design: Design, deviation: FloatArray) -> FloatArray:
     return np.asarray(grown, dtype=np.float64)
 
 
-def weights(design: Design, deviation: FloatArray, spread: Spread = Spread.SHRUNK) -> FloatArray:
-    """Return w, the variance of each reading over the mean one, shape (N,).
-
-    Parameters
-    ----------
-    design
-        The test.
-    deviation : (N,) array
-        x, m or rad.
-    spread
-        How it is taken to differ; `Spread.OWN` are the weights of Halaj's equation (10), for comparison.
-    """
-    if spread is Spread.POOLED:
-        return np.ones(len(deviation))
-    if spread is Spread.OWN:
-        return _own(design, deviation)
+def weights(design: Design, deviation: FloatArray) -> FloatArray:
+    """Return w, the variance of each reading over the mean one, shape (N,)."""
     tests, found = _tested(design, deviation)
     scatter = _scatter(design, deviation, found)
     for test in tests:
@@ -362,14 +340,6 @@ def _shrunk(scatter: FloatArray, labels: IntArray) -> FloatArray:
     prior = 2.0 / max(excess, 1e-2)
     drawn = (prior * pooled + degrees * variance) / (prior + degrees)
     return np.asarray(drawn[group] / pooled, dtype=np.float64)
-
-
-def _own(design: Design, deviation: FloatArray) -> FloatArray:
-    within = repeats(design, deviation)
-    degrees = np.maximum(within.count - 1, 1)
-    variance = np.bincount(within.cell, weights=within.centred**2) / degrees
-    variance = np.maximum(variance, 1e-6 * float(np.mean(variance)) or 1.0)
-    return np.asarray(variance[within.cell] / np.mean(variance[within.cell]), dtype=np.float64)
 
 
 #: Of the robust standard deviation.

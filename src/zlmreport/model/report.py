@@ -197,7 +197,8 @@ def _in_unit(value: float | None, axis: Axis) -> float | None:
 def report_noise(noise: Noise, axis: Axis) -> dict[str, Any]:
     """Return what scatters: where readings are weighted, also where they scatter least and most."""
     unit = axis.deviation_unit
-    ends = zip(("least", "largest"), noise.span, strict=True) if noise.is_weighted else ()
+    least, largest = noise.span
+    ends = (("least", least), ("largest", largest)) if least < largest else ()
     return {
         "repeatability": unit.from_si(noise.sigma),
         **{f"{end}_repeatability": unit.from_si(size) for end, size in ends},

@@ -326,52 +326,34 @@ def moves_with_time(fitted: Fit) -> tuple[str, ...]:
     return tuple(term.effect.identifier for term in fitted.model.terms if term.effect.shape not in BY_TABLE)
 
 
-@dataclass(frozen=True, slots=True)
-class OneWay:
-    """The polynomial of one direction in powers of the position itself.
+def one_way(fitted: Fit) -> Iterator[tuple[Approach, FloatArray, FloatArray]]:
+    """Yield the polynomial of each direction in powers of the position itself, with its covariance.
 
-    M. Halaj, E. Kureková, R. Palenčár and T. Loebl, The positional deviation in two axes, equation (2).
-
-    Attributes
-    ----------
-    approach
-        The direction.
-    values : (n,) array
-        a, b, c, d …: deviation and position both in mm or in degrees.
-    covariance : (n, n) array
-        Of the values.
-    """
-
-    approach: Approach
-    values: FloatArray
-    covariance: FloatArray
-
-
-def one_way(fitted: Fit) -> Iterator[OneWay]:
-    """Yield the polynomial of each direction of the job's test; nothing where the model has none.
-
-    It is fitted to the readings of that direction alone, whatever else stands in the model.
+    M. Halaj, E. Kureková, R. Palenčár and T. Loebl, The positional deviation in two axes, equation (2): a, b,
+    c, d, deviation and position both in mm or in degrees. It is fitted to the readings of that direction
+    alone, whatever else stands in the model; nothing where the model has no polynomial.
     """
     own = fitted.of_the_job
-    unit = own.design.axis.position_unit
     for term in fitted.model.terms:
         for approach in Approach if term.effect.identifier == _POLYNOMIAL else ():
-            design = of_readings(own.design, np.flatnonzero(own.design.direction == approach))
-            if not len(design.position) or term.effect.untestable(design):
+            chosen = np.flatnonzero(own.design.direction == approach)
+            design = of_readings(own.design, chosen)
+            if not len(chosen) or term.effect.untestable(design):
                 continue
-            instrument = fitted.assumptions.instrument
             alone = fit(
                 AxisModel((Term(term.effect),)),
                 design,
-                own.deviation[own.design.direction == approach],
-                Assumptions(instrument),
+                own.deviation[chosen],
+                Assumptions(fitted.assumptions.instrument),
             )
-            order = len(term.effect.linear) - 1
-            turn = (
-                of_position(order, design.span) * unit.per_si ** (1.0 - np.arange(order + 1))[:, np.newaxis]
+            powers = np.arange(len(term.effect.linear))
+            scale = design.axis.position_unit.per_si ** (1.0 - powers)
+            turn = scale[:, np.newaxis] * of_position(len(powers) - 1, design.span)
+            yield (
+                approach,
+                turn @ alone.solution.coefficients[0],
+                turn @ alone.uncertainties.covariance @ turn.T,
             )
-            covariance = turn @ alone.uncertainties.covariance @ turn.T
-            yield OneWay(approach, turn @ alone.solution.coefficients[0], covariance)
 
 
 @dataclass(frozen=True, slots=True)

@@ -128,8 +128,7 @@ _ROOMS = {
         "FONT_FACES=FACES font_face_rules=font_faces font_file=font linked_script linked_style "
         "script_fingerprint=fingerprint style_sheet"
     ),
-    "zlmreport.uncertainty.budget": "Budget COVERAGE_PROBABILITY NoBudget",
-    "zlmreport.uncertainty.contribution": "Acts Contribution Distribution",
+    "zlmreport.uncertainty.budget": "Acts Budget COVERAGE_PROBABILITY Contribution Distribution NoBudget",
     "zlmreport.uncertainty.expanded": "with_uncertainty",
     "zlmreport.uncertainty.wording": (
         "STATED_IN_THE_JOB=STATED USUAL_CONTRIBUTIONS=USUAL calibration_in_words=calibration"

@@ -65,8 +65,7 @@ from zlmreport.quantities.formatting import DecimalSign, MINUS as MINUS_SIGN, fi
 from zlmreport.quantities.units import CELSIUS, DEGREE, HECTOPASCAL, INCH, LENGTH_UNITS, MICROMETRE, MICROMETRE_PER_METRE_KELVIN, MICRORADIAN, MILLIMETRE, MILLIRADIAN, PERCENT, POSITION_UNITS, REFERENCE_TEMPERATURE, Scale as ReadingScale, SECOND, TIME_UNITS, Unit, above_reference as above_reference_temperature, unit_named
 from zlmreport.typesetting.compose import GRAPH_ADDRESS, Setting as HtmlSetting, LOGO_ADDRESS, compose as compose_html
 from zlmreport.typesetting.resources import FACES as FONT_FACES, font_faces as font_face_rules, font as font_file, linked_script, linked_style, fingerprint as script_fingerprint, style_sheet
-from zlmreport.uncertainty.budget import Budget, COVERAGE_PROBABILITY, NoBudget
-from zlmreport.uncertainty.contribution import Acts, Contribution, Distribution
+from zlmreport.uncertainty.budget import Acts, Budget, COVERAGE_PROBABILITY, Contribution, Distribution, NoBudget
 from zlmreport.uncertainty.expanded import with_uncertainty
 from zlmreport.uncertainty.wording import STATED as STATED_IN_THE_JOB, USUAL as USUAL_CONTRIBUTIONS, calibration as calibration_in_words
 

@@ -18,7 +18,7 @@ from zlmreport.job.types import Options
 from zlmreport.language import Words
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.presenting.writer import Writer
-from zlmreport.uncertainty.contribution import Contribution
+from zlmreport.uncertainty.budget import Contribution
 
 
 @dataclass(frozen=True, slots=True)

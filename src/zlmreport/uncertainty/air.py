@@ -6,14 +6,13 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from zlmreport.correction.of_job import air_conditions
+from zlmreport.correction.corrections import air_conditions
 from zlmreport.correction.refractive_index import refractive_index
 from zlmreport.job.job import Job
 from zlmreport.language import Words
 from zlmreport.measurement.measurement_set import CONDITION_NAMES, CONDITIONS, STATE_OF_AIR, MeasurementSet
 from zlmreport.uncertainty import wording
-from zlmreport.uncertainty.contribution import Acts, Contribution, Distribution
-from zlmreport.uncertainty.terms import from_range
+from zlmreport.uncertainty.budget import Acts, Contribution, Distribution, from_range
 
 #: Step of the difference quotients: of each condition a small part, that rounding does not reach.
 _STEP = 1e-4

@@ -14,7 +14,7 @@ import numpy as np
 
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.quantities.arrays import FloatArray
-from zlmreport.uncertainty.contribution import Contribution, Distribution
+from zlmreport.uncertainty.budget import Contribution, Distribution
 
 
 class Drift(Enum):

@@ -11,8 +11,7 @@ from zlmreport.evaluation.evaluation import Evaluation, MeanUncertainty
 from zlmreport.measurement.approach import Approach
 from zlmreport.quantities.arrays import FloatArray, read_only_floats
 from zlmreport.uncertainty.axis_interval import axis_intervals
-from zlmreport.uncertainty.budget import COVERAGE_FACTOR, Budget, NoBudget, effect_along
-from zlmreport.uncertainty.contribution import Acts
+from zlmreport.uncertainty.budget import COVERAGE_FACTOR, Acts, Budget, NoBudget, effect_along
 from zlmreport.uncertainty.drift import drift_range, mean_drift_variance, reading_times
 from zlmreport.uncertainty.monte_carlo import StandardArithmetic, propagate
 
@@ -33,8 +32,7 @@ def with_uncertainty(
     """
     if not evaluations:
         return ()
-    intervals = axis_intervals(evaluations)
-    bare = [
+    bare = tuple(
         replace(
             evaluation,
             parameters=tuple(
@@ -42,31 +40,29 @@ def with_uncertainty(
                 for each in evaluation.parameters
             ),
         )
-        for (evaluation, _), of_axis in zip(evaluations, intervals, strict=True)
-    ]
+        for (evaluation, _), of_axis in zip(evaluations, axis_intervals(evaluations), strict=True)
+    )
     if isinstance(budget, NoBudget):
-        return tuple(bare)
-    means = mean_uncertainty(evaluations[0][0], budget)  # of the readings, which all have in common
-    found = []
-    for evaluation, expanded in zip(bare, propagate(budget, evaluations), strict=True):
-        parameters = tuple(
-            replace(
-                each,
-                expanded_uncertainty=expanded[each.quantity.symbol].uncertainty,
-                coverage_factor=expanded[each.quantity.symbol].coverage_factor,
-                raised_to=expanded[each.quantity.symbol].least,
-            )
-            for each in evaluation.parameters
+        return bare
+    means = mean_uncertainty(bare[0], budget)  # of the readings, which all have in common
+    return tuple(
+        replace(
+            evaluation,
+            parameters=tuple(
+                replace(
+                    each,
+                    expanded_uncertainty=found.uncertainty,
+                    coverage_factor=found.coverage_factor,
+                    raised_to=found.least,
+                )
+                for each in evaluation.parameters
+                for found in (expanded[each.quantity.symbol],)
+            ),
+            mean_uncertainty=means,
+            uncertainty_is_complete=budget.is_complete,
         )
-        found.append(
-            replace(
-                evaluation,
-                parameters=parameters,
-                mean_uncertainty=means,
-                uncertainty_is_complete=budget.is_complete,
-            )
-        )
-    return tuple(found)
+        for evaluation, expanded in zip(bare, propagate(budget, evaluations), strict=True)
+    )
 
 
 def mean_uncertainty(evaluation: Evaluation, budget: Budget) -> MeanUncertainty:

@@ -1,29 +1,55 @@
-"""From what a job states of its measuring set-up to the uncertainty budget."""
+"""From what a job states of its measuring set-up to the uncertainty budget, and what it leaves out.
+
+A report with an incomplete budget says so wherever it states U; a calibration certificate is refused, with
+what is to be stated and how. So is one of a length whose temperature nobody knows.
+"""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from dataclasses import dataclass
 
-from zlmreport.errors import InputError
+import numpy as np
+
+from zlmreport.errors import InputError, Problem
 from zlmreport.job.evaluation_keys import ContributionKeys
 from zlmreport.job.job import Job
+from zlmreport.job.keys import JobKeys
 from zlmreport.language import Words, same
 from zlmreport.measurement.axis import AxisKind
-from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.measurement.measurement_set import STATE_OF_AIR, MeasurementSet
 from zlmreport.quantities.arrays import FloatArray, decimals_of
-from zlmreport.quantities.units import MICROMETRE, MICROMETRE_PER_METRE_KELVIN, MILLIMETRE, Unit
-from zlmreport.uncertainty import terms, wording
+from zlmreport.quantities.units import (
+    MICROMETRE,
+    MICROMETRE_PER_METRE_KELVIN,
+    MILLIMETRE,
+    ZERO_CELSIUS,
+    Unit,
+    above_reference,
+)
+from zlmreport.uncertainty import wording
 from zlmreport.uncertainty.air import air_contributions
-from zlmreport.uncertainty.budget import Budget, NoBudget
-from zlmreport.uncertainty.completeness import INSTRUMENT, demanded
-from zlmreport.uncertainty.contribution import Acts, Contribution, Distribution
-from zlmreport.uncertainty.thermal import SetUp
+from zlmreport.uncertainty.budget import (
+    Acts,
+    Budget,
+    Contribution,
+    Distribution,
+    NoBudget,
+    expansion_range,
+    from_range,
+    misalignment_range,
+    temperature_range,
+)
 
 #: Of the uncertainties that a job states as expanded.
 _COVERAGE_FACTOR = 2.0
 #: A step that readings may show is no smaller, µm or ″.
 _MOST_DECIMALS = 3
+#: The temperature that the scale, and with it the measured length, has: the first that is known counts.
+_TEMPERATURES = ("axis_temperature", "material_temperature")
+#: What is printed as 20.0 °C is 20 °C, K.
+_AT_REFERENCE = 0.05
 
 
 def budget_of(
@@ -137,7 +163,7 @@ def _of_the_length(job: Job, set_up: SetUp, *, is_artefact: bool) -> Iterator[Co
     keys = job.keys.uncertainty
     length = set_up.length
     if keys.misalignment is not None:
-        full_range = terms.misalignment_range(MILLIMETRE.to_si(keys.misalignment), length)
+        full_range = misalignment_range(MILLIMETRE.to_si(keys.misalignment), length)
         stated = wording.full_range("R", keys.misalignment, "mm")
         source = wording.MISALIGNED.given(length=wording.length(length))
         yield _contribution("misalignment", full_range, stated, source, distribution=Distribution.ONE_SIDED)
@@ -146,7 +172,7 @@ def _of_the_length(job: Job, set_up: SetUp, *, is_artefact: bool) -> Iterator[Co
         ("device_temperature", keys.device_temperature, set_up.device_expansion),
     ):
         if temperature is not None and expansion is not None:
-            full_range = terms.temperature_range(expansion, length, temperature)
+            full_range = temperature_range(expansion, length, temperature)
             source = wording.TEMPERATURE.given(
                 expansion=expansion / MICROMETRE_PER_METRE_KELVIN, length=wording.length(length)
             )
@@ -157,7 +183,7 @@ def _of_the_length(job: Job, set_up: SetUp, *, is_artefact: bool) -> Iterator[Co
     ):
         if coefficient is not None and set_up.difference is not None:
             alpha = coefficient * MICROMETRE_PER_METRE_KELVIN
-            full_range = terms.expansion_range(length, set_up.difference, alpha)
+            full_range = expansion_range(length, set_up.difference, alpha)
             source = wording.EXPANSION.given(difference=set_up.difference, length=wording.length(length))
             yield _contribution(key, full_range, wording.full_range("R(α)", coefficient, "µm/(m·K)"), source)
     expansion = 0.0 if is_artefact else set_up.uncorrected_expansion
@@ -216,7 +242,7 @@ def _contribution(  # noqa: PLR0913 - a usual contribution, but for what usually
 ) -> Contribution:
     return Contribution(
         name=wording.USUAL[key],
-        standard_uncertainty=terms.from_range(full_range, distribution),
+        standard_uncertainty=from_range(full_range, distribution),
         acts=acts,
         distribution=distribution,
         stated=stated,
@@ -230,7 +256,7 @@ def _other(keys: ContributionKeys, unit: Unit) -> Contribution:
     distribution = Distribution(keys.distribution or ("normal" if keys.range is None else "rectangular"))
     if keys.range is not None:
         stated = wording.full_range("R", keys.range, unit.symbol)
-        standard_uncertainty = terms.from_range(keys.range, distribution)
+        standard_uncertainty = from_range(keys.range, distribution)
     elif keys.standard_uncertainty is not None:
         stated = wording.standard(keys.standard_uncertainty, unit)
         standard_uncertainty = keys.standard_uncertainty
@@ -246,3 +272,159 @@ def _other(keys: ContributionKeys, unit: Unit) -> Contribution:
         stated=stated,
         source=wording.STATED,
     )
+
+
+@dataclass(frozen=True, slots=True)
+class SetUp:
+    """The circumstances of a test, SI; None for what is not known as a number.
+
+    Attributes
+    ----------
+    length
+        L, from the first target position to the last, m or rad.
+    expansion
+        α of the machine, 1/K.
+    device_expansion
+        α of the measuring device, 1/K.
+    difference
+        ΔT, the largest distance of the machine's temperature from 20 °C, K, with its sign; the measuring
+        device lies on the machine and is taken to share it.
+    is_corrected
+        Whether the readings are corrected to 20 °C.
+    """
+
+    length: float
+    expansion: float | None
+    device_expansion: float | None
+    difference: float | None
+    is_corrected: bool = False
+
+    @classmethod
+    def of(cls, job: Job, measurements: MeasurementSet) -> SetUp:
+        """Return the circumstances that a job and its readings tell."""
+        targets = measurements.target_positions
+        environment, instrument, corrections = job.keys.environment, job.keys.instrument, job.keys.corrections
+        material = corrections.material if corrections else None
+        stated = environment.expansion_coefficient if environment else None
+        return cls(
+            length=float(targets[-1] - targets[0]),
+            expansion=_coefficient((material and material.expansion_coefficient) or stated),
+            device_expansion=_coefficient(instrument.expansion_coefficient if instrument else None),
+            difference=_difference(job, measurements),
+            is_corrected=material is not None,
+        )
+
+    @property
+    def is_at_reference(self) -> bool:
+        """Whether the machine was at 20 °C."""
+        return self.difference is not None and abs(self.difference) < _AT_REFERENCE
+
+    @property
+    def uncorrected_expansion(self) -> float | None:
+        """By how much the measured length was longer than at 20 °C, against the measuring device, m.
+
+        0 where the readings are corrected to 20 °C, or were taken there; None where it is not known.
+        """
+        if self.is_corrected or self.is_at_reference:
+            return 0.0
+        if self.difference is None or self.expansion is None:
+            return None
+        return (self.expansion - (self.device_expansion or 0.0)) * self.difference * self.length
+
+    def lacks(self, job: Job) -> Iterator[Problem]:
+        """Yield the keys of the budget whose formula needs what is not known."""
+        keys = job.keys.uncertainty
+        temperature = "environment.axis_temperature or environment.material_temperature"
+        machine, device = "environment.expansion_coefficient", "instrument.expansion_coefficient"
+        for key, known, needed in (
+            ("machine_temperature", self.expansion, machine),
+            ("device_temperature", self.device_expansion, device),
+            ("expansion_coefficient", self.difference, temperature),
+            ("device_expansion_coefficient", self.difference, temperature),
+        ):
+            if getattr(keys, key) is not None and known is None:
+                path = f"uncertainty.{key}"
+                yield Problem(
+                    job.place_of(path),
+                    f"{path}: its part of the uncertainty cannot be computed without a number in {needed}",
+                )
+
+
+def _coefficient(stated: float | str | None) -> float | None:
+    return stated * MICROMETRE_PER_METRE_KELVIN if isinstance(stated, float) else None
+
+
+def _difference(job: Job, measurements: MeasurementSet) -> float | None:
+    """Return ΔT of the first temperature that the job states as a number, or that was logged."""
+    for key in _TEMPERATURES:
+        stated = getattr(job.keys.environment, key, None)
+        logged = measurements.conditions.get(key)
+        if isinstance(stated, float):
+            return above_reference(stated + ZERO_CELSIUS)
+        if stated is None and logged is not None and np.isfinite(logged).any():
+            differences = above_reference(logged[np.isfinite(logged)])
+            return float(differences[np.argmax(np.abs(differences))])
+    return None
+
+
+INSTRUMENT = "instrument"
+_OF_EVERY_AXIS = ("environmental_variation", "resolution")
+_OF_LENGTHS = (
+    "misalignment",
+    "machine_temperature",
+    "device_temperature",
+    "expansion_coefficient",
+    "device_expansion_coefficient",
+)
+_HOW: dict[str, str] = {
+    INSTRUMENT: "state instrument.expanded_uncertainty as a number (µm or ″, k = 2)",
+    "misalignment": "state how far the measuring line departs from the axis over its length, mm",
+    "machine_temperature": "state the range of error of the machine's measured temperature, K, and "
+    "environment.expansion_coefficient",
+    "device_temperature": "state the range of error of the measuring device's temperature, K, and "
+    "instrument.expansion_coefficient",
+    "expansion_coefficient": "state the range of the machine's coefficient, µm/(m·K), and "
+    "environment.axis_temperature",
+    "device_expansion_coefficient": "state the range of the measuring device's coefficient, µm/(m·K), and "
+    "environment.axis_temperature",
+    "air_temperature": "state the range of error of the measured air temperature, K",
+    "air_pressure": "state the range of error of the measured air pressure, hPa",
+    "relative_humidity": "state the range of error of the measured humidity, %",
+    "environmental_variation": "state the range of the readings of the axis at rest over the time of a test",
+    "resolution": "state the smallest step of the readings: corrected ones do not show it",
+}
+
+
+def demanded(keys: JobKeys) -> tuple[str, ...]:
+    """Return the contributors that a job must state, by axis and set-up."""
+    of_lengths = _OF_LENGTHS if keys.axis.kind is AxisKind.LINEAR else ()
+    of_air = STATE_OF_AIR if keys.corrections and keys.corrections.air else ()
+    return (INSTRUMENT, *of_lengths, *of_air, *_OF_EVERY_AXIS)
+
+
+def refusals(job: Job, budget: Budget | NoBudget) -> Iterator[Problem]:
+    """Yield what a calibration certificate must state of its uncertainty and does not.
+
+    Parameters
+    ----------
+    job
+        The job; a report may leave out what it says that it leaves out.
+    budget
+        Of the job.
+    """
+    if job.keys.certificate.kind != "certificate":
+        return
+    for name in budget.missing:
+        key = "instrument.expanded_uncertainty" if name == INSTRUMENT else f"uncertainty.{name}"
+        yield Problem(
+            job.place_of(key),
+            f"a calibration certificate needs {key}: {_HOW[name]}; or say why it is negligible: "
+            f"uncertainty.negligible: {{{name}: reason}}",
+        )
+    if budget.uncorrected_expansion is None:
+        yield Problem(
+            job.place_of("environment"),
+            "a calibration certificate needs the temperature of the measured length: state environment."
+            "axis_temperature and environment.expansion_coefficient (the expansion then enters U), or "
+            "correct the readings to 20 °C by corrections.material",
+        )

@@ -10,6 +10,7 @@ import hashlib
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from statistics import NormalDist
 
 import numpy as np
 
@@ -18,9 +19,15 @@ from zlmreport.evaluation.statistics import PositionStatistics, position_statist
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.quantities.arrays import FloatArray
-from zlmreport.uncertainty.budget import COVERAGE_FACTOR, COVERAGE_PROBABILITY, Budget, effect_along
-from zlmreport.uncertainty.contribution import Acts
-from zlmreport.uncertainty.draws import single_draws, stratified_draws
+from zlmreport.uncertainty.budget import (
+    COVERAGE_FACTOR,
+    COVERAGE_PROBABILITY,
+    Acts,
+    Budget,
+    Contribution,
+    Distribution,
+    effect_along,
+)
 from zlmreport.uncertainty.drift import Drift, drawn_drifts, drift_range, reading_times
 
 #: U then scatters by 1 % at most from one sequence of random numbers to another, which the second digit
@@ -209,3 +216,56 @@ def _bounded(expanded: Expanded, budget: Budget, compares_positions: bool) -> Ex
 def shortened(value: float) -> float:
     """Return a value with the digits that are kept."""
     return float(f"{value:.{_DIGITS}g}")
+
+
+def stratified_draws(
+    contributions: Sequence[Contribution], count: int, generator: np.random.Generator
+) -> FloatArray:
+    """Return sums of one error of each contribution, spread evenly over the distributions, shape (count,).
+
+    Each contribution takes the middles of `count` equally probable parts of its distribution once each, in
+    an order of its own (Latin hypercube): the tails are as full as they should be, and not as chance has it.
+    """
+    middles = (np.arange(count) + 0.5) / count
+    total = np.zeros(count)
+    for distribution, standard_uncertainty in _combined(contributions):
+        total += standard_uncertainty * generator.permutation(_quantiles(distribution, middles))
+    return total
+
+
+def single_draws(
+    contributions: Sequence[Contribution], shape: tuple[int, ...], generator: np.random.Generator
+) -> FloatArray:
+    """Return sums of one error of each contribution, each element drawn for itself, m or rad."""
+    total = np.zeros(shape)
+    for distribution, standard_uncertainty in _combined(contributions):
+        if distribution is Distribution.NORMAL:
+            total += standard_uncertainty * generator.standard_normal(shape)
+        else:
+            total += standard_uncertainty * _quantiles(distribution, generator.random(shape))
+    return total
+
+
+def _combined(contributions: Sequence[Contribution]) -> Iterator[tuple[Distribution, float]]:
+    """Yield distributions with their signed standard uncertainties; the sum of normal ones is normal."""
+    normal = [each for each in contributions if each.distribution is Distribution.NORMAL]
+    if normal:
+        yield Distribution.NORMAL, math.sqrt(math.fsum(each.standard_uncertainty**2 for each in normal))
+    for each in contributions:
+        if each.distribution is not Distribution.NORMAL:
+            yield each.distribution, each.sign * each.standard_uncertainty
+
+
+def _quantiles(distribution: Distribution, probability: FloatArray) -> FloatArray:
+    """Return the quantiles of a distribution whose root mean square is 1."""
+    full_range = distribution.range_over_standard_uncertainty
+    if distribution is Distribution.NORMAL:
+        return np.array(list(map(NormalDist().inv_cdf, probability.tolist())))
+    if distribution is Distribution.KNOWN:
+        return np.ones_like(probability)
+    if distribution is Distribution.ONE_SIDED:
+        return probability * full_range
+    if distribution is Distribution.RECTANGULAR:
+        return (probability - 0.5) * full_range
+    tail = np.sqrt(np.minimum(probability, 1 - probability) / 2)
+    return np.asarray(np.where(probability < 0.5, tail - 0.5, 0.5 - tail) * full_range)

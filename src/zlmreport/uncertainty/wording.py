@@ -9,7 +9,7 @@ from zlmreport.evaluation.evaluation import Least
 from zlmreport.language import Words
 from zlmreport.measurement.measurement_set import CONDITION_NAMES
 from zlmreport.quantities.units import METRE, Unit
-from zlmreport.uncertainty.contribution import Acts, Distribution
+from zlmreport.uncertainty.budget import Acts, Distribution
 
 NO_INSTRUMENT = Words(
     en="the uncertainty of the measuring instrument is not stated",

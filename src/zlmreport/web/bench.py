@@ -11,7 +11,7 @@ from threading import RLock
 
 from zlmreport import pipeline
 from zlmreport.certificate.results import Evaluated
-from zlmreport.correction.of_job import without_excluded
+from zlmreport.correction.corrections import without_excluded
 from zlmreport.errors import Place, ZlmreportError
 from zlmreport.job.choices import EffectChoice
 from zlmreport.job.job import Job

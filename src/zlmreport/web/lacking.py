@@ -12,7 +12,7 @@ from zlmreport.certificate.clauses import MANDATORY_ITEMS
 from zlmreport.job.job import Job
 from zlmreport.language import Language, Words
 from zlmreport.plugins import Registry
-from zlmreport.uncertainty.completeness import INSTRUMENT
+from zlmreport.uncertainty.job_budget import INSTRUMENT
 from zlmreport.uncertainty.wording import DEVICE, contributor
 from zlmreport.web.bench import Loaded
 

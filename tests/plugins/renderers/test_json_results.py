@@ -25,8 +25,7 @@ from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.axis import AxisKind
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.measurement.provenance import Exclusion, SourceFile
-from zlmreport.uncertainty.budget import Budget, NoBudget
-from zlmreport.uncertainty.contribution import Acts, Distribution
+from zlmreport.uncertainty.budget import Acts, Budget, Distribution, NoBudget
 from zlmreport.uncertainty.expanded import with_uncertainty
 from zlmreport_plugins.renderers.json_results.document import JsonResultsRenderer
 
