@@ -22,10 +22,9 @@ if TYPE_CHECKING:
         verify,
     )
     from zlmreport.notebook.models import Diagnosis, Model, fit
-    from zlmreport.notebook.readings import Readings, read, simulate
+    from zlmreport.notebook.readings import Readings, Table, read, simulate
     from zlmreport.notebook.readings import of_arrays as test
     from zlmreport.notebook.results import Result, Value, evaluate
-    from zlmreport.notebook.table import Table
 
 __all__ = [
     "AccessError",
@@ -54,9 +53,8 @@ _ROOMS = {
     "errors": "AccessError InputError ZlmreportError",
     "notebook.documents": "Certificate Compensation Verification certificate compensate verify",
     "notebook.models": "Diagnosis Model fit",
-    "notebook.readings": "Readings read simulate test=of_arrays",
+    "notebook.readings": "Readings Table read simulate test=of_arrays",
     "notebook.results": "Result Value evaluate",
-    "notebook.table": "Table",
 }
 _HOMES = {
     offered: (room, own or offered)

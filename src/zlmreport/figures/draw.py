@@ -1,4 +1,4 @@
-"""Drawing a figure on a canvas: shapes become outlines and lines of text at places of the canvas."""
+"""Drawing a figure: as a series of shapes, from back to front, and these on a canvas."""
 
 from __future__ import annotations
 
@@ -7,16 +7,287 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from zlmreport.figures.canvas import Canvas, Run, Segment, SvgCanvas
-from zlmreport.figures.figure import Figure
-from zlmreport.figures.layout import figure_size, lay_out
-from zlmreport.figures.shapes import TRIANGLE_HALF_WIDTH, Frame, Lettering, Mark, Marks, Outline
-from zlmreport.figures.sketch import sketch
+from zlmreport.figures.canvas import Canvas, Fill, Run, Segment, Stroke, SvgCanvas
+from zlmreport.figures.dimensions import GAP, HEAD, HEAD_HALF_WIDTH, OVERSHOOT, Dimension
+from zlmreport.figures.figure import Band, Bar, Curve, Figure, Readings, Role
+from zlmreport.figures.layout import TICK_GAP, TICK_LENGTH, TICK_LINE, FigureLayout, figure_size, lay_out
+from zlmreport.figures.metrics import plain_label
+from zlmreport.figures.panel_layout import LEGEND_GAP, LINE_SAMPLE, MARK_SAMPLE, Entry, PanelLayout
+from zlmreport.figures.shapes import (
+    BAR,
+    DIMENSION,
+    EXTENSION,
+    FRAME,
+    GRID,
+    GROUND,
+    INK,
+    MARK_SIZES,
+    READING_SIZE,
+    READINGS,
+    RIM,
+    ROLES,
+    TICK,
+    TICK_TEXT_SIZE,
+    TRIANGLE_HALF_WIDTH,
+    ZERO,
+    Box,
+    Frame,
+    Lettering,
+    Mark,
+    Marks,
+    Outline,
+    PlacedLabel,
+    RoleStyle,
+    Shape,
+    area,
+    lines,
+)
 from zlmreport.language import Language
-from zlmreport.quantities.arrays import FloatArray
+from zlmreport.quantities.arrays import BoolArray, FloatArray
+
+#: Least distance between two marks of a curve that has very many targets.
+_MARK_DISTANCE = 11.0
+#: Half the length of the dash that stands for a value between two gaps.
+_LONE_DASH = 3.5
+#: Half the width of a bar, of its whisker's ends, and of the mark across it, in distances of bars.
+_HALF_BAR = 0.32
+_HALF_WHISKER = 0.07
+_HALF_ACCEPTED = 0.4
+#: Distance of bars from which on they grow no wider, in points: few bars are no wall.
+_WIDEST_DISTANCE = 90.0
+
+
+_HALF_SWATCH = 3.25
 
 #: Of a quarter circle of radius 1, the distance of a control point from its end.
 _QUARTER = 4 / 3 * (math.sqrt(2) - 1)
+
+
+def sketch(layout: FigureLayout) -> Iterator[Shape]:
+    """Yield everything that a figure is made of."""
+    for panel in layout.panels:
+        yield from legend_shapes(panel)
+        is_lowest = panel.frame.box.bottom == layout.panels[-1].frame.box.bottom
+        yield from panel_shapes(panel, is_lowest=is_lowest)
+    for title in layout.titles:
+        yield Lettering("title", title, INK)
+
+
+def panel_shapes(layout: PanelLayout, *, is_lowest: bool) -> Iterator[Shape]:
+    """Return the shapes of a panel; only below the lowest panel the positions are written."""
+    frame, panel = layout.frame, layout.panel
+
+    yield from _grid(frame)
+    yield from _bars(layout)
+    for band in panel.bands:
+        yield from _band(band, frame)
+    for readings in panel.readings:
+        points = np.column_stack([readings.x, readings.y])
+        yield reading_marks("reading", readings, points, frame)
+    for level, height, _ in layout.levels:
+        line = [(frame.box.left, height), (frame.box.right, height)]
+        yield lines("level", [line], ROLES[level.role].stroke)
+    yield from _extensions(layout)
+    for curve in panel.curves:
+        yield from _curve(curve, frame)
+    yield from _axes(frame, is_lowest=is_lowest)
+    for value in layout.bar_values:
+        yield _ground(value)
+        yield Lettering("bar", value, INK)
+    for kind, dimensions in (("arrow", layout.arrows), ("bracket", layout.brackets)):
+        for dimension in dimensions:
+            yield from _dimension(kind, dimension)
+    for _, _, label in layout.levels:
+        yield _ground(label)
+        yield Lettering("level", label, INK)
+
+
+def curve_marks(
+    kind: str, style: RoleStyle, points: FloatArray, frame: Frame | None = None
+) -> Iterator[Marks]:
+    """Return the marks of a curve, where its role has marks."""
+    if style.mark is not None:
+        size, fill = MARK_SIZES[style.mark], Fill(style.stroke.colour)
+        yield Marks(kind, points, style.mark, size, RIM, fill, frame)
+
+
+def reading_marks(kind: str, readings: Readings, points: FloatArray, frame: Frame | None = None) -> Marks:
+    """Return the marks of single readings."""
+    mark, stroke = READINGS[readings.approach]
+    return Marks(kind, points, mark, READING_SIZE, stroke, frame=frame)
+
+
+def _grid(frame: Frame) -> Iterator[Shape]:
+    box = frame.box
+    across = [[(box.left, y), (box.right, y)] for y in map(frame.y_point, frame.y_scale.ticks)]
+    along = [[(x, box.bottom), (x, box.top)] for x in map(frame.x_point, frame.x_scale.ticks)]
+    yield lines("grid", across + along, GRID)
+    if frame.y_scale.lower <= 0 <= frame.y_scale.upper:
+        zero = frame.y_point(0.0)
+        yield lines("zero", [[(box.left, zero), (box.right, zero)]], ZERO)
+
+
+def _axes(frame: Frame, *, is_lowest: bool) -> Iterator[Shape]:
+    box = frame.box
+    yield lines("frame", [[(box.left, box.top), (box.left, box.bottom), (box.right, box.bottom)]], FRAME)
+    ticks = [[(box.left - TICK_LENGTH, y), (box.left, y)] for y in map(frame.y_point, frame.y_scale.ticks)]
+    for positions, length in ((frame.x_scale.ticks, TICK_LENGTH), (frame.x_scale.marks, TICK_LENGTH / 2)):
+        ticks += [[(x, box.bottom - length), (x, box.bottom)] for x in map(frame.x_point, positions)]
+    yield lines("tick", ticks, TICK)
+    right = box.left - TICK_LENGTH - TICK_GAP
+    for value, text in zip(frame.y_scale.ticks, frame.y_scale.labels, strict=True):
+        label = plain_label(text, TICK_TEXT_SIZE)
+        place = PlacedLabel(label, right - label.width, frame.y_point(value) - label.rise)
+        yield Lettering("tick y", place, INK)
+    if is_lowest:
+        top = box.bottom - TICK_LENGTH - TICK_GAP
+        for value, text in zip(frame.x_scale.ticks, frame.x_scale.labels, strict=True):
+            for line, part in enumerate(text.split("\n")):
+                label = plain_label(part, TICK_TEXT_SIZE)
+                middle = frame.x_point(value)
+                place = PlacedLabel(label, middle - label.width / 2, top - 2 * label.rise - line * TICK_LINE)
+                yield Lettering("tick x", place, INK)
+
+
+def _bars(layout: PanelLayout) -> Iterator[Shape]:
+    """Return the bars, which grow from zero."""
+    frame = layout.frame
+    for number, bar in enumerate(layout.panel.bars):
+        left, right = _ends(frame, number, _HALF_BAR)
+        bottom, top = sorted((frame.y_point(0.0), frame.y_point(bar.y)))
+        yield area("bar", Box(left, bottom, right, top).corners, *BAR)
+        if bar.accepted is not None:
+            height = frame.y_point(bar.accepted)
+            ends = [(end, height) for end in _ends(frame, number, _HALF_ACCEPTED)]
+            yield lines("accepted", [ends], ROLES[Role.BAND_LIMIT].stroke)
+        if bar.uncertainty:
+            yield _whisker(frame, number, bar)
+
+
+def _ends(frame: Frame, number: int, half: float) -> tuple[float, float]:
+    """Return where something begins and ends that is centred on a bar, `half` in distances of bars."""
+    middle, reach = frame.x_point(number), half * min(frame.x_factor, _WIDEST_DISTANCE)
+    return middle - reach, middle + reach
+
+
+def _whisker(frame: Frame, number: int, bar: Bar) -> Outline:
+    low, high = (frame.y_point(bar.y + side * bar.uncertainty) for side in (-1, 1))
+    middle = frame.x_point(number)
+    left, right = _ends(frame, number, _HALF_WHISKER)
+    across = [[(left, height), (right, height)] for height in (low, high)]
+    return lines("whisker", [[(middle, low), (middle, high)], *across], DIMENSION)
+
+
+def _curve(curve: Curve, frame: Frame) -> Iterator[Shape]:
+    style = ROLES[curve.role]
+    role = curve.role.name.lower()
+    points = np.column_stack([curve.x, curve.y])
+    yield Outline(f"curve {role}", (points,), style.stroke, frame=frame)
+    shown = _spaced(points, _MARK_DISTANCE / frame.x_factor)
+    yield from curve_marks(f"mark {role}", style, points[shown], frame)
+    if style.mark is None:
+        yield from _lone_values(f"curve {role}", curve.x, curve.y, frame, style.stroke)
+
+
+def _spaced(points: FloatArray, distance: float) -> BoolArray:
+    """Return which points of a curve get a mark: all that are far enough from the marked one before."""
+    shown = np.zeros(len(points), dtype=np.bool_)
+    last = -np.inf
+    for index in np.flatnonzero(np.isfinite(points).all(axis=1)):
+        if abs(points[index, 0] - last) >= distance:
+            shown[index] = True
+            last = points[index, 0]
+    return shown
+
+
+def _lone_values(kind: str, x: FloatArray, y: FloatArray, frame: Frame, stroke: Stroke) -> Iterator[Shape]:
+    """Return short dashes for values between gaps, to which no line leads."""
+    finite = np.concatenate([[False], np.isfinite(x) & np.isfinite(y), [False]])
+    lone = finite[1:-1] & ~finite[:-2] & ~finite[2:]
+    if lone.any():
+        places = frame.points(x[lone], y[lone]).tolist()
+        dashes = [[(left - _LONE_DASH, height), (left + _LONE_DASH, height)] for left, height in places]
+        yield lines(kind, dashes, Stroke(stroke.colour, stroke.width))
+
+
+def _band(band: Band, frame: Frame) -> Iterator[Shape]:
+    style = ROLES[band.role]
+    role = band.role.name.lower()
+    exists = np.isfinite(band.x) & np.isfinite(band.lower) & np.isfinite(band.upper)
+    for part in np.split(np.arange(len(exists)), np.flatnonzero(np.diff(exists)) + 1):
+        if len(part) > 1 and exists[part[0]]:
+            x = np.concatenate([band.x[part], band.x[part][::-1]])
+            y = np.concatenate([band.upper[part], band.lower[part][::-1]])
+            yield Outline(f"band {role}", (np.column_stack([x, y]),), None, style.tint, frame=frame)
+    for limit in (band.lower, band.upper):
+        yield Outline(f"limit {role}", (np.column_stack([band.x, limit]),), style.stroke, frame=frame)
+        yield from _lone_values(f"limit {role}", band.x, limit, frame, style.stroke)
+
+
+def _extensions(layout: PanelLayout) -> Iterator[Shape]:
+    parts = []
+    for dimension in (*layout.arrows, *layout.brackets):
+        span = dimension.span
+        for start, height in ((span.low_from, span.low), (span.high_from, span.high)):
+            side = 1.0 if dimension.x > start else -1.0
+            parts.append([(start + side * GAP, height), (dimension.x + side * OVERSHOOT, height)])
+    if parts:
+        yield lines("extension", parts, EXTENSION)
+
+
+def _dimension(kind: str, dimension: Dimension) -> Iterator[Shape]:
+    span, x = dimension.span, dimension.x
+    if span.length > 0:
+        yield lines(kind, [[(x, span.low - span.tail), (x, span.high + span.tail)]], DIMENSION)
+        outwards = -1.0 if span.tail else 1.0
+        heads = (_head(x, span.low, -outwards), _head(x, span.high, outwards))
+        yield Outline(f"{kind} head", heads, None, Fill(INK), is_closed=True)
+    else:
+        half = 2 * HEAD_HALF_WIDTH
+        yield lines(kind, [[(x - half, span.low), (x + half, span.low)]], DIMENSION)
+    if dimension.is_among_lines:
+        yield _ground(dimension.label)
+    yield Lettering(kind, dimension.label, INK)
+
+
+def _head(x: float, tip: float, direction: float) -> FloatArray:
+    base = tip - direction * HEAD
+    return np.array([(x, tip), (x - HEAD_HALF_WIDTH, base), (x + HEAD_HALF_WIDTH, base), (x, tip)])
+
+
+def _ground(label: PlacedLabel) -> Outline:
+    """Return what lets lines fade behind a label."""
+    return area("ground", label.box.corners, None, GROUND)
+
+
+def legend_shapes(layout: PanelLayout) -> Iterator[Shape]:
+    """Return the shapes of the heading and the legend above a panel."""
+    left, base = layout.frame.box.left, layout.frame.box.top + LEGEND_GAP
+    heading = layout.legend.heading
+    if heading is not None:
+        yield Lettering("heading", PlacedLabel(heading.label, left + heading.x, base + heading.y), INK)
+    for entry, x, y in layout.legend.entries:
+        yield from _sample(entry, left + x, base + y)
+        label = PlacedLabel(entry.label, left + x + entry.label_start, base + y - entry.label.rise)
+        yield Lettering("legend", label, INK)
+
+
+def _sample(entry: Entry, x: float, y: float) -> Iterator[Shape]:
+    explained = entry.explained
+    if isinstance(explained, tuple):
+        for number, readings in enumerate(explained):
+            place = np.array([(x + (number + 0.5) * MARK_SAMPLE, y)])
+            yield reading_marks("legend", readings, place)
+        return
+    style = ROLES[explained.role]
+    if isinstance(explained, Band):
+        box = Box(x, y - _HALF_SWATCH, x + LINE_SAMPLE, y + _HALF_SWATCH)
+        lower_left, lower_right, upper_right, upper_left, _ = box.corners
+        yield area("legend", box.corners, None, style.tint)
+        yield lines("legend", [[lower_left, lower_right], [upper_left, upper_right]], style.stroke)
+    else:
+        yield lines("legend", [[(x, y), (x + LINE_SAMPLE, y)]], style.stroke)
+        yield from curve_marks("legend", style, np.array([(x + LINE_SAMPLE / 2, y)]))
 
 
 def draw(figure: Figure, language: Language, canvas: Canvas) -> None:

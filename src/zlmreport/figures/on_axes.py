@@ -21,11 +21,11 @@ from matplotlib.path import Path
 from matplotlib.text import Annotation
 
 from zlmreport.figures.canvas import Face
+from zlmreport.figures.draw import legend_shapes, panel_shapes
 from zlmreport.figures.figure import Figure
 from zlmreport.figures.layout import axis_title, figure_size, lay_out_alone
 from zlmreport.figures.metrics import font_file
 from zlmreport.figures.shapes import TEXT_SIZE, TICK_TEXT_SIZE, Frame, Lettering, Mark, Marks, Outline, Shape
-from zlmreport.figures.sketch import legend_shapes, panel_shapes
 from zlmreport.language import Language
 
 if TYPE_CHECKING:

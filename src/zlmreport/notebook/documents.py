@@ -16,9 +16,8 @@ from zlmreport.errors import InputError, Place, did_you_mean
 from zlmreport.files import Document, demand_free, write
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
-from zlmreport.notebook.readings import Readings, checked, registry
+from zlmreport.notebook.readings import Readings, Table, as_html, checked, registry
 from zlmreport.notebook.results import Result
-from zlmreport.notebook.table import Table, as_html
 from zlmreport.verification.findings import Verification as Verified
 from zlmreport.verification.verify import verify as verify_file
 

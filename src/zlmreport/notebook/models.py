@@ -24,9 +24,8 @@ from zlmreport.model.fit import fit as fit_model
 from zlmreport.model.observations import Observations, observations_of
 from zlmreport.model.repeats import outliers
 from zlmreport.model.report import report, report_error, report_model, verdict_statement
-from zlmreport.notebook.readings import Readings, registry, tree_of
+from zlmreport.notebook.readings import Readings, Table, as_html, registry, tree_of
 from zlmreport.notebook.results import drawn
-from zlmreport.notebook.table import Table, as_html
 from zlmreport.quantities.arrays import FloatArray, read_only_floats
 
 if TYPE_CHECKING:

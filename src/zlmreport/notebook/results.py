@@ -19,8 +19,7 @@ from zlmreport.figures.figure import Figure
 from zlmreport.job.evaluation_keys import DecisionRuleKeys, StandardKeys
 from zlmreport.job.loading import standard_choices
 from zlmreport.language import Language
-from zlmreport.notebook.readings import Readings, checked, registry, tree_of
-from zlmreport.notebook.table import Table, as_html
+from zlmreport.notebook.readings import Readings, Table, as_html, checked, registry, tree_of
 from zlmreport.plugin.protocols import Standard
 from zlmreport.quantities.arrays import read_only_floats
 
