@@ -236,3 +236,19 @@ def test_a_mistake_ends_with_2_and_writes_nothing(
     assert main(["compensate", name, *arguments, "-o", "out"]) == 2
     assert message in capsys.readouterr().err
     assert not (folder / "out").exists()
+
+
+def test_before_the_table_u_is_that_of_the_certificate(folder: Path, capsys: Capture) -> None:
+    more = "instrument: {name: Laser, expanded_uncertainty: 1.0}\ncompensation: {controller: csv}"
+    name = job(folder, "job.yaml", "without", more=f"{more}\noutput: {{formats: [json]}}")
+    _, values = run(capsys, name)
+    assert main([name, "--quiet"]) == 0
+    evaluation = json.loads((folder / "LOOP-1.json").read_text(encoding="utf-8"))["evaluations"][0]
+    certified = {each["symbol"]: each["expanded_uncertainty"] for each in evaluation["parameters"]}
+    stated = values["forecast"]["expanded_uncertainty"]
+    assert stated["before"] == {symbol: pytest.approx(certified[symbol]) for symbol in "EMBA"}
+    assert stated["after"]["E"] > 0
+    _, without = run(capsys, job(folder, "no-budget.yaml", "without"), "--controller", "csv")
+    assert without["forecast"]["expanded_uncertainty"] == {"before": {}, "after": {}}
+    low, high = (each["forecast"]["second_test"]["E"]["high"] for each in (without, values))
+    assert high > low  # the errors of two set-ups widen what a second test may show

@@ -268,6 +268,8 @@ def _uncertainties(
     job: Job, measurements: MeasurementSet, made: Made, registry: Registry
 ) -> tuple[dict[str, float], dict[str, float]]:
     """Return U before and with the table, by the first of the job's standards that has these parameters."""
+    if not made.forecast.has_set_up:  # no budget, no U
+        return {}, {}
     curve, unit = made.basis.curve, job.axis.deviation_unit
     taken = np.stack([curve.forward, curve.reverse]) - made.forecast.left
 
@@ -282,8 +284,7 @@ def _uncertainties(
                 return found
         return {}
 
-    before = of(measurements)
-    return before, of(with_table(measurements, taken)) if before else {}
+    return of(measurements), of(with_table(measurements, taken))
 
 
 def _values(job: Job, made: Made, uncertainties: Uncertainties, written: Sequence[Path]) -> dict[str, Any]:
