@@ -76,6 +76,22 @@ def test_formula_that_cannot_be_meant_is_refused(
         _keys(formula, **parameters)
 
 
+@pytest.mark.parametrize(
+    ("formula", "length", "place"),
+    [
+        ("a*sin(P/L", {"unit": "mm", "range": [5, 50]}, ("formula",)),
+        ("a*sin(P/L)", {"unit": "mmm", "range": [5, 50]}, ("parameters", "L", "unit")),
+        ("a*sin(P/L)", {"unit": "mm", "range": [50, 5]}, ("parameters", "L", "range")),
+    ],
+)
+def test_a_mistake_is_told_at_its_own_key(
+    formula: str, length: dict[str, Any], place: tuple[str, ...]
+) -> None:
+    with pytest.raises(ValidationError) as refused:
+        _keys(formula, a=_UM, L=length)
+    assert [each["loc"] for each in refused.value.errors()] == [place]
+
+
 def test_bare_number_is_in_the_unit_of_the_name_beside_it() -> None:
     formula = Formula.of(
         _keys("k*(P - 300)*(axis_temperature - 20)", k={"unit": "um/(m K)"}), AxisKind.LINEAR

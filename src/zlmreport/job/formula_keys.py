@@ -9,7 +9,7 @@ from types import MappingProxyType
 from typing import Annotated, TypeAlias, TypeGuard
 
 import numpy as np
-from pydantic import Field, model_validator
+from pydantic import Field, ValidationInfo, field_validator
 
 from zlmreport.job.types import Finite, JobPart, Options, Text
 from zlmreport.measurement.axis import AxisKind
@@ -91,10 +91,28 @@ class FormulaParameter(JobPart):
     @property
     def spelled(self) -> str:
         """The unit as `UNITS` has it."""
-        text = self.unit
-        for found, written in _SPELLINGS:
-            text = text.replace(found, written)
-        return " ".join(text.split())
+        return _spelled(self.unit)
+
+    @field_validator("unit")
+    @classmethod
+    def _is_a_unit(cls, unit: str) -> str:
+        if not any(_spelled(unit) in UNITS[kind] for kind in AxisKind):
+            listed = ", ".join(UNITS[AxisKind.LINEAR])
+            raise ValueError(f"{unit!r} is no unit of a parameter; there are {listed}")
+        return unit
+
+    @field_validator("range")
+    @classmethod
+    def _rises(cls, ends: tuple[float, float] | None) -> tuple[float, float] | None:
+        if ends is not None and not ends[0] < ends[1]:
+            raise ValueError("the first end of its range must be less than the second")
+        return ends
+
+
+def _spelled(unit: str) -> str:
+    for found, written in _SPELLINGS:
+        unit = unit.replace(found, written)
+    return " ".join(unit.split())
 
 
 class FormulaKeys(Options):
@@ -104,15 +122,15 @@ class FormulaKeys(Options):
         description="What the job and the results call it: small letters, digits and hyphens.",
         examples=["my-wave"],
     )
+    parameters: dict[str, FormulaParameter] = Field(
+        description="Its parameters, each with its unit and its range.", min_length=1, max_length=20
+    )
     formula: Text = Field(
         description="The deviation, of the parameters and P (target position), D (direction, +1 or −1), t "
         "(time from the first reading), run, v (feed) and logged columns by their names (temperatures in "
         "°C); with + − * / ^, pi, sin, cos, tan, atan, exp, log, tanh, sqrt, abs, min, max, sign and step. "
         "It is parsed, never executed.",
         examples=["a*sin(2*pi*P/L)"],
-    )
-    parameters: dict[str, FormulaParameter] = Field(
-        description="Its parameters, each with its unit and its range.", min_length=1, max_length=20
     )
     title: Text | None = Field(None, description="In words.")
     remedy: Text | None = Field(None, description="What to do about it, and what a compensation can do.")
@@ -121,26 +139,25 @@ class FormulaKeys(Options):
         """Let a fit be kept by what its model means."""
         return hash((self.name, self.formula, self.title, self.remedy, *sorted(self.parameters)))
 
-    @model_validator(mode="after")
-    def _is_sound(self) -> FormulaKeys:
-        kinds = [
-            kind for kind in AxisKind if all(each.spelled in UNITS[kind] for each in self.parameters.values())
-        ]
-        for name, each in self.parameters.items():
-            if not any(each.spelled in UNITS[kind] for kind in AxisKind):
-                listed = ", ".join(UNITS[AxisKind.LINEAR])
-                raise ValueError(f"{name}: {each.unit!r} is no unit of a parameter; there are {listed}")
-            if each.range is not None and not each.range[0] < each.range[1]:
-                raise ValueError(f"{name}: the first end of its range must be less than the second")
+    @field_validator("formula")
+    @classmethod
+    def _is_sound(cls, formula: str, others: ValidationInfo) -> str:
+        """Hold the formula against its parameters, which stand before it here and are sound themselves."""
+        parameters: dict[str, FormulaParameter] | None = others.data.get("parameters")
+        if parameters is None:
+            return formula
+        keys = cls.model_construct(name=others.data.get("name", ""), formula=formula, parameters=parameters)
+        units = [each.spelled for each in parameters.values()]
+        kinds = [kind for kind in AxisKind if all(each in UNITS[kind] for each in units)]
         failed: FormulaError | None = None
         for kind in kinds or [AxisKind.LINEAR]:
             try:
-                Formula.of(self, kind)
+                Formula.of(keys, kind)
             except FormulaError as error:
                 failed = failed or error
             else:
-                return self
-        raise ValueError(f"{self.name}: {failed}")
+                return formula
+        raise ValueError(f"{keys.name}: {failed}")
 
 
 class Formula:
