@@ -20,6 +20,7 @@ import effect_pages
 import hooks
 import job_keys
 import least_numbers
+import manual
 import methods
 import probing_path
 import sequences
@@ -64,6 +65,7 @@ def generate(folder: Path) -> set[str]:
         if after != before:
             page.write_text(after, encoding="utf-8")
     (folder / "reference" / "job.schema.json").write_text(job_keys.schema_text(), encoding="utf-8")
+    (folder / "reference" / "zlmreport.1").write_text(manual.text(), encoding="utf-8")
     stub = folder.parent / "src/zlmreport/plugin/__init__.pyi"
     stub.parent.mkdir(parents=True, exist_ok=True)
     stub.write_text(door.stub(), encoding="utf-8")

@@ -18,13 +18,21 @@ def text() -> str:
     return "\n\n".join(part for parser in arguments.parsers() for part in _section(parser))
 
 
+def arguments_of(parser: argparse.ArgumentParser) -> list[tuple[str, str]]:
+    """Return the arguments of a command that have a help, and what each means."""
+    return [(_name(action), _meaning(action)) for action in _actions(parser)]
+
+
+def _actions(parser: argparse.ArgumentParser) -> list[argparse.Action]:
+    return [action for action in parser._actions if action.help]  # noqa: SLF001 - argparse has no other list
+
+
 def _section(parser: argparse.ArgumentParser) -> Iterator[str]:
-    actions = [action for action in parser._actions if action.help]  # noqa: SLF001 - argparse has no other list
-    positional = [action for action in actions if not action.option_strings]
+    positional = [action for action in _actions(parser) if not action.option_strings]
     named = "".join(f" {_name(action)}" for action in positional)
     yield f"## `{parser.prog}{named}`"
     yield _as_printed(parser.description)
-    yield table(("Argument", "Meaning"), ((code(_name(action)), _meaning(action)) for action in actions))
+    yield table(("Argument", "Meaning"), ((code(name), meaning) for name, meaning in arguments_of(parser)))
     if parser.epilog:
         yield _as_printed(parser.epilog)
 

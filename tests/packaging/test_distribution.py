@@ -75,8 +75,10 @@ def test_the_wheel_tells_type_checkers_that_it_is_typed(in_wheel: set[str]) -> N
     assert {"zlmreport/py.typed", "zlmreport_plugins/py.typed"} <= in_wheel
 
 
-def test_the_wheel_holds_nothing_else(in_wheel: set[str]) -> None:
-    roots = {name.partition("/")[0] for name in in_wheel}
+def test_the_wheel_holds_nothing_else_but_a_manual_page(in_wheel: set[str]) -> None:
+    manual = {name for name in in_wheel if name.endswith(".data/data/share/man/man1/zlmreport.1")}
+    assert len(manual) == 1
+    roots = {name.partition("/")[0] for name in in_wheel - manual}
     others = {root for root in roots if not root.endswith(".dist-info")}
     assert others == {"zlmreport", "zlmreport_plugins", "zlmreport_step_gauge", "zlmreport_templates"}
 

@@ -48,6 +48,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         _write_what_cannot_be_encoded_as_escapes(stream)
     options = None
     try:
+        if "_ARGCOMPLETE" in os.environ:
+            importlib.import_module("zlmreport.cli.completion").complete()
         command, options = parse(sys.argv[1:] if arguments is None else arguments)
         module = importlib.import_module(f"zlmreport.cli.{_TOGETHER.get(command, command)}")
         run = getattr(module, command.split()[-1] if command in _TOGETHER else "run")

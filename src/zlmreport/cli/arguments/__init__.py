@@ -18,7 +18,7 @@ MAIN_JOB = "report"
 EXTENSION = "extension"
 
 #: Each command: what it does, in a line, and what makes its parser.
-_COMMANDS: Mapping[str, tuple[str, Callable[[str], CommandParser]]] = MappingProxyType(
+COMMANDS: Mapping[str, tuple[str, Callable[[str], CommandParser]]] = MappingProxyType(
     {
         "capture": ("take the readings live, from the instrument that a job names", measuring.capture),
         "check": ("validate jobs, their data and the tests; write nothing", documents.check),
@@ -66,7 +66,12 @@ _COMMANDS: Mapping[str, tuple[str, Callable[[str], CommandParser]]] = MappingPro
 
 def parsers() -> tuple[CommandParser, ...]:
     """Return the parser of the main job, and then of every command."""
-    return _main_parser(), *(make(command) for command, (_, make) in _COMMANDS.items())
+    return tuple(parser_for(command) for command in ("", *COMMANDS))
+
+
+def parser_for(command: str) -> CommandParser:
+    """Return the parser of a command; of the main job, which has no word of its own, for an empty one."""
+    return COMMANDS[command][1](command) if command else _main_parser()
 
 
 def parse(arguments: Sequence[str]) -> tuple[str, argparse.Namespace]:
@@ -79,7 +84,7 @@ def parse(arguments: Sequence[str]) -> tuple[str, argparse.Namespace]:
     SystemExit
         After ``--help`` and ``--version`` have been printed.
     """
-    words = 2 if " ".join(arguments[:2]) in _COMMANDS else 1
+    words = 2 if " ".join(arguments[:2]) in COMMANDS else 1
     if _may_be_an_extensions(arguments):
         from zlmreport.cli.extension import command_of_extension, parser_of
 
@@ -87,14 +92,13 @@ def parse(arguments: Sequence[str]) -> tuple[str, argparse.Namespace]:
         if own:
             return EXTENSION, parser_of(own[0]).parse_strictly(arguments[own[1] :])
     command, rest = " ".join(arguments[:words]), arguments[words:]
-    if command in _COMMANDS:
-        _, make = _COMMANDS[command]
-        parser = make(command)
+    if command in COMMANDS:
+        parser = parser_for(command)
         options = parser.parse_strictly(rest)
         if command == "model":
             documents.demand_model_action(options, parser)
         return command, options
-    options = _main_parser().parse_strictly(arguments)
+    options = parser_for("").parse_strictly(arguments)
     for job in options.jobs:
         _refuse_mistaken_command(job)
     return MAIN_JOB, options
@@ -109,11 +113,11 @@ def _may_be_an_extensions(arguments: Sequence[str]) -> bool:
     if first == "emulate":
         return bool(rest[0]) and not rest[0].startswith("-")
     word = Path(first)
-    return bool(first) and first not in _COMMANDS and first.isidentifier() and not word.exists()
+    return bool(first) and first not in COMMANDS and first.isidentifier() and not word.exists()
 
 
 def _main_parser() -> CommandParser:
-    return main_job({command: summary for command, (summary, _) in _COMMANDS.items()})
+    return main_job({command: summary for command, (summary, _) in COMMANDS.items()})
 
 
 def _refuse_mistaken_command(job: Path) -> None:
@@ -121,9 +125,9 @@ def _refuse_mistaken_command(job: Path) -> None:
     word = str(job)
     if job.suffix or job.name != word or job.exists():
         return
-    if word in _COMMANDS:
+    if word in COMMANDS:
         raise InputError.at(Place("zlmreport"), f"the command comes first: zlmreport {word} …")
     raise InputError.at(
         Place("zlmreport"),
-        f"{word!r} is neither a file nor a command; {did_you_mean(word, list(_COMMANDS))}",
+        f"{word!r} is neither a file nor a command; {did_you_mean(word, list(COMMANDS))}",
     )

@@ -24,7 +24,7 @@ examples:
 exit codes: 0 done; 1 done, but a limit is not met (only with --fail-on-nonconformity);
 2 a job, its data or the command line is wrong; 3 a file could not be read or written
 """
-_MODEL_ACTIONS = {
+MODEL_ACTIONS = {
     "fit": "the parameters with their uncertainties, and the error that is left",
     "diagnose": "where the model fails, and which effect is missing",
     "add": "write an effect into the job, and show the error before and after",
@@ -61,7 +61,7 @@ def main_job(commands: Mapping[str, str]) -> CommandParser:
 
 
 def _description(commands: Mapping[str, str]) -> str:
-    listed = "\n".join(f"  {name:12} {summary}" for name, summary in commands.items())
+    listed = "\n".join(f"  {name:13} {summary}" for name, summary in commands.items())
     return (
         "Read the measurements that a job names, evaluate them by its standards, and write\n"
         f"the certificate.\n\nother commands:\n{listed}\n"
@@ -191,7 +191,7 @@ def model(command: str) -> CommandParser:
     parser = CommandParser(
         f"zlmreport {command}",
         "Work on the error model of a job (its key model.effects):\n\n"
-        + "\n".join(f"  {action:9} {text}" for action, text in _MODEL_ACTIONS.items())
+        + "\n".join(f"  {action:9} {text}" for action, text in MODEL_ACTIONS.items())
         + "\n\nThe job is edited in place; comments and layout stay. It is left as it is if the effect\n"
         "makes no sense or explains nothing.",
         "examples:\n"
@@ -200,7 +200,7 @@ def model(command: str) -> CommandParser:
         "  zlmreport model add x-axis.yaml 'polynomial: {order: 5}'\n"
         "  zlmreport model learn earlier -o priors.yaml",
     )
-    parser.add_argument("action", metavar="ACTION", help=", ".join(_MODEL_ACTIONS))
+    parser.add_argument("action", metavar="ACTION", help=", ".join(MODEL_ACTIONS))
     parser.add_argument("job", metavar="JOB.yaml", type=Path, help="job file; of learn: a folder of jobs")
     parser.add_argument(
         "effect",
@@ -226,9 +226,9 @@ def model(command: str) -> CommandParser:
 
 def demand_model_action(options: argparse.Namespace, parser: CommandParser) -> None:
     """Refuse an action that there is not, and an effect that is missing or too much."""
-    if options.action not in _MODEL_ACTIONS:
+    if options.action not in MODEL_ACTIONS:
         parser.error(
-            f"unknown action {options.action!r}; {did_you_mean(options.action, list(_MODEL_ACTIONS))}"
+            f"unknown action {options.action!r}; {did_you_mean(options.action, list(MODEL_ACTIONS))}"
         )
     takes_effect = options.action in {"add", "remove"}
     if takes_effect and not options.effect.strip():
