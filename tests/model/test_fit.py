@@ -231,7 +231,7 @@ def test_a_value_outside_the_plausible_range_is_said_to_be_so() -> None:
     assert expansion.plausibility(time_is_counted=False) is Plausibility.IMPLAUSIBLE
 
 
-def test_what_the_job_expects_is_held_against_the_estimate() -> None:
+def test_what_the_job_expects_stands_beside_the_estimate() -> None:
     axis = replace(DESIGN.axis, abbe_offset=0.25)
     design = replace(DESIGN, axis=axis)
     angles = axis.angular_errors
@@ -239,7 +239,6 @@ def test_what_the_job_expects_is_held_against_the_estimate() -> None:
     fitted = fit(USUAL.with_effect(EFFECTS["abbe"]), design, READINGS + 0.1 * angles.at(design.position))
     offset = fitted.estimates[-1]
     assert offset.expected == 0.25
-    assert offset.distance_from_expected == pytest.approx((offset.value - 0.25) / offset.standard_uncertainty)
 
 
 def test_where_scatter_grows_the_quiet_end_is_known_as_well_as_its_own_scatter_allows() -> None:

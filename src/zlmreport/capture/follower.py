@@ -46,8 +46,6 @@ from zlmreport.measurement.approach import Approach
 
 #: Faster than any axis, m/s or rad/s: who is elsewhere sooner was not seen to go there.
 _RAPID = 1.0
-#: By so many stability ranges what nearly stands has drifted.
-_CREEPING = 3
 
 
 @dataclass(frozen=True, slots=True)

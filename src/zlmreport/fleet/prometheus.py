@@ -9,14 +9,12 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from datetime import UTC, date, datetime
-from types import MappingProxyType
 
 from zlmreport.fleet.drifts import Trend
 from zlmreport.fleet.records import About
 from zlmreport.fleet.state import FleetState
 from zlmreport.quantities.units import ANGLES, ARCSECOND, LENGTHS, MICROMETRE, Unit
 
-_NO_LABELS: Mapping[str, str] = MappingProxyType({})
 _UNITS = {unit.ascii: unit for unit in (*LENGTHS, *ANGLES)}
 #: What follows the name of a metric, by the unit of the ledger.
 _QUANTITIES = ((LENGTHS, MICROMETRE, "meters"), (ANGLES, ARCSECOND, "radians"))

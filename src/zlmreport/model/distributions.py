@@ -72,11 +72,6 @@ def t_quantile(probability: float, degrees: float) -> float:
     return _root(lambda t: 1 - probability - _beta(degrees / 2, 0.5, degrees / (degrees + t * t)))
 
 
-def f_quantile(probability: float, numerator: float, denominator: float) -> float:
-    """Return the ratio of variances that F does not exceed with this probability."""
-    return _root(lambda ratio: 1 - probability - f_tail(ratio, numerator, denominator))
-
-
 def _root(rising: Callable[[float], float]) -> float:
     """Return where a function that rises from below zero at 0 crosses zero."""
     low, high = 0.0, 1.0

@@ -190,13 +190,6 @@ class Estimate:
         """U = k·u, SI."""
         return self.coverage_factor * self.standard_uncertainty
 
-    @property
-    def distance_from_expected(self) -> float | None:
-        """The value less the expected one, over u; None where nothing is expected, or u is zero."""
-        if self.expected is None or self.standard_uncertainty == 0:
-            return None
-        return (self.value - self.expected) / self.standard_uncertainty
-
     def plausibility(self, *, time_is_counted: bool) -> Plausibility:
         """Return how the value lies to its plausible range; nothing is known of counted times."""
         smallest, largest = self.parameter.smallest, self.parameter.largest

@@ -41,11 +41,6 @@ class ResidualTest(Enum):
         """What it tests."""
         return _TITLES[self]
 
-    @property
-    def blind_to(self) -> Words:
-        """What it cannot see."""
-        return _BLIND[self]
-
 
 @dataclass(frozen=True, slots=True)
 class Failure:
@@ -92,31 +87,6 @@ _TITLES = {
     ResidualTest.CONDITION: Words(en="Logged conditions", de="Aufgezeichnete Bedingungen"),
     ResidualTest.SPREAD: Words(en="Equal scatter", de="Gleiche Streuung"),
     ResidualTest.OUTLIERS: Words(en="Single readings", de="Einzelne Messwerte"),
-}
-_BLIND = {
-    ResidualTest.LACK_OF_FIT: Words(
-        en="whatever moves with time in the linear method: there it counts as scatter",
-        de="alles, was sich beim Linearverfahren mit der Zeit bewegt: Es zählt dort als Streuung",
-    ),
-    ResidualTest.TIME_ORDER: Words(
-        en="position and direction; in pendulum and pilgrim tests nearly everything",
-        de="Position und Richtung; bei Pendel- und Pilgerschrittverfahren fast alles",
-    ),
-    ResidualTest.SIGNS: Words(en="the size of the residuals", de="die Größe der Residuen"),
-    ResidualTest.PERIOD_IN_POSITION: Words(
-        en="periods of which the targets are multiples",
-        de="Perioden, deren Vielfache die Zielpositionen sind",
-    ),
-    ResidualTest.PERIOD_IN_TIME: Words(
-        en="periods shorter than a few readings", de="Perioden, die kürzer als einige Messwerte sind"
-    ),
-    ResidualTest.DIRECTION: Words(en="what is alike up and down", de="was aufwärts und abwärts gleich ist"),
-    ResidualTest.RUNS: Words(en="changes within a run", de="Änderungen innerhalb eines Durchlaufs"),
-    ResidualTest.CONDITION: Words(
-        en="conditions that were not logged", de="nicht aufgezeichnete Bedingungen"
-    ),
-    ResidualTest.SPREAD: Words(en="the means", de="die Mittelwerte"),
-    ResidualTest.OUTLIERS: Words(en="all but single readings", de="alles außer einzelnen Messwerten"),
 }
 
 
