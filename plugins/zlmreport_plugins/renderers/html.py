@@ -35,6 +35,7 @@ class HtmlRenderer:
             HtmlSetting,
             compose_html,
             figure_to_svg,
+            own_style,
         )
 
         letterhead = certificate.letterhead
@@ -42,6 +43,7 @@ class HtmlRenderer:
         script = _script() if certificate.linked else ""
         setting = HtmlSetting(
             style=_style(certificate.paper, certificate.look.accent, with_linked=bool(script))
+            + own_style(certificate.look, lambda font: _data_address(font, "font/sfnt"))
             + _foot(certificate.page_words),
             drawings=tuple(figure_to_svg(figure, certificate.language) for figure in certificate.figures),
             logo=_data_address(logo, letterhead.logo_type) if letterhead and logo else "",

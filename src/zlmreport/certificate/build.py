@@ -11,9 +11,10 @@ import numpy as np
 from zlmreport.certificate.attachments import sources
 from zlmreport.certificate.conditions import Described
 from zlmreport.certificate.cover import lines
-from zlmreport.certificate.document import Certificate, Letterhead, Look, PageWords, Party
+from zlmreport.certificate.document import Certificate, Letterhead, PageWords, Party
 from zlmreport.certificate.logo import Logo, read_logo
 from zlmreport.certificate.material import LaidOut, Material, in_full
+from zlmreport.certificate.own_look import read_look
 from zlmreport.certificate.own_words import arranged, filled
 from zlmreport.certificate.statements import document_title, running_title
 from zlmreport.evaluation.likely_units import doubts
@@ -132,7 +133,7 @@ def build(  # noqa: PLR0913, PLR0917 - what a document is made of
         job=job,
         sources=made_from,
         is_compact=laid_out.is_compact,
-        look=Look(style.accent, style.logo),
+        look=read_look(job),
         doubts=doubtful,
     )
 

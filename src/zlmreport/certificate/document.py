@@ -193,11 +193,27 @@ class PageWords:
 
 
 @dataclass(frozen=True, slots=True)
+class Typeface:
+    """The fonts of a typeface, TrueType or OpenType; widths of a figure and of a decimal sign, in em."""
+
+    regular: bytes = field(repr=False)
+    semibold: bytes = field(repr=False)
+    figure: float
+    sign: float
+
+
+@dataclass(frozen=True, slots=True)
 class Look:
-    """Colour of headings and lines, as ``#0d4a63``; on which side of the letterhead the logo stands."""
+    """Colour of headings and lines, as ``#0d4a63``; on which side of the letterhead the logo stands.
+
+    `typeface` is the laboratory's own, None for the bundled one; `templates` are its own ones, by name, with
+    its style sheet ``style.css`` among them.
+    """
 
     accent: str = "#0d4a63"
     logo: Literal["left", "right"] = "right"
+    typeface: Typeface | None = None
+    templates: tuple[tuple[str, str], ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -160,6 +160,13 @@ def _readable(colour: str) -> str:
     return colour.lower()
 
 
+class TypefaceKeys(JobPart):
+    """The fonts of a laboratory's own typeface."""
+
+    regular: JobPath = Field(description="Font of the text: TrueType or OpenType.", examples=["House.ttf"])
+    semibold: JobPath = Field(description="Font of headings.", examples=["House-Bold.ttf"])
+
+
 class Style(JobPart):
     """The look of the document."""
 
@@ -180,6 +187,17 @@ class Style(JobPart):
         description="A line below the number at the foot of every page; a key of the job in braces stands "
         "for its value.",
         examples=["Order 4711 · {customer.name}"],
+    )
+    typeface: TypefaceKeys | None = Field(
+        None,
+        description="The laboratory's own typeface, for `pdf` and `html`; symbols, graphs and letters that "
+        "it lacks are set in the bundled one.",
+    )
+    templates: JobPath | None = Field(
+        None,
+        description="A folder with templates of the laboratory's own for single blocks, and a style sheet "
+        "`style.css`, for `pdf` and `html`.",
+        examples=["templates"],
     )
 
 

@@ -28,7 +28,7 @@ _ROOMS = {
     "zlmreport.certificate.conformity": "CONFORMITY_STATEMENTS=STATEMENTS",
     "zlmreport.certificate.cover": "address_lines=lines place_of_work",
     "zlmreport.certificate.document": (
-        "Align Block Cell Certificate Column Explained Facts Formulas Graph Letterhead Mark Notice "
+        "Align Block Cell Certificate Column Explained Facts Formulas Graph Letterhead Look Mark Notice "
         "PageWords Paragraph RowGroup Section Symbol Table Verdict"
     ),
     "zlmreport.certificate.information": "Information",
@@ -125,7 +125,7 @@ _ROOMS = {
     ),
     "zlmreport.typesetting.compose": "GRAPH_ADDRESS HtmlSetting=Setting LOGO_ADDRESS compose_html=compose",
     "zlmreport.typesetting.resources": (
-        "FONT_FACES=FACES font_face_rules=font_faces font_file=font linked_script linked_style "
+        "FONT_FACES=FACES font_face_rules=font_faces font_file=font linked_script linked_style own_style "
         "script_fingerprint=fingerprint style_sheet"
     ),
     "zlmreport.uncertainty.budget": "Acts Budget COVERAGE_PROBABILITY Contribution Distribution NoBudget",

@@ -125,6 +125,7 @@ class _Compositor:
     def __init__(self, certificate: Certificate, setting: Setting) -> None:
         self._certificate = certificate
         self._setting = setting
+        self._own = certificate.look.templates
         self._tables = count(1)
         self._figures = count(1)
 
@@ -132,7 +133,8 @@ class _Compositor:
         letterhead = self._certificate.letterhead
         if letterhead is None:
             return Markup()
-        return render(LetterheadContext(letterhead, self._setting.logo if letterhead.logo else ""))
+        logo = self._setting.logo if letterhead.logo else ""
+        return render(LetterheadContext(letterhead, logo), self._own)
 
     def section(self, number: int, section: Section) -> Markup:
         return render(
@@ -142,11 +144,12 @@ class _Compositor:
                 title=section.title,
                 new_page=section.new_page,
                 blocks=self._section_blocks(section),
-            )
+            ),
+            self._own,
         )
 
     def blocks(self, blocks: Iterable[Block]) -> tuple[Markup, ...]:
-        return tuple(render(self._context(block)) for block in gather_facts(blocks))
+        return tuple(render(self._context(block), self._own) for block in gather_facts(blocks))
 
     def _section_blocks(self, section: Section) -> tuple[Markup, ...]:
         """Return the blocks of a section, the linked graphs before the first that cannot be pointed at."""

@@ -18,7 +18,9 @@ from pathlib import PurePosixPath
 
 from markupsafe import Markup
 
+from zlmreport.certificate.document import Look
 from zlmreport.certificate.linked import Linked
+from zlmreport.certificate.own_look import STYLE_SHEET
 
 #: The package whose templates, styles and scripts are used, and no others.
 PACKAGE = "zlmreport_templates"
@@ -66,6 +68,29 @@ def font_faces(address: Callable[[Face], str]) -> str:
         f"src: url({address(face)}) }}"
         for face in FACES
     )
+
+
+def own_style(look: Look, address: Callable[[bytes], str]) -> str:
+    """Return the style sheet of a laboratory's own look; `address` says where a font is found."""
+    rules = [text for name, text in look.templates if name == STYLE_SHEET]
+    if face := look.typeface:
+        regular, semibold = face.regular, face.semibold
+        family = f"own-{sha256(regular + semibold).hexdigest()[:12]}"
+        names = f'font-family: {family}, "{FAMILY}", sans-serif'
+        rules = [
+            *(
+                f"@font-face {{ font-family: {family}; font-weight: {weight}; src: url({address(font)}) }}"
+                for weight, font in ((400, regular), (600, semibold))
+            ),
+            f'html {{ {names} }} @page {{ {names} }} .symbol, .drawing {{ font-family: "{FAMILY}" }}',
+            *(
+                f".sheet .{kind}-{lacking} {{ padding-right: {0.45 + sign + lacking * face.figure:.3f}em }}"
+                for kind, sign in (("short", 0.0), ("whole", face.sign))
+                for lacking in range(1, 7)
+            ),
+            *rules,
+        ]
+    return "\n".join(rules)
 
 
 _WORKBENCH = "workbench"

@@ -6,15 +6,25 @@ It is sandboxed, every value is escaped, and a missing one is an error.
 from __future__ import annotations
 
 import re
+from collections import Counter
 from dataclasses import dataclass, fields
-from functools import cache, lru_cache
+from functools import lru_cache
 from typing import ClassVar, TypeAlias
+from xml.etree import ElementTree as ET
 
-from jinja2 import PackageLoader, StrictUndefined
+from jinja2 import (
+    ChoiceLoader,
+    DictLoader,
+    PackageLoader,
+    PrefixLoader,
+    StrictUndefined,
+    TemplateError,
+)
 from jinja2.sandbox import ImmutableSandboxedEnvironment
 from markupsafe import Markup
 
 from zlmreport.certificate.document import Facts, Letterhead
+from zlmreport.errors import InputError, Place
 from zlmreport.quantities.formatting import Span, spans
 from zlmreport.typesetting.overview import (
     OverviewContext,
@@ -294,11 +304,18 @@ _NOT_IN_XML = re.compile(r"[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff
 _REPLACEMENT = "\N{REPLACEMENT CHARACTER}"
 
 
-@cache
-def environment() -> ImmutableSandboxedEnvironment:
-    """Return the environment; templates are compiled once in a process."""
+#: What stands before the name of a template in its usual form, for one that adds to it.
+_USUAL = "usual"
+_WORDS = re.compile(r"[+−-]?\w+(?:[.,]\w+)*")
+_PICTURES = re.compile(r"<(?:img|svg)\b")
+
+
+@lru_cache(maxsize=8)
+def environment(own: tuple[tuple[str, str], ...] = ()) -> ImmutableSandboxedEnvironment:
+    """Return the environment; templates are compiled once in a process, those of a laboratory's own first."""
+    usual = PackageLoader(PACKAGE)
     return ImmutableSandboxedEnvironment(
-        loader=PackageLoader(PACKAGE),
+        loader=ChoiceLoader([DictLoader(dict(own)), usual, PrefixLoader({_USUAL: usual})]) if own else usual,
         autoescape=True,
         undefined=StrictUndefined,
         trim_blocks=True,
@@ -307,11 +324,36 @@ def environment() -> ImmutableSandboxedEnvironment:
     )
 
 
-def render(context: Context) -> Markup:
-    """Render the template that belongs to a context; characters that XML cannot hold are shown as U+FFFD."""
+def render(context: Context, own: tuple[tuple[str, str], ...] = ()) -> Markup:
+    """Render the template that belongs to a context; characters that XML cannot hold are shown as U+FFFD.
+
+    Raises
+    ------
+    InputError
+        If a template of a laboratory's own is wrong, or leaves out a word that the usual one prints.
+    """
     values = {field.name: getattr(context, field.name) for field in fields(context)}
-    text = environment().get_template(context.template).render(values)
+    name = context.template
+    text = environment().get_template(name).render(values)
+    if name in dict(own):
+        usual, place = text, Place(name)
+        try:
+            text = environment(own).get_template(name).render(values)
+            ET.fromstring(f"<block>{_NOT_IN_XML.sub(_REPLACEMENT, text)}</block>")  # noqa: S314 - the job's own
+        except (TemplateError, ArithmeticError, RecursionError, TypeError, ET.ParseError) as error:
+            line = getattr(error, "lineno", None) or 0
+            raise InputError.at(Place(name, line), f"this template does not work: {error}") from error
+        if lacking := [*(_shown(usual) - _shown(text))]:
+            raise InputError.at(
+                place, f"this template leaves out {' '.join(lacking[:8])}; all must be printed"
+            )
     return Markup(_NOT_IN_XML.sub(_REPLACEMENT, text))  # noqa: S704 (the template has escaped every value)
+
+
+def _shown(markup: str) -> Counter[str]:
+    """Return the words and pictures of a block."""
+    text = Markup(markup).striptags()  # noqa: S704 - it is only looked at
+    return Counter([*_WORDS.findall(text), *_PICTURES.findall(markup)])
 
 
 @lru_cache(maxsize=1024)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -13,6 +14,7 @@ from zlmreport import pipeline
 from zlmreport.certificate.build import GENERATOR
 from zlmreport.certificate.document import Certificate
 from zlmreport.errors import InputError, Place, ZlmreportError
+from zlmreport.job.job import Job
 from zlmreport.job.loading import load
 from zlmreport.plugin.protocols import Renderer, made, relationship_of
 from zlmreport.plugins import Registry
@@ -35,6 +37,11 @@ _OTHER_RENDERER = (
     "printed by {creator}, which is not installed here: how pages are drawn is not decided; to decide, "
     "install it"
 )
+_OWN_LOOK = (
+    "printed in a typeface or by templates of the laboratory's own (certificate.style), which it does not "
+    "carry: how its pages are drawn is not decided"
+)
+_NUMBER = re.compile(r"\d+[.,]\d+")
 _OTHER_LIBRARIES = (
     "no page is drawn here as it was: other libraries printed it, or every page is altered; each mark on "
     "each page is compared by its shape, its colour and its place"
@@ -62,6 +69,7 @@ class _Again:
     prints: pages.Prints
     results: bytes
     is_by_its_own_renderer: bool
+    has_own_look: bool
 
 
 def verify(
@@ -151,7 +159,7 @@ def _again(job_path: Path, carrier: Carrier, stated: Results, registry: Registry
     release has repeated it.
     """
     results, printer = registry.renderer(pipeline.RESULTS), _printer(carrier, registry)
-    job = load(job_path, registry, formats=(printer.identifier,))
+    job, has_own_look = _in_usual_look(load(job_path, registry, formats=(printer.identifier,)))
     here = pipeline.programs(job, registry)
     named = stated.provenance.generator, stated.provenance.plugins
     certificate = pipeline.compose(job, registry, named if _are_releases_of(named, here) else here)
@@ -165,7 +173,19 @@ def _again(job_path: Path, carrier: Carrier, stated: Results, registry: Registry
         pages.Prints(opened(contents[printer.identifier], Place(f"{carrier.place} (printed again)"))),
         contents[pipeline.RESULTS],
         made(printer, carrier.creator) or carrier.creator.startswith(f"{_PROGRAM} "),
+        has_own_look,
     )
+
+
+def _in_usual_look(job: Job) -> tuple[Job, bool]:
+    """Return a job in the bundled typeface and templates, and whether it asks for others.
+
+    Those of whoever sent the document would show what they like, and are not run.
+    """
+    style = job.keys.certificate.style
+    usual = style.model_copy(update={"typeface": None, "templates": None})
+    certificate = job.keys.certificate.model_copy(update={"style": usual})
+    return replace(job, keys=job.keys.model_copy(update={"certificate": certificate})), usual != style
 
 
 def _are_releases_of(stated: pipeline.Programs, here: pipeline.Programs) -> bool:
@@ -216,7 +236,18 @@ def _compared(found: Verification, carrier: Carrier, stated: Stated, again: _Aga
     if not again.is_by_its_own_renderer:
         remark = _OTHER_RENDERER.format(creator=carrier.creator or "another renderer")
         return replace(_left_open(found), remarks=(remark,))
+    if again.has_own_look:
+        lacking = guarded(lambda: _numbers(again.prints.carrier) - _numbers(carrier), carrier.place)
+        detail = f"{', '.join(sorted(lacking)[:8])} cannot be read on its pages" if lacking else ""
+        numbers = Finding("printed numbers", Verdict.DIFFERS if lacking else Verdict.HOLDS, detail)
+        found = replace(_left_open(found), remarks=(_OWN_LOOK,))
+        return replace(found, document=(*found.document, numbers))
     return found if printed.is_drawn_alike else replace(found, remarks=(_OTHER_LIBRARIES,))
+
+
+def _numbers(carrier: Carrier) -> Counter[str]:
+    """Return all numbers with decimals that are printed on the pages."""
+    return Counter(each for page in carrier.reader.pages for each in _NUMBER.findall(page.extract_text()))
 
 
 def _named(generator: str, plugins: Mapping[str, str]) -> str:

@@ -36,6 +36,7 @@ from zlmreport.plugin import (
     Fill,
     FontFace,
     Language,
+    Look,
     Segment,
     Stroke,
     TextRun,
@@ -45,6 +46,7 @@ from zlmreport.plugin import (
     figure_to_svg,
     font_face_rules,
     font_file,
+    own_style,
     style_sheet,
 )
 from zlmreport_plugins.renderers.pdf import structure
@@ -91,6 +93,7 @@ class Press:
         self._style = lru_cache(maxsize=4)(
             lambda accent: self._parsed(style_sheet("certificate", "paged", accent=accent), supply)
         )
+        self._own = lru_cache(maxsize=4)(self._of_own_look)
         self._papers = {paper: self._parsed(style_sheet(paper), supply) for paper in ("A4", "Letter")}
 
     def print(self, certificate: Certificate) -> bytes:
@@ -102,6 +105,7 @@ class Press:
                     self._faces,
                     self._style(certificate.look.accent),
                     self._papers[certificate.paper],
+                    *self._own(certificate.look),
                 ],
                 font_config=self._fonts,
                 color_profiles=self._profiles,
@@ -112,6 +116,18 @@ class Press:
                 finisher=partial(_finish, certificate),
             )
         return pdf
+
+    def _of_own_look(self, look: Look) -> tuple[CSS, ...]:
+        """Return the style sheet of a laboratory's own look, if it has one."""
+        contents: Contents = {}
+
+        def address(font: bytes) -> str:
+            name = _FONT_ADDRESS.format(len(contents))
+            contents[name] = font, "font/sfnt"
+            return name
+
+        style = own_style(look, address)
+        return (self._parsed(style, Supply(contents)),) if style else ()
 
     def _parsed(self, style: str, supply: Supply) -> CSS:
         return CSS(string=style, font_config=self._fonts, url_fetcher=supply)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from zlmreport.plugin import AccessError, Certificate, Place, Words, hookimpl
+from zlmreport.plugin import AccessError, Certificate, InputError, Place, Words, hookimpl
 
 
 class TypstRenderer:
@@ -23,8 +23,15 @@ class TypstRenderer:
         AccessError
             If the package ``typst`` is not installed.
         InputError
-            If the certificate has letters that the bundled typeface lacks.
+            If the certificate has letters that the bundled typeface lacks, or a typeface or templates of its
+            own.
         """
+        if certificate.look.typeface or certificate.look.templates:
+            raise InputError.at(
+                Place(certificate.number),
+                "the format pdf-typst takes neither a typeface (certificate.style.typeface) nor templates "
+                "(certificate.style.templates) of your own; ask for the format pdf",
+            )
         try:
             from zlmreport_plugins.renderers.pdf_typst.press import press
         except ImportError as error:
