@@ -12,10 +12,12 @@ from model.axis_tests import (
     hidden,
     known,
     linear_test,
+    model_of,
     noise,
     observations,
     realistic_noise,
 )
+from zlmreport.language import Language
 from zlmreport.model.candidates import effects_to_try
 from zlmreport.model.comparison import Comparison, Scores
 from zlmreport.model.contrasts import contrasts_of
@@ -194,10 +196,18 @@ def test_entrants_are_the_forms_that_the_test_can_show() -> None:
     found = effects_to_try(USUAL, DESIGN, INSTALLED)
     orders = [len(form.linear) - 1 for form in found.forms if form.identifier == "polynomial"]
     assert orders == [4, 5]
-    reasons = {each.effect: each.reason.en for each in found.not_testable}
+    reasons = {each.effect: each.reason.in_language(Language.ENGLISH) for each in found.not_testable}
     assert reasons["eccentricity"] == "it belongs to rotary axes"
-    assert reasons["scale-error"] == "at these targets the model imitates it entirely"
+    assert reasons["scale-error"] == "at these targets polynomial imitates it entirely"
     assert "backlash" not in reasons  # it is in the model
+
+
+def test_what_is_imitated_entirely_comes_with_what_would_show_it() -> None:
+    (found,) = effects_to_try(model_of("scale-error"), DESIGN, [EFFECTS["cosine-error"]]).not_testable
+    assert found.reason.in_language(Language.ENGLISH) == (
+        "at these targets scale-error imitates it entirely; what would show it: align the beam anew until it "
+        "returns to the same spot along the whole travel, and repeat"
+    )
 
 
 def test_a_contest_without_contestants_finds_nothing() -> None:

@@ -21,8 +21,12 @@ from zlmreport.model.effect import Effect
 from zlmreport.quantities.arrays import FloatArray, IntArray
 
 _IMITATED = Words(
-    en="at these targets the model imitates it entirely",
-    de="an diesen Zielpositionen ahmt das Modell ihn vollständig nach",
+    en="at these targets {effect} imitates it entirely",
+    de="an diesen Zielpositionen ahmt {effect} ihn vollständig nach",
+)
+_THE_MODEL = Words(en="the model", de="das Modell")
+_SHOWN_BY = Words(
+    en="{imitated}; what would show it: {measurement}", de="{imitated}; was ihn zeigen würde: {measurement}"
 )
 #: A form of an effect, and the values of its searched parameters that are tried, shape (g, s).
 Entry: TypeAlias = tuple[Effect, FloatArray]
@@ -75,7 +79,7 @@ def effects_to_try(model: AxisModel, design: Design, effects: Iterable[Effect]) 
         reasons = [form.untestable(design) or _collision(model, design, form) for form in listed]
         forms.extend(form for form, reason in zip(listed, reasons, strict=True) if reason is None)
         if listed and None not in reasons:
-            not_testable.append(NotTestable(effect.identifier, reasons[0] or _IMITATED))
+            not_testable.append(NotTestable(effect.identifier, reasons[0] or _imitated(model, effect)))
     return EffectsToTry(tuple(forms), tuple(not_testable))
 
 
@@ -86,8 +90,19 @@ def _collision(model: AxisModel, design: Design, effect: Effect) -> Words | None
     try:
         refuse_collisions(extended, columns)
     except ModelError:
-        return _IMITATED
+        return _imitated(model, effect)
     return None
+
+
+def _imitated(model: AxisModel, effect: Effect) -> Words:
+    """Return what imitates an effect entirely, and the measurement that would show it."""
+    for term in model.terms:
+        if effect.identifier in term.effect.contains:
+            return _IMITATED.given(effect=term.effect.identifier)
+    alike = [each for each in effect.confusions if each.effect in model.identifiers]
+    words = _IMITATED.given(effect=alike[0].effect if alike else _THE_MODEL)
+    known = (*alike, *effect.confusions)
+    return _SHOWN_BY.given(imitated=words, measurement=known[0].told_apart_by) if known else words
 
 
 @dataclass(frozen=True, slots=True)
