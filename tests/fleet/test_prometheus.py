@@ -74,6 +74,7 @@ def test_what_concerns_the_whole_night_is_one_and_all_else_zero() -> None:
         "clock": 0,
         "stuck": 0,
         "untold": 0,
+        "priors": 0,
     }
 
 
