@@ -7,7 +7,7 @@ import re
 import pytest
 
 from documents.pages import DOCS
-from zlmreport.model import diagnosis, evidence, noise, null_distribution, outliers, repeats, steps
+from zlmreport.model import diagnosis, evidence, noise, null_distribution, repeats, steps
 
 _PAGE = " ".join((DOCS / "explanation" / "error-model.md").read_text(encoding="utf-8").split())
 
@@ -17,7 +17,7 @@ _PAGE = " ".join((DOCS / "explanation" / "error-model.md").read_text(encoding="u
     [
         (r"the whole contest is held (\d+) times more", null_distribution.TRIALS),
         (r"exceeds by chance in (\d+) % of these tests", 100 * null_distribution.LEVEL),
-        (r"by more than ([\d.]+) robust standard deviations", outliers._LIMIT),
+        (r"by more than ([\d.]+) robust standard deviations", repeats._LIMIT),
         (r"The first has a level of (\d+) %", 100 * repeats._LEVEL),
         (r"must surpass them by (\d+) units", evidence.NAMED),
         (r"A difference of less than (\d+) units", evidence.MENTION),

@@ -198,6 +198,16 @@ def test_error_in_proportion_to_position_adds_to_the_slope() -> None:
     assert after == pytest.approx(np.hypot(before, proportion), rel=1e-9)
 
 
+def test_error_that_parts_the_directions_is_that_of_the_lost_motion() -> None:
+    parting = 4e-6
+    model = model_of("offset", "backlash")
+    before, after = (
+        fit(model, DESIGN, READINGS, Assumptions(assumed)).estimates[1].standard_uncertainty
+        for assumed in (InstrumentError(), InstrumentError(between_directions=parting))
+    )
+    assert after == pytest.approx(np.hypot(before, parting), rel=1e-9)
+
+
 def test_error_at_each_position_is_that_of_independent_means() -> None:
     """Against the formula of a straight line: u of its level is u/√m, whatever the runs."""
     each, targets = 4e-6, len(np.unique(DESIGN.position))

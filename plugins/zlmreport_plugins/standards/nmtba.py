@@ -209,7 +209,7 @@ def findings(measurements: MeasurementSet) -> Iterator[Finding]:
 
     The recommendation's own numbers have not been read; only what its formulas need is asked.
     """
-    yield both_directions(measurements, _ONE_DIRECTION_ONLY, Basis.PUBLISHED)
+    yield both_directions(measurements, _ONE_DIRECTION_ONLY, Basis.APPLIED)
     yield number_of_runs(measurements, _RUNS_FOR_A_SCATTER, Basis.APPLIED)
     yield _number_of_positions(measurements)
     yield no_missing_readings(measurements)

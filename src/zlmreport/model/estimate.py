@@ -17,6 +17,7 @@ import numpy as np
 from zlmreport.measurement.axis import Axis
 from zlmreport.model.axis_model import Term
 from zlmreport.model.contrasts import Contrasts
+from zlmreport.model.design import Design
 from zlmreport.model.distributions import t_quantile
 from zlmreport.model.effect import Dimension, Parameter
 from zlmreport.model.noise import Noise
@@ -44,15 +45,23 @@ class InstrumentError:
         Per distance from the first position, m/m or rad/rad: the paper has none, a laser's wavelength does.
     at_each_position
         Shared by all readings at one position, and by no others, m or rad.
+    between_directions
+        Shared by all readings of the negative direction, against those of the positive one, m or rad.
     """
 
     common: float = 0.0
     proportional: float = 0.0
     at_each_position: float = 0.0
+    between_directions: float = 0.0
 
-    def factor(self, position: FloatArray) -> FloatArray:
-        """Return F with F·Fᵀ the covariance of readings at these positions, shape (N, 2 and more)."""
-        shared = [np.full(len(position), self.common), self.proportional * (position - position.min())]
+    def factor(self, design: Design) -> FloatArray:
+        """Return F with F·Fᵀ the covariance of the readings of a test, shape (N, 3 and more)."""
+        position = design.position
+        shared = [
+            np.full(len(position), self.common),
+            self.proportional * (position - position.min()),
+            self.between_directions * (design.direction < 0),
+        ]
         if self.at_each_position:
             shared += [self.at_each_position * (position == each) for each in np.unique(position)]
         return np.column_stack(shared)

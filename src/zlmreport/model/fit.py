@@ -284,7 +284,7 @@ def _finished(
     lengths = np.where(lengths > 0, lengths, 1.0)
     root = np.linalg.pinv(whitened / lengths) / lengths[:, np.newaxis]
     inverse = root @ root.T
-    systematic = root @ problem.whiten(assumptions.instrument.factor(design.position))
+    systematic = root @ problem.whiten(assumptions.instrument.factor(design))
     weighted = problem.whiten(whitened) @ inverse
     variances = variance_of_variance(space, noise, weighted)
     uncertainties = Uncertainties(noise.sigma, inverse, systematic, variances)

@@ -212,8 +212,8 @@ def _with_feed(observed: Observations, job: Job) -> Observations:
 def instrument_error(job: Job, length: float) -> InstrumentError:
     """Return the error of the instrument as the budget takes it; none if it is not stated as a number.
 
-    What acts otherwise than at a position, along the measured `length` (m or rad) or at the datum differs
-    from reading to reading, and is part of their noise.
+    What acts in time or at each reading differs within the test: the noise that the readings show has it
+    already. `length` is the measured one, m or rad.
     """
     stated = job.keys.instrument.stated_uncertainty if job.keys.instrument else None
     constant, per_metre = stated or (0.0, 0.0)
@@ -224,6 +224,7 @@ def instrument_error(job: Job, length: float) -> InstrumentError:
         common=u if acts == "at-the-datum" else 0.0,
         proportional=math.hypot(MICROMETRE.to_si(per_metre) / _COVERAGE_FACTOR, along),
         at_each_position=u if acts in _AT_POSITIONS else 0.0,
+        between_directions=u if acts == "between-directions" else 0.0,
     )
 
 

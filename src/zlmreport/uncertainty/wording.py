@@ -68,8 +68,8 @@ def contributor(name: str) -> Words:
 RAISED_TO: Mapping[Least, Words] = MappingProxyType(
     {
         Least.INSTRUMENT: Words(
-            en="raised to the U of the measuring instrument (ISO/TR 230-9)",
-            de="auf U des Messgeräts angehoben (ISO/TR 230-9)",
+            en="raised to the U of the measuring instrument",
+            de="auf U des Messgeräts angehoben",
         ),
         Least.LABORATORY: Words(
             en="raised to the laboratory's measurement capability (CMC)",

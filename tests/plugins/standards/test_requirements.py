@@ -58,7 +58,8 @@ def test_one_direction_is_a_deviation_from_every_standard(identifier: str) -> No
     )
 
     assert found.met is False
-    assert found.basis is Basis.PUBLISHED
+    # Of NMTBA evaluation programs offer a version for one direction: that it asks for both is our reading.
+    assert found.basis is (Basis.APPLIED if identifier == "nmtba" else Basis.PUBLISHED)
 
 
 @pytest.mark.parametrize("identifier", ["vdi-dgq-3441", "vdi-vde-2617"])
