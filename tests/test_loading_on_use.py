@@ -204,5 +204,5 @@ def test_what_is_asked_for_is_loaded_alone() -> None:
 @pytest.mark.parametrize("kind", KINDS, ids=str)
 def test_every_kind_is_declared_whole(kind: Any) -> None:
     assert {"identifier", "title"} <= set(kind.members)
-    assert callable(getattr(import_module("zlmreport.testing"), kind.kit))
+    assert callable(getattr(import_module("zlmreport.testing"), f"check_{kind.name}"))
     assert kind is not SOURCE or "read" in kind.members

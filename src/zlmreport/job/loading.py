@@ -20,7 +20,7 @@ from zlmreport.job.choices import (
 )
 from zlmreport.job.contradictions import contradictions, validate
 from zlmreport.job.evaluation_keys import PriorsKeys
-from zlmreport.job.extends import JOB, PRIORS, Defaults, FileFormat, compose, refuse_other_format
+from zlmreport.job.extends import JOB, PRIORS, Composition, Defaults, FileFormat, compose, refuse_other_format
 from zlmreport.job.installed import Installed, InstalledStandard
 from zlmreport.job.job import Job, SourceChoice, StandardChoice
 from zlmreport.job.keys import JobKeys
@@ -69,7 +69,7 @@ def load(
     AccessError
         If the job, or a file that it extends, cannot be read.
     """
-    job = _load(path, registry, formats, content, defaults)
+    job = _checked(compose(path, content, defaults), path.parent, registry, formats)
     sessions, priors = _sessions(job, path, registry), _priors(job)
     files = [file for each in sessions for file in each.files]
     if priors:
@@ -77,15 +77,10 @@ def load(
     return replace(job, sessions=sessions, priors=priors.keys if priors else None, files=(*job.files, *files))
 
 
-def _load(
-    path: Path,
-    registry: Installed,
-    formats: tuple[str, ...] = (),
-    content: bytes | None = None,
-    defaults: Defaults | None = None,
+def _checked(
+    composition: Composition, folder: Path, registry: Installed, formats: tuple[str, ...] = ()
 ) -> Job:
-    """Read a job file without the further tests that its model names."""
-    composition = compose(path, content, defaults)
+    """Return the job in a folder that files make together, without the further tests that its model names."""
     tree = composition.keys
     refuse_other_format(
         tree, JOB, lambda: [each for offered in registry.extensions for each in offered.formats]
@@ -133,7 +128,7 @@ def _load(
         extensions=extensions,
         controller=controller,
         formats=formats,
-        directory=keys.output.directory or path.parent,
+        directory=keys.output.directory or folder,
         files=(*composition.files, *axis.files),
         tree=tree,
     )
@@ -168,7 +163,7 @@ def _sessions(job: Job, path: Path, registry: Installed) -> tuple[Job, ...]:
         if stated.resolve() in named:
             raise InputError.at(place, "this test is in the model already; name each further test once")
         named.append(stated.resolve())
-        other = _load(stated, registry)
+        other = _checked(compose(stated), stated.parent, registry)
         axis, machine = other.keys.axis, other.keys.machine
         same = (axis.name, axis.kind) == (keys.axis.name, keys.axis.kind)
         serials = {each for each in (machine.serial, keys.machine.serial) if each}

@@ -55,8 +55,6 @@ class Kind(Generic[Offered_co]):
         What the hook returns: the rest of the sentence "Return …".
     interface
         The name in `zlmreport.plugin` of what each must be.
-    kit
-        The name in `zlmreport.testing` of the function that runs its checks.
     reserved
         Job keys that it must not have of its own.
     suffix
@@ -71,7 +69,6 @@ class Kind(Generic[Offered_co]):
     label: str
     offers: str
     interface: str
-    kit: str
     reserved: frozenset[str] = frozenset()
     suffix: str = ""
     has_keys: bool = True
@@ -112,7 +109,6 @@ STANDARD: Kind[Standard] = Kind(
     label="standard",
     offers="the standards that this plugin evaluates by",
     interface="Standard",
-    kit="check_standard",
     reserved=frozenset({"standard", "tolerances"}),
 )
 SOURCE: Kind[DataSource] = Kind(
@@ -120,7 +116,6 @@ SOURCE: Kind[DataSource] = Kind(
     label="data source",
     offers="the data sources that this plugin reads",
     interface="DataSource",
-    kit="check_source",
     reserved=frozenset({"plugin"}),
 )
 RENDERER: Kind[Renderer] = Kind(
@@ -128,7 +123,6 @@ RENDERER: Kind[Renderer] = Kind(
     label="format",
     offers="the file formats that this plugin writes",
     interface="Renderer",
-    kit="check_renderer",
     suffix=".pdf",
     has_keys=False,
 )
@@ -137,7 +131,6 @@ EFFECT: Kind[Effect] = Kind(
     label="effect",
     offers="the effects that this plugin adds to the error model",
     interface="Effect",
-    kit="check_effect",
     lacks=_meaning_two_things,
 )
 PART_PROGRAM: Kind[PartProgram] = Kind(
@@ -145,7 +138,6 @@ PART_PROGRAM: Kind[PartProgram] = Kind(
     label="part program",
     offers="the languages in which this plugin writes part programs",
     interface="PartProgram",
-    kit="check_part_program",
     reserved=frozenset({"program"}),
     suffix=".ngc",
 )
@@ -154,7 +146,6 @@ CONTROLLER: Kind[Controller] = Kind(
     label="controller",
     offers="the controls for which this plugin writes compensation tables",
     interface="Controller",
-    kit="check_controller",
     reserved=frozenset({"controller"}),
 )
 EXTENSION: Kind[Extension] = Kind(
@@ -162,14 +153,12 @@ EXTENSION: Kind[Extension] = Kind(
     label="extension",
     offers="the groups of job keys that this plugin adds, with all that a job gets by them",
     interface="Extension",
-    kit="check_extension",
 )
 INSTRUMENT: Kind[Instrument] = Kind(
     name="instrument",
     label="instrument",
     offers="the live instruments that this plugin reads",
     interface="Instrument",
-    kit="check_instrument",
     reserved=frozenset({"plugin"}),
 )
 NOTIFIER: Kind[Notifier] = Kind(
@@ -177,7 +166,6 @@ NOTIFIER: Kind[Notifier] = Kind(
     label="notifier",
     offers="the ways in which this plugin tells people what a fleet came to",
     interface="Notifier",
-    kit="check_notifier",
     reserved=frozenset({"plugin", "tells"}),
 )
 
