@@ -33,6 +33,7 @@ SCATTERS: dict[str, Callable[[random.Random], float]] = {
     "1/30, all alike": lambda _: 1 / 30,
     "from 1/60 to 1/15, evenly on a logarithmic scale": lambda rng: math.exp(rng.uniform(*_LOGARITHMS)),
     "1/60 or 1/15, half of them each": lambda rng: rng.choice((1 / 60, 1 / 15)),
+    "1/30 or 1/10, half of them each": lambda rng: rng.choice((1 / 30, 1 / 10)),
     "1/40, and 1/10 of every tenth axis": lambda rng: 1 / 10 if rng.random() < 0.1 else 1 / 40,
     "1/40, and 1/8 of every fiftieth axis": lambda rng: 1 / 8 if rng.random() < 0.02 else 1 / 40,
 }
