@@ -30,6 +30,8 @@ if TYPE_CHECKING:
 
 #: Heights of the graph, mm: the least, that with a table by position below it, and the most.
 _LEAST_GRAPH, _LEAST_ABOVE_TABLE, _LARGEST_GRAPH = 38.0, 50.0, 130.0
+#: What a page before the last has besides, points: no end of the document, but some to spare for browsers.
+_GAINED = room.END_MARK - 9.0
 #: Of its caption and of the space around it, mm.
 _BESIDE_GRAPH = 8.0
 
@@ -56,7 +58,7 @@ def lay_out(of: Material) -> LaidOut:
     pages = together(of.evaluated, of.writer)
     for page in pages:
         beside = 0.0 if sections else room.head(of.letterhead, of.title)
-        section, left_over = _sheet(of, page, beside if page is pages[-1] else beside - room.END_MARK)
+        section, left_over = _sheet(of, page, beside if page is pages[-1] else beside - _GAINED)
         beyond |= left_over
         sections.append(section)
     if beyond and of.job.keys.certificate.kind == "certificate":
