@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from verification.issued import READINGS, issue, lay_out, with_attachment, with_results
+from verification.issued import LABORATORY, READINGS, issue, lay_out, with_attachment, with_results
 from zlmreport.certificate.build import GENERATOR
 from zlmreport.cli import main
 
@@ -48,6 +48,21 @@ def test_a_certificate_that_holds_is_told_with_what_that_rests_on(report: bytes,
     assert others[1] == "  files      6 of 6 attached files as the certificate states"
     assert others[3] == "  pages      3 of 3 pages as printed again"
     assert "  P        7.2563      7.2563  holds" in others
+
+
+def test_a_german_certificate_is_told_in_german(run: Run, tmp_path: Path) -> None:
+    german = LABORATORY.replace("kind: report", "kind: report, language: de")
+    pdf = issue(lay_out(tmp_path / "de", laboratory=german))
+    code, output, _ = run(pdf)
+    head, identity, _, *others = output.splitlines()
+    assert (code, head) == (0, "report.pdf  bestätigt: in sich stimmig, Herkunft unbekannt")
+    assert identity.endswith(f", ausgestellt 2026-11-20, hergestellt von {GENERATOR}")
+    assert others[0] == "  Signatur  nicht signiert: nichts sagt, wer die Datei hergestellt hat"
+    assert others[1] == "  Dateien   6 von 6 angehängten Dateien wie im Schein angegeben"
+    assert "  nmtba    angegeben  berechnet  µm" in others
+    _, output, _ = run(with_value(pdf, 7.25))
+    assert output.startswith("report.pdf  nicht bestätigt: 1 Abweichung\n")
+    assert run(pdf, "--json")[1].count('"verdict": "holds"') > 1
 
 
 def test_a_certificate_that_does_not_hold_ends_with_1_and_says_what_differs(report: bytes, run: Run) -> None:

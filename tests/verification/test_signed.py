@@ -18,6 +18,7 @@ from verification.issued import LABORATORY, altered, lay_out, registry, with_dig
 from zlmreport import pipeline
 from zlmreport.cli.arguments.documents import SIGN_PASSWORD
 from zlmreport.cli.report import signer_of
+from zlmreport.cli.terminal import said
 from zlmreport.errors import Place
 from zlmreport.job.loading import load
 from zlmreport.signing.signer import open_signer
@@ -40,7 +41,7 @@ def sign(tmp_path_factory: pytest.TempPathFactory) -> Sign:
 
 def test_an_unsigned_certificate_holds_and_the_finding_says_so(issued: bytes, verified: Verify) -> None:
     signature = verified(issued).signature
-    assert (signature.verdict, signature.detail) == (
+    assert (signature.verdict, said(signature.detail)) == (
         Verdict.OPEN,
         "not signed: nothing tells who made the file",
     )
@@ -50,7 +51,7 @@ def test_a_signed_certificate_holds_and_names_the_signer(issued: bytes, sign: Si
     found = verified(sign(issued))
     assert found.holds
     assert found.signature.verdict is Verdict.HOLDS
-    assert f"intact, by Common Name: {NAME}" in found.signature.detail
+    assert f"intact, by Common Name: {NAME}" in said(found.signature.detail)
     assert {each.verdict for each in (*found.pages, *found.document)} == {Verdict.HOLDS}
 
 
@@ -72,8 +73,8 @@ def test_a_certificate_with_a_time_stamp_holds_without_a_network(
     found = verified(document.content)
     assert found.holds
     assert {each.verdict for each in (*found.pages, *found.document, *found.files)} == {Verdict.HOLDS}
-    assert "UTC by a time stamp of Common Name: Test Clock, of unknown trust" in found.signature.detail
-    assert "; kept with its proofs since 20" in found.signature.detail
+    assert "UTC by a time stamp of Common Name: Test Clock, of unknown trust" in said(found.signature.detail)
+    assert "; kept with its proofs since 20" in said(found.signature.detail)
 
 
 def test_a_signed_certificate_that_was_altered_before_does_not_hold(
@@ -98,10 +99,10 @@ def test_a_change_after_the_signature_is_found(issued: bytes, sign: Sign, verifi
     changed = BytesIO()
     writer.write(changed)
     found = verified(changed.getvalue())
-    assert found.signature.detail.startswith(
+    assert said(found.signature.detail).startswith(
         "the file is signed, but something was added after it was signed"
     )
-    assert "the page's /Rotate" in found.signature.detail
+    assert "the page's /Rotate" in said(found.signature.detail)
     assert found.pages[0].verdict is Verdict.DIFFERS
 
 

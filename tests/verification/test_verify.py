@@ -30,6 +30,7 @@ from verification.issued import (
 )
 from zlmreport import pipeline
 from zlmreport.certificate.build import GENERATOR
+from zlmreport.cli.terminal import said
 from zlmreport.verification.findings import Finding, Outcome, Verdict, Verification
 
 Verify = Callable[[bytes], Verification]
@@ -349,7 +350,7 @@ def test_what_another_release_made_holds_if_all_of_it_is_repeated(older: bytes, 
     found = verified(older)
     assert found.outcome is Outcome.HOLDS
     assert found.identity.generator == "zlmreport 0.0.9"
-    assert found.remarks == (
+    assert tuple(map(said, found.remarks)) == (
         f"made by zlmreport 0.0.9; this is {GENERATOR}, and it repeats all of it in that name",
     )
 
@@ -373,7 +374,7 @@ def test_what_another_release_stated_and_this_cannot_repeat_is_not_decided(
 ) -> None:
     found = verified(change(older))
     assert (found.outcome, found.undecided) == (Outcome.UNDECIDED, (part,))
-    assert found.remarks[0].startswith(f"made by zlmreport 0.0.9, and this is {GENERATOR}: ")
+    assert said(found.remarks[0]).startswith(f"made by zlmreport 0.0.9, and this is {GENERATOR}: ")
 
 
 def test_a_value_that_the_readings_do_not_give_is_wrong_in_every_release(

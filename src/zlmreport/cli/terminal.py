@@ -41,9 +41,9 @@ class Colour(Enum):
         return f"\x1b[{self.value}m{text}\x1b[0m"
 
 
-def said(words: Words | str) -> str:
-    """Return words as the terminal has them: in English, and with blanks that a search finds."""
-    text = words if isinstance(words, str) else words.in_language(Language.ENGLISH)
+def said(words: Words | str, language: Language = Language.ENGLISH) -> str:
+    """Return words as the terminal has them, with blanks that a search finds."""
+    text = words if isinstance(words, str) else words.in_language(language)
     return text.replace(HELD, " ")
 
 

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from argparse import Namespace
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import asdict
+from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeAlias
 
-from zlmreport.cli.terminal import Colour, print_json, shown_path, table, visible
+from zlmreport.cli.terminal import Colour, print_json, said, shown_path, table, visible
 from zlmreport.errors import Place
+from zlmreport.language import Words
 from zlmreport.plugins import find_plugins
 from zlmreport.quantities.units import printed_symbol
 from zlmreport.signing.state import trusted_by_user, trusted_certificates
@@ -24,7 +26,22 @@ _MOST_LINES = 12
 _LONGEST_TEXT = 40
 #: Steps of a value's path that say nothing to people.
 _CONTAINERS = frozenset({"evaluations", "parameters", "positions"})
-_AS_STATED, _AS_PRINTED = "as the certificate states", "as printed again"
+_SAID = {
+    Verdict.HOLDS: Words(en="holds", de="stimmt"),
+    Verdict.DIFFERS: Words(en="differs", de="weicht ab"),
+    Verdict.OPEN: Words(en="not compared", de="nicht verglichen"),
+    Outcome.HOLDS: Words(en="holds", de="bestätigt"),
+    Outcome.DOES_NOT_HOLD: Words(en="does not hold", de="nicht bestätigt"),
+    Outcome.UNDECIDED: Words(en="not decided", de="nicht entschieden"),
+}
+_PARTS = {
+    "signature": Words(en="signature", de="Signatur"),
+    "files": Words(en="files", de="Dateien"),
+    "values": Words(en="values", de="Werte"),
+    "pages": Words(en="pages", de="Seiten"),
+    "document": Words(en="document", de="Dokument"),
+}
+_Say: TypeAlias = Callable[[Words | str], str]
 SCHEMA = "zlmreport/verification/1"
 
 
@@ -47,76 +64,102 @@ def run(options: Namespace) -> int:
 
 
 def _lines(path: Path, found: Verification) -> Iterator[str]:
-    """Yield the _lines on a certificate."""
-    yield f"{Colour.BOLD.of(shown_path(path))}  {_verdict(found)}"
-    identity = found.identity
+    """Yield the lines on a certificate, in its language; what differs is told in English."""
+    identity, signature = found.identity, found.signature
+    say = partial(said, language=identity.language)
+    yield f"{Colour.BOLD.of(shown_path(path))}  {_verdict(found, say)}"
     if identity.number:
-        issued = f", issued {identity.issued}" if identity.issued else ""
-        yield visible(f"  {identity.title} {identity.number}{issued}, made by {identity.generator}")
+        issued = Words(en=", issued {date}", de=", ausgestellt {date}").given(date=identity.issued)
+        made_by = Words(en="made by {program}", de="hergestellt von {program}").given(
+            program=identity.generator
+        )
+        date = say(issued) if identity.issued else ""
+        yield visible(f"  {identity.title} {identity.number}{date}, {say(made_by)}")
     yield ""
+    stated = Words(
+        en="{of} attached files as the certificate states",
+        de="{of} angehängten Dateien wie im Schein angegeben",
+    )
+    pages = Words(en="{of} pages as printed again", de="{of} Seiten wie erneut gedruckt")
+    parts = Words(en="{of} parts as printed again", de="{of} Teilen wie erneut gedruckt")
+    note = say(Words(en="note", de="Hinweis"))
     yield from table(
         [
-            ("signature", _in_colour(found.signature.verdict, visible(found.signature.detail))),
-            *_summary("files", found.files, f"attached files {_AS_STATED}"),
-            *_numbers(found.values),
-            *_summary("pages", found.pages, f"pages {_AS_PRINTED}"),
-            *_summary("document", found.document, f"parts {_AS_PRINTED}"),
-            *(("note", Colour.YELLOW.of(visible(remark))) for remark in found.remarks),
+            (say(_PARTS["signature"]), _COLOURS[signature.verdict].of(visible(say(signature.detail)))),
+            *_summary(say(_PARTS["files"]), found.files, stated, say),
+            *_numbers(found.values, say),
+            *_summary(say(_PARTS["pages"]), found.pages, pages, say),
+            *_summary(say(_PARTS["document"]), found.document, parts, say),
+            *((note, Colour.YELLOW.of(visible(say(remark)))) for remark in found.remarks),
         ],
         indent="  ",
     )
     for standard in dict.fromkeys(value.path[1] for value in found.values if _is_of_parameter(value)):
         yield ""
-        yield from _parameters(standard, found.values)
+        yield from _parameters(standard, found.values, say)
 
 
-def _verdict(found: Verification) -> str:
+def _verdict(found: Verification, say: _Say) -> str:
+    outcome, count = say(_SAID[found.outcome]), found.differences
     match found.outcome:
+        case Outcome.HOLDS if found.is_trusted:
+            trusted = Words(
+                en="signed by a key that is trusted", de="signiert mit einem Schlüssel, dem vertraut wird"
+            )
+            return f"{Colour.GREEN.of(outcome)}: {say(trusted)}"
         case Outcome.HOLDS:
-            origin = "signed by a key that is trusted" if found.is_trusted else "consistent, origin unknown"
-            return f"{Colour.GREEN.of('holds')}: {origin}"
+            unknown = Words(en="consistent, origin unknown", de="in sich stimmig, Herkunft unbekannt")
+            return f"{Colour.GREEN.of(outcome)}: {say(unknown)}"
         case Outcome.UNDECIDED:
-            parts = " and ".join(found.undecided)
-            return f"{Colour.YELLOW.of('not decided')}: {parts} could not be compared whole"
-    count = found.differences
-    return f"{Colour.RED.of('does not hold')}: {count} {'difference' if count == 1 else 'differences'}"
+            names = say(Words(en=" and ", de=" und ")).join(say(_PARTS[each]) for each in found.undecided)
+            open_parts = Words(
+                en="{names} could not be compared whole", de="{names} nicht vollständig vergleichbar"
+            )
+            return f"{Colour.YELLOW.of(outcome)}: {say(open_parts.given(names=names))}"
+    one, more = (
+        Words(en="1 difference", de="1 Abweichung"),
+        Words(en="{n} differences", de="{n} Abweichungen"),
+    )
+    return f"{Colour.RED.of(outcome)}: {say(one if count == 1 else more.given(n=count))}"
 
 
-def _in_colour(verdict: Verdict, text: str) -> str:
-    return _COLOURS[verdict].of(text)
-
-
-def _summary(label: str, findings: Sequence[Finding], what: str) -> Iterator[tuple[str, str]]:
+def _summary(label: str, findings: Sequence[Finding], what: Words, say: _Say) -> Iterator[tuple[str, str]]:
     """Yield how many findings hold, and each that does not."""
     if not findings:
         return
     others = [each for each in findings if each.verdict is not Verdict.HOLDS]
-    yield label, f"{len(findings) - len(others)} of {len(findings)} {what}"
+    yield label, say(what.given(of=_of(len(findings) - len(others), len(findings))))
     for each in others[:_MOST_LINES]:
-        yield (
-            "",
-            f"{_in_colour(each.verdict, each.verdict.value)}  {visible(f'{each.subject}: {each.detail}')}",
-        )
+        verdict = _COLOURS[each.verdict].of(say(_SAID[each.verdict]))
+        yield "", f"{verdict}  {visible(f'{each.subject}: {say(each.detail)}')}"
     if len(others) > _MOST_LINES:
-        yield "", f"and {len(others) - _MOST_LINES} more: see --json"
+        more = Words(en="and {n} more: see --json", de="und {n} weitere: siehe --json")
+        yield "", say(more.given(n=len(others) - _MOST_LINES))
 
 
-def _numbers(values: Sequence[Value]) -> Iterator[tuple[str, str]]:
+def _of(number: int, total: int) -> Words:
+    return Words(en="{number} of {total}", de="{number} von {total}").given(number=number, total=total)
+
+
+def _numbers(values: Sequence[Value], say: _Say) -> Iterator[tuple[str, str]]:
     """Yield how many numbers hold, and each value that does not and stands in no table below."""
     numbers = sum(value.is_number for value in values)
     if not numbers:
         return
     holding = sum(value.is_number and value.verdict is Verdict.HOLDS for value in values)
-    yield "numbers", f"{holding} of {numbers} as the attached readings give them"
+    given = Words(
+        en="{of} as the attached readings give them", de="{of} wie aus den angehängten Messwerten berechnet"
+    )
+    yield say(Words(en="numbers", de="Zahlen")), say(given.given(of=_of(holding, numbers)))
     elsewhere = [
         Finding(" ".join(step for step in value.path if step not in _CONTAINERS), value.verdict, _both(value))
         for value in values
         if value.verdict is Verdict.DIFFERS and not _is_of_parameter(value)
     ]
-    yield from list(_summary("", elsewhere, ""))[1:]
+    yield from list(_summary("", elsewhere, given, say))[1:]
 
 
-def _parameters(standard: str, values: Sequence[Value]) -> Iterator[str]:
+def _parameters(standard: str, values: Sequence[Value], say: _Say) -> Iterator[str]:
     """Yield the parameters of a standard, each with all that is stated of it and differs."""
     of_standard = [value for value in values if _is_of_parameter(value) and value.path[1] == standard]
     units = {str(value.recomputed) for value in of_standard if value.path[-1] == "unit"}
@@ -132,10 +175,12 @@ def _parameters(standard: str, values: Sequence[Value]) -> Iterator[str]:
             (
                 visible(symbol),
                 *(_shown(value) if value else ("", "")),
-                _in_colour(verdict, verdict.value) + visible(f"  {others}" if others else ""),
+                _COLOURS[verdict].of(say(_SAID[verdict])) + visible(f"  {others}" if others else ""),
             )
         )
-    yield from table([(visible(standard), "stated", "recomputed", unit), *rows], right=(1, 2), indent="  ")
+    stated, recomputed = Words(en="stated", de="angegeben"), Words(en="recomputed", de="berechnet")
+    head = visible(standard), say(stated), say(recomputed), unit
+    yield from table([head, *rows], right=(1, 2), indent="  ")
 
 
 def _is_of_parameter(value: Value) -> bool:
@@ -191,7 +236,7 @@ def _values(path: Path, found: Verification, exit_code: int) -> dict[str, Any]:
         ],
         "pages": _findings(found.pages),
         "document": _findings(found.document),
-        "remarks": list(found.remarks),
+        "remarks": list(map(said, found.remarks)),
     }
 
 
@@ -200,4 +245,4 @@ def _findings(findings: Iterable[Finding]) -> list[dict[str, str]]:
 
 
 def _finding(finding: Finding) -> dict[str, str]:
-    return {"subject": finding.subject, "verdict": finding.verdict.value, "detail": finding.detail}
+    return {"subject": finding.subject, "verdict": finding.verdict.value, "detail": said(finding.detail)}

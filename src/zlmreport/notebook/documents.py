@@ -16,6 +16,7 @@ from zlmreport.errors import InputError, Place, did_you_mean
 from zlmreport.files import Document, demand_free, write
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
+from zlmreport.language import Language, Words
 from zlmreport.notebook.readings import Readings, Table, as_html, checked, registry
 from zlmreport.notebook.results import Result
 from zlmreport.verification.findings import Verification as Verified
@@ -142,7 +143,11 @@ class Verification:
         found = self._found
         statements = (found.signature, *found.files, *found.pages, *found.document)
         return (
-            *(f"{each.subject}: {each.detail}" for each in statements if each.verdict == "differs"),
+            *(
+                f"{each.subject}: {_in_english(each.detail)}"
+                for each in statements
+                if each.verdict == "differs"
+            ),
             *(
                 f"{'.'.join(each.path)}: {each.stated} is stated, {each.recomputed} computed"
                 for each in found.values
@@ -153,7 +158,7 @@ class Verification:
     @property
     def remarks(self) -> tuple[str, ...]:
         """What limits the comparison."""
-        return self._found.remarks
+        return tuple(map(_in_english, self._found.remarks))
 
     def __bool__(self) -> bool:
         """Whether it holds."""
@@ -166,6 +171,10 @@ class Verification:
     def _repr_html_(self) -> str:
         rows = [(each,) for each in self.differences] or [("Every statement that could be compared holds.",)]
         return as_html((f"{self.number}: {_OUTCOMES[self._found.outcome]}",), rows)
+
+
+def _in_english(words: Words | str) -> str:
+    return words if isinstance(words, str) else words.in_language(Language.ENGLISH)
 
 
 def verify(file: str | Path) -> Verification:

@@ -23,6 +23,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from zlmreport.errors import AccessError, InputError, Place, Problem, ZlmreportError
 from zlmreport.files import confined
 from zlmreport.job.types import Enclosure, enclosed
+from zlmreport.language import Language
 from zlmreport.verification.carrier import Carried, Carrier
 from zlmreport.verification.findings import Finding, Verdict
 
@@ -49,6 +50,7 @@ class _Certificate(_Lenient):
     number: str
     title: str = ""
     issued: str = ""
+    language: Language = Language.ENGLISH
 
 
 class _Provenance(_Lenient):

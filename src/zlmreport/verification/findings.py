@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from enum import StrEnum
 
+from zlmreport.language import Language, Words
+
 
 class Verdict(StrEnum):
     """What was found of a statement; one that could not be compared is not one that holds."""
@@ -43,7 +45,7 @@ class Finding:
 
     subject: str
     verdict: Verdict
-    detail: str = ""
+    detail: Words | str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,6 +81,7 @@ class Identity:
     title: str = ""
     issued: str = ""
     generator: str = ""
+    language: Language = Language.ENGLISH
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,7 +116,7 @@ class Verification:
     values: tuple[Value, ...] = ()
     pages: tuple[Finding, ...] = ()
     document: tuple[Finding, ...] = ()
-    remarks: tuple[str, ...] = field(default=())
+    remarks: tuple[Words, ...] = field(default=())
     is_signed: bool = False
     is_trusted: bool = False
 

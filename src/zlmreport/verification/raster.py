@@ -18,8 +18,9 @@ from zlmreport.verification.findings import Finding, Verdict
 _RESOLUTION = 96
 #: Of 255: the edge of a glyph that another library packed may be smoothed otherwise.
 _STEP = 48
-#: Pixels by which a mark may be off on a page that other libraries drew.
-_REACH = 1
+#: Pixels by which a mark may be off on a page that other libraries drew, and what smoothing then makes of a
+#: stroke narrower than a pixel, of 255: it is one dark pixel, or two that are half as dark.
+_REACH, _STEP_OFF = 1, 144
 _MILLIMETRES = 25.4 / _RESOLUTION
 _LONGEST = 40
 
@@ -64,8 +65,9 @@ def _difference(page: Any, again: Any, *, is_alike: bool) -> str:
         return "in another size"
     if np.array_equal(pixels, pixels_again):
         return ""
-    reach = 0 if is_alike else _REACH
-    rows, columns = np.vstack([_off(pixels, pixels_again, reach), _off(pixels_again, pixels, reach)]).T
+    rows, columns = np.vstack(
+        [_off(pixels, pixels_again, is_alike=is_alike), _off(pixels_again, pixels, is_alike=is_alike)]
+    ).T
     if not len(rows):
         return ""
     across, down = columns[0] * _MILLIMETRES, rows[0] * _MILLIMETRES
@@ -81,21 +83,19 @@ def _pixels(page: Any) -> NDArray[np.uint8]:
     return pixels
 
 
-def _off(pixels: NDArray[np.uint8], again: NDArray[np.uint8], reach: int) -> NDArray[np.intp]:
-    """Return row and column of the pixels that have on the other page none alike within reach."""
-    rows, columns = np.nonzero(_step(pixels, again))
-    colours = pixels[rows, columns]
-    is_off = np.ones(len(rows), dtype=bool)
+def _off(pixels: NDArray[np.uint8], again: NDArray[np.uint8], *, is_alike: bool) -> NDArray[np.intp]:
+    """Return row and column of the pixels that are darker or lighter than all near them on the other page."""
+    reach, step = (0, _STEP) if is_alike else (_REACH, _STEP_OFF)
+    differing = np.maximum(pixels, again) - np.minimum(pixels, again)
+    rows, columns = np.nonzero(np.any(differing > step, axis=-1))
     height, width, _ = again.shape
-    for down in range(-reach, reach + 1):
-        for across in range(-reach, reach + 1):
-            near = again[(rows + down).clip(0, height - 1), (columns + across).clip(0, width - 1)]
-            is_off &= _step(colours, near)
+    near = np.stack(
+        [
+            again[(rows + down).clip(0, height - 1), (columns + across).clip(0, width - 1)].astype(np.int16)
+            for down in range(-reach, reach + 1)
+            for across in range(-reach, reach + 1)
+        ]
+    )
+    colours = pixels[rows, columns]
+    is_off = np.any((colours < near.min(axis=0) - step) | (colours > near.max(axis=0) + step), axis=-1)
     return np.stack([rows[is_off], columns[is_off]], axis=1)
-
-
-def _step(one: NDArray[np.uint8], other: NDArray[np.uint8]) -> NDArray[np.bool_]:
-    """Return where two colours differ by more than another smoothing of an edge."""
-    greater = np.maximum(one, other) - np.minimum(one, other)
-    found: NDArray[np.bool_] = np.any(greater > _STEP, axis=-1)
-    return found

@@ -16,6 +16,7 @@ from zlmreport.certificate.document import Certificate
 from zlmreport.errors import InputError, Place, ZlmreportError
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
+from zlmreport.language import Words, same
 from zlmreport.plugin.protocols import Renderer, made, relationship_of
 from zlmreport.plugins import Registry
 from zlmreport.signing.state import Integrity, Signature, SignatureState, signature_state
@@ -28,23 +29,35 @@ from zlmreport.verification.findings import Finding, Identity, Verdict, Verifica
 PRINTED = "pdf"
 _PROGRAM = GENERATOR.partition(" ")[0]
 _RELEASE = re.compile(r"\S+ \d{1,4}(\.\d{1,4}){0,3}((a|b|rc)\d{1,3})?", re.ASCII)
-_OTHER_RELEASES = (
-    "made by {stated}, and this is {here}: readings and parameters are compared, and what else differs is "
-    "not decided; to decide, install the releases that made it, and verify it there"
+_OTHER_RELEASES = Words(
+    en="made by {stated}, and this is {here}: readings and parameters are compared, and what else differs is "
+    "not decided; to decide, install the releases that made it, and verify it there",
+    de="hergestellt von {stated}, und dies ist {here}: Messwerte und Kenngrößen sind verglichen, und was "
+    "sonst abweicht, ist nicht entschieden; zum Entscheiden die Ausgaben installieren, die es hergestellt "
+    "haben, und dort prüfen",
 )
-_REPEATED = "made by {stated}; this is {here}, and it repeats all of it in that name"
-_OTHER_RENDERER = (
-    "printed by {creator}, which is not installed here: how pages are drawn is not decided; to decide, "
-    "install it"
+_REPEATED = Words(
+    en="made by {stated}; this is {here}, and it repeats all of it in that name",
+    de="hergestellt von {stated}; dies ist {here} und wiederholt alles davon unter jenem Namen",
 )
-_OWN_LOOK = (
-    "printed in a typeface or by templates of the laboratory's own (certificate.style), which it does not "
-    "carry: how its pages are drawn is not decided"
+_OWN_LOOK = Words(
+    en="printed in a typeface or by templates of the laboratory's own (certificate.style), which it does not "
+    "carry: how its pages are drawn is not decided",
+    de="gedruckt in einer Schrift oder nach Vorlagen des Laboratoriums (certificate.style), die nicht beiliegen: "
+    "wie die Seiten gezeichnet sind, ist nicht entschieden",
 )
 _NUMBER = re.compile(r"\d+[.,]\d+")
-_OTHER_LIBRARIES = (
-    "no page is drawn here as it was: other libraries printed it, or every page is altered; each mark on "
-    "each page is compared by its shape, its colour and its place"
+_OTHER_RENDERER = Words(
+    en="printed by {creator}, which is not installed here: how pages are drawn is not decided; to decide, "
+    "install it",
+    de="gedruckt von {creator}, das hier nicht installiert ist: wie die Seiten gezeichnet sind, ist nicht "
+    "entschieden; zum Entscheiden installieren",
+)
+_OTHER_LIBRARIES = Words(
+    en="no page is drawn here as it was: other libraries printed it, or every page is altered; each mark on "
+    "each page is compared by its shape, its colour and its place",
+    de="keine Seite ist hier so gezeichnet wie dort: andere Bibliotheken haben sie gedruckt, oder jede Seite "
+    "ist verändert; jedes Zeichen jeder Seite ist nach Form, Farbe und Ort verglichen",
 )
 
 _SIGNATURE = "signature"
@@ -149,7 +162,10 @@ def _unforeseen(place: Place, error: Exception) -> ZlmreportError:
 
 def _identity(results: Results) -> Identity:
     certificate = results.certificate
-    return Identity(certificate.number, certificate.title, certificate.issued, results.provenance.generator)
+    generator = results.provenance.generator
+    return Identity(
+        certificate.number, certificate.title, certificate.issued, generator, certificate.language
+    )
 
 
 def _again(job_path: Path, carrier: Carrier, stated: Results, registry: Registry) -> _Again:
@@ -231,10 +247,10 @@ def _compared(found: Verification, carrier: Carrier, stated: Stated, again: _Aga
         remark = _OTHER_RELEASES if left_open.undecided else _REPEATED
         stated_programs = _named(provenance.generator, provenance.plugins)
         return replace(
-            left_open, remarks=(remark.format(stated=stated_programs, here=_named(*again.programs)),)
+            left_open, remarks=(remark.given(stated=stated_programs, here=_named(*again.programs)),)
         )
     if not again.is_by_its_own_renderer:
-        remark = _OTHER_RENDERER.format(creator=carrier.creator or "another renderer")
+        remark = _OTHER_RENDERER.given(creator=carrier.creator or "another renderer")
         return replace(_left_open(found), remarks=(remark,))
     if again.has_own_look:
         lacking = guarded(lambda: _numbers(again.prints.carrier) - _numbers(carrier), carrier.place)
@@ -273,26 +289,65 @@ def _signature_finding(state: SignatureState, *, is_required: bool) -> Finding:
     `is_required` says whether it must bear an intact signature that is trusted.
     """
     details = {
-        Integrity.INTACT: "; ".join(map(_signed, state.signatures)),
-        Integrity.ALTERED: f"the file is signed, but {state.reason}",
-        Integrity.UNSIGNED: "not signed: nothing tells who made the file",
-        Integrity.UNCHECKED: f"signed, but the signature is not checked: {state.reason}",
+        Integrity.INTACT: _joined([_signed(each) for each in state.signatures]),
+        Integrity.ALTERED: Words(
+            en="the file is signed, but {reason}", de="die Datei ist signiert, aber: {reason}"
+        ).given(reason=state.reason),
+        Integrity.UNSIGNED: Words(
+            en="not signed: nothing tells who made the file",
+            de="nicht signiert: nichts sagt, wer die Datei hergestellt hat",
+        ),
+        Integrity.UNCHECKED: Words(
+            en="signed, but the signature is not checked: {reason}",
+            de="signiert, aber die Signatur ist nicht geprüft: {reason}",
+        ).given(reason=state.reason),
     }
     verdict, detail = _INTEGRITY[state.integrity], details[state.integrity]
     if is_required and not state.is_trusted and state.integrity is not Integrity.UNCHECKED:
-        return Finding(_SIGNATURE, Verdict.DIFFERS, f"{detail}; a signature that is trusted is required")
+        required = Words(
+            en="a signature that is trusted is required", de="eine Signatur, der vertraut wird, ist verlangt"
+        )
+        return Finding(_SIGNATURE, Verdict.DIFFERS, _joined([detail, required]))
     return Finding(_SIGNATURE, verdict, detail)
 
 
-def _signed(signature: Signature) -> str:
-    whose = f"{signature.signer} (SHA-256 of the signer's certificate {signature.fingerprint})"
+def _joined(parts: Sequence[Words]) -> Words:
+    """Return statements in a row."""
+    names = [f"part_{number}" for number in range(len(parts))]
+    frame = "; ".join(f"{{{name}}}" for name in names)
+    return Words(frame, frame, dict(zip(names, parts, strict=True)))
+
+
+def _signed(signature: Signature) -> Words:
+    when = f"{signature.time:%Y-%m-%d %H:%M %Z}".rstrip() if signature.time else ""
     if signature.is_stamp:
-        return f"kept with its proofs since {signature.time:%Y-%m-%d %H:%M %Z}, by {signature.signer}"
-    when = f", {signature.time:%Y-%m-%d %H:%M %Z}".rstrip() if signature.time else ""
-    if signature.stamped_by:
-        trust = "trusted" if signature.is_time_trusted else "of unknown trust"
-        when += f" by a time stamp of {signature.stamped_by}, {trust}"
-    elif signature.time:
-        when += " by the signer's clock"
-    trust = "trusted" if signature.is_trusted else signature.distrust or "of unknown trust"
-    return f"intact, by {whose}{when}; {trust}"
+        kept = Words(
+            en="kept with its proofs since {when}, by {stamper}",
+            de="mit ihren Nachweisen verwahrt seit {when}, von {stamper}",
+        )
+        return kept.given(when=when, stamper=signature.signer)
+    by_clock = Words(en=", {when} by the signer's clock", de=", {when} nach der Uhr des Signierenden")
+    by_stamp = Words(
+        en=", {when} by a time stamp of {stamper}, {trust}",
+        de=", {when} nach einem Zeitstempel von {stamper}, {trust}",
+    ).given(stamper=signature.stamped_by, trust=_trust(is_trusted=signature.is_time_trusted))
+    said = Words(
+        en="intact, by {signer} (SHA-256 of the signer's certificate {digest}){time}; {trust}",
+        de="unversehrt, von {signer} (SHA-256 des Zertifikats {digest}){time}; {trust}",
+    )
+    return said.given(
+        signer=signature.signer,
+        digest=signature.fingerprint,
+        time=(by_stamp if signature.stamped_by else by_clock).given(when=when) if when else "",
+        trust=_trust(signature.distrust, is_trusted=signature.is_trusted),
+    )
+
+
+def _trust(distrust: str = "", *, is_trusted: bool) -> Words:
+    if is_trusted:
+        return Words(en="trusted", de="ihm wird vertraut")
+    return (
+        same(distrust)
+        if distrust not in {"", "of unknown trust"}
+        else Words(en="of unknown trust", de="ob ihm zu trauen ist, ist unbekannt")
+    )
