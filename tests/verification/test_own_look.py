@@ -31,7 +31,7 @@ def test_its_values_are_decided_and_how_its_pages_are_drawn_is_not(
     assert found.outcome is Outcome.UNDECIDED
     assert {each.verdict for each in (*found.files, *found.values)} == {Verdict.HOLDS}
     assert Verdict.DIFFERS not in {each.verdict for each in (*found.pages, *found.document)}
-    assert "typeface or by templates" in found.remarks[0]
+    assert "typeface or by templates" in found.remarks[0].en
 
 
 def test_a_number_that_is_taken_from_its_pages_is_found(

@@ -43,8 +43,8 @@ _REPEATED = Words(
 _OWN_LOOK = Words(
     en="printed in a typeface or by templates of the laboratory's own (certificate.style), which it does not "
     "carry: how its pages are drawn is not decided",
-    de="gedruckt in einer Schrift oder nach Vorlagen des Laboratoriums (certificate.style), die nicht beiliegen: "
-    "wie die Seiten gezeichnet sind, ist nicht entschieden",
+    de="gedruckt in einer Schrift oder nach Vorlagen des Laboratoriums (certificate.style), die nicht "
+    "beiliegen: wie die Seiten gezeichnet sind, ist nicht entschieden",
 )
 _NUMBER = re.compile(r"\d+[.,]\d+")
 _OTHER_RENDERER = Words(
