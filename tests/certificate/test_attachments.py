@@ -19,6 +19,7 @@ from zlmreport.certificate.attachments import (
     arranged,
     media_type,
     source_attachments,
+    sources,
 )
 from zlmreport.certificate.document import Certificate
 from zlmreport.errors import InputError
@@ -58,6 +59,21 @@ def test_the_job_its_readings_and_what_it_names_are_its_sources(tmp_path: Path) 
         "../laboratory.yaml": Role.EXTENDED,
         "six.txt": Role.READINGS,
         "../pictures/logo.png": Role.LOGO,
+    }
+
+
+def test_further_tests_and_what_earlier_ones_taught_are_named_as_such(tmp_path: Path) -> None:
+    (tmp_path / "priors.yaml").write_text(
+        "schema: zlmreport/priors/1\nkind: linear\ntests: 8\nnoise: {}\neffects: {}\n"
+    )
+    (tmp_path / "six.txt").write_text("1 2 3 -1 -2 -3")
+    (tmp_path / "second.yaml").write_text(SOUND)
+    (tmp_path / "job.yaml").write_text(f"{SOUND}model: {{sessions: [second.yaml], priors: priors.yaml}}\n")
+    job = load(tmp_path / "job.yaml", REGISTRY)
+    assert paths(sources(job, (), None)) == {
+        "job.yaml": Role.JOB,
+        "second.yaml": Role.SESSION,
+        "priors.yaml": Role.PRIORS,
     }
 
 

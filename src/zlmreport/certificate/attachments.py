@@ -86,6 +86,8 @@ class Role(Enum):
     EXTENDED = ("extended", Words(en="Extended by the job", de="Vom Auftrag erweitert"))
     TABLE = ("table", Words(en="Table of the axis", de="Tabelle der Achse"))
     READINGS = ("readings", Words(en="Readings", de="Messwerte"))
+    SESSION = ("session", Words(en="Further test of the axis", de="Weitere Messung der Achse"))
+    PRIORS = ("priors", Words(en="What earlier tests taught", de="Was frühere Messungen lehrten"))
     LOGO = ("logo", Words(en="Logo of the laboratory", de="Logo des Labors"))
 
     def __init__(self, key: str, title: Words) -> None:
@@ -134,9 +136,11 @@ def sources(job: Job, readings: Iterable[SourceFile], logo: SourceFile | None) -
     def add(role: Role, file: SourceFile) -> None:
         found.setdefault((_path(file, job, stated), file.sha256), (role, file))
 
-    tables = set(job.axis.files)
+    known = dict.fromkeys((file for each in job.sessions for file in each.files), Role.SESSION)
+    known |= dict.fromkeys(job.files[-1:] if job.priors else (), Role.PRIORS)
+    known |= dict.fromkeys(job.axis.files, Role.TABLE)
     for number, file in enumerate(job.files):
-        add(Role.TABLE if file in tables else Role.EXTENDED if number else Role.JOB, file)
+        add(known.get(file, Role.EXTENDED) if number else Role.JOB, file)
     for file in readings:
         add(Role.READINGS, file)
     if logo:
