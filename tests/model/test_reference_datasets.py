@@ -20,8 +20,10 @@ _ROW = re.compile(r"^\| ([A-Z]\w+) \| [^|]+ \| (\d+) \| (\d+) \| (\d+|–) \| (\
 STATED = {name: digits for name, *digits in _ROW.findall(_PAGE)}
 _NAMES = (*LINEAR, *NONLINEAR)
 _MORE_THAN_DOUBLES_HOLD = 1e-16
-#: Half a digit differs from one library of linear algebra to the next; the page states whole ones, safely.
+#: Libraries of linear algebra have other kernels for other processors. Mostly they differ by half a digit, on
+#: Lanczos3, the worst conditioned, by three (6.4 to 9.9 from five kernels). The page states what all reach.
 _LIBRARIES = 0.5
+_KERNELS = 3
 
 
 @cache
@@ -88,11 +90,11 @@ def test_the_digits_that_the_page_states_are_reached(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", _NAMES)
-def test_the_page_states_no_fewer_digits_than_are_reached(name: str) -> None:
+def test_the_page_states_no_fewer_digits_than_every_processor_reaches(name: str) -> None:
     certified, *stated = STATED.get(name, ["0"])
     expected = [_safely(reached, int(certified)) for reached in _reached(name)]
     close = [
-        words == safe or abs(int(words) - int(safe)) <= 1
+        words == safe or -1 <= int(safe) - int(words) <= _KERNELS
         for words, safe in zip(stated, expected, strict=True)
     ]
     assert all(close), f"as computed here: {' | '.join(expected)}"
