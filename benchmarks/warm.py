@@ -6,6 +6,8 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import Any
+from xml.etree import ElementTree as ET
 
 from alike import pages_of_same_document
 from content import Content, content
@@ -94,9 +96,19 @@ def _by_zlmreport(job: Path) -> _Product:
 
 
 def _by_zlmreport_through_svg(job: Path) -> _Product:
+    from weasyprint.images import SVGImage  # noqa: PLC0415 - in this process only
+
+    from zlmreport.figures.draw import to_svg  # noqa: PLC0415 - in this process only
     from zlmreport_plugins.renderers.pdf import press  # noqa: PLC0415 - in this process only
 
-    press.DRAWS_ON_PAGES = False
+    class Svg(press.PageGraph):  # type: ignore[misc]
+        """A figure as an image that WeasyPrint reads from SVG and draws itself."""
+
+        def draw(self, stream: Any, concrete_width: float, concrete_height: float, style: Any) -> None:
+            drawing = ET.fromstring(to_svg(self._figure, self._language))
+            SVGImage(drawing, "", None, style).draw(stream, concrete_width, concrete_height, style)
+
+    press.PageGraph = Svg
     return _by_zlmreport(job)
 
 

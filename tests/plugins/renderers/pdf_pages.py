@@ -38,11 +38,6 @@ def texts(reader: PdfReader) -> tuple[str, ...]:
     return tuple(page.extract_text() for page in reader.pages)
 
 
-def characters(reader: PdfReader) -> Counter[str]:
-    """All characters of all pages but spaces, whatever their order."""
-    return Counter("".join("".join(texts(reader)).split()))
-
-
 def printed_numbers(text: str) -> Counter[str]:
     """All numbers in a text."""
     return Counter(NUMBER.findall(text))

@@ -19,7 +19,7 @@ from zlmreport.certificate.document import Certificate
 from zlmreport.job.loading import load
 from zlmreport.language import Language
 from zlmreport.plugins import find_plugins
-from zlmreport_plugins.renderers.pdf import PdfRenderer, press
+from zlmreport_plugins.renderers.pdf import PdfRenderer
 
 
 def _with_logo() -> Certificate:
@@ -49,11 +49,6 @@ _CERTIFICATES = {
 @pytest.mark.parametrize("made", _CERTIFICATES.values(), ids=_CERTIFICATES)
 def test_it_conforms(made) -> None:
     assert complaints(PdfRenderer().render(made())) == []
-
-
-def test_it_conforms_with_graphs_by_way_of_svg(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(press, "DRAWS_ON_PAGES", False)
-    assert complaints(PdfRenderer().render(samples.certificate(standards=1))) == []
 
 
 def test_a_certificate_with_a_diagnosis_conforms() -> None:

@@ -7,7 +7,6 @@ import unicodedata
 import pytest
 
 from plugins.renderers.pdf_pages import (
-    characters,
     numbers_of,
     printed_numbers,
     read,
@@ -16,7 +15,6 @@ from plugins.renderers.pdf_pages import (
 )
 from typesetting import samples
 from zlmreport.language import Language
-from zlmreport_plugins.renderers.pdf import press
 
 
 @pytest.mark.parametrize("language", Language)
@@ -86,11 +84,6 @@ def test_graphs_carry_their_words_as_text() -> None:
     text = "\n".join(texts(sample(Language.GERMAN)))
     assert text.count("Zielposition in mm") == 4
     assert text.count("Abweichung in µm") == 4
-
-
-def test_graphs_by_way_of_svg_say_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(press, "DRAWS_ON_PAGES", False)
-    assert characters(read(samples.certificate())) == characters(sample())
 
 
 def _unspaced(text: str) -> str:

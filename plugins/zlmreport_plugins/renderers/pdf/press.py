@@ -18,7 +18,7 @@ from xml.etree import ElementTree as ET
 
 import pydyf
 from cssselect2 import ElementWrapper
-from weasyprint import CSS, HTML, VERSION, Attachment
+from weasyprint import CSS, HTML, Attachment
 from weasyprint.css.properties import INITIAL_VALUES
 from weasyprint.draw.text import draw_first_line
 from weasyprint.matrix import Matrix
@@ -43,7 +43,6 @@ from zlmreport.plugin import (
     compose_html,
     draw_figure,
     figure_size,
-    figure_to_svg,
     font_face_rules,
     font_file,
     own_style,
@@ -53,9 +52,6 @@ from zlmreport_plugins.renderers.pdf import structure
 
 #: For archives, with its structure tagged: it costs a tenth more time than a plain one.
 VARIANT = "pdf/a-3a"
-
-#: Whether graphs are drawn straight on this WeasyPrint's pages; any other redraws them from SVG, and slowly.
-DRAWS_ON_PAGES = VERSION.partition(".")[0] == "70"
 
 _FONT_ADDRESS = "font:{}"
 _PROFILE = "--srgb"
@@ -98,7 +94,9 @@ class Press:
 
     def print(self, certificate: Certificate) -> bytes:
         """Return a certificate as PDF."""
-        document = _Document(ET.fromstring(compose_html(certificate)), Supply(_contents(certificate)))  # noqa: S314 (set here)
+        head, graphs = certificate.letterhead, enumerate(certificate.figures)
+        logo: Contents = {LOGO_ADDRESS: (head.logo, head.logo_type)} if head and head.logo else {}
+        document = _Document(ET.fromstring(compose_html(certificate)), Supply(logo))  # noqa: S314 (set here)
         with self._lock:
             pdf: bytes = document.write_pdf(
                 stylesheets=[
@@ -110,7 +108,10 @@ class Press:
                 font_config=self._fonts,
                 color_profiles=self._profiles,
                 output_intent=_PROFILE,
-                cache=_page_graphs(certificate),
+                cache={
+                    GRAPH_ADDRESS.format(number): PageGraph(figure, certificate.language)
+                    for number, figure in graphs
+                },
                 attachments=list(enclosures(certificate)),
                 pdf_variant=VARIANT,
                 finisher=partial(_finish, certificate),
@@ -144,29 +145,6 @@ def _finish(certificate: Certificate, _: Any, pdf: Any) -> None:
     associate_once(pdf)
     structure.identify(pdf, certificate)
     structure.mend(pdf, {section.key: section.title for section in certificate.sections})
-
-
-def _page_graphs(certificate: Certificate) -> dict[str, PageGraph]:
-    """Return the graphs that need no loading, by address."""
-    if not DRAWS_ON_PAGES:
-        return {}
-    return {
-        GRAPH_ADDRESS.format(number): PageGraph(figure, certificate.language)
-        for number, figure in enumerate(certificate.figures)
-    }
-
-
-def _contents(certificate: Certificate) -> Contents:
-    """Return what the document may load: the logo, and graphs that are not drawn on its pages."""
-    contents: Contents = {}
-    letterhead = certificate.letterhead
-    if letterhead and letterhead.logo:
-        contents[LOGO_ADDRESS] = letterhead.logo, letterhead.logo_type
-    if not DRAWS_ON_PAGES:
-        for number, figure in enumerate(certificate.figures):
-            drawing = figure_to_svg(figure, certificate.language).encode()
-            contents[GRAPH_ADDRESS.format(number)] = drawing, "image/svg+xml"
-    return contents
 
 
 class _Document(HTML):  # type: ignore[misc]
@@ -258,7 +236,7 @@ class PageGraph:
     ``write_pdf``, under the address that the document names: ``<img src="graph:0" alt="…">``. So a graph
     needs no SVG in between, its text is text of the document's own fonts, and the image's alternative text
     tags it. This leans on parts of WeasyPrint 70 that are no public interface: the page's stream, and text
-    laid out by Pango. Tests hold them; `zlmreport.figures.draw.to_svg` is the other way.
+    laid out by Pango. Tests hold them.
     """
 
     def __init__(self, figure: Figure, language: Language) -> None:
