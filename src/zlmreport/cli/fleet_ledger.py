@@ -13,12 +13,11 @@ from pathlib import Path
 from zlmreport.cli.terminal import shown_path, visible
 from zlmreport.errors import AccessError, Place
 from zlmreport.files import Document, write
-from zlmreport.fleet.appointments import calendar
 from zlmreport.fleet.basis import path_in
+from zlmreport.fleet.exports import calendar, metrics
 from zlmreport.fleet.ledger import Ledger, PastNight
 from zlmreport.fleet.overview import overview
 from zlmreport.fleet.overview_cells import Names
-from zlmreport.fleet.prometheus import metrics
 from zlmreport.fleet.state import FleetState, Night, Rules, state_of
 from zlmreport.job.fleet import FleetFile, is_retired, job_files, load_fleet
 from zlmreport.language import Language

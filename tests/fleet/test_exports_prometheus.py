@@ -11,7 +11,7 @@ import pytest
 from environments import ROOT
 from fleet.exposition import Family, parse
 from fleet.histories import entry, history, parameter, quarters
-from zlmreport.fleet.prometheus import heartbeat, metrics
+from zlmreport.fleet.exports import heartbeat, metrics
 from zlmreport.fleet.records import About, Entry, Notice, State
 from zlmreport.fleet.state import Night, Rules, state_of
 

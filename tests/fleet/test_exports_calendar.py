@@ -8,7 +8,7 @@ from dataclasses import replace
 from icalendar import Calendar
 
 from fleet.histories import entry
-from zlmreport.fleet.appointments import calendar
+from zlmreport.fleet.exports import calendar
 from zlmreport.fleet.state import Night, Rules, state_of
 from zlmreport.language import Language
 
