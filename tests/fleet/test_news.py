@@ -17,7 +17,7 @@ from fleet.exposition import parse
 from fleet.fleets import FLEET, Fleet, Witness, without_processes
 from fleet.histories import entry, history, parameter
 from zlmreport.errors import InputError
-from zlmreport.fleet import night, telling
+from zlmreport.fleet import news, night
 from zlmreport.fleet.news import digest, news_of
 from zlmreport.fleet.night import MissingError
 from zlmreport.fleet.plan import Planned
@@ -76,7 +76,7 @@ def post_office(monkeypatch: pytest.MonkeyPatch) -> Post:
     offered = [
         (Plugin("post", "post", "post", "1.0"), SimpleNamespace(zlmreport_notifiers=zlmreport_notifiers))
     ]
-    monkeypatch.setattr(telling, "find_plugins", lambda **_: collect(offered))
+    monkeypatch.setattr(news, "find_plugins", lambda **_: collect(offered))
     return post
 
 
@@ -165,7 +165,7 @@ def test_a_way_that_hangs_does_not_stop_the_night(
     fleet: Fleet, post: Post, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     released = threading.Event()
-    monkeypatch.setattr(telling, "PATIENCE", 0.05)
+    monkeypatch.setattr(news, "PATIENCE", 0.05)
     monkeypatch.setattr(post, "tell", lambda *_: released.wait(10))
     fleet.readings("x", "1 2")
     (notice,) = fleet.spend().notices
