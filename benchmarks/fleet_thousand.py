@@ -20,7 +20,7 @@ import report
 from fleet_nights import memory_of_workers
 from measure import Measured
 from sample import write_job
-from zlmreport.fleet import pool
+from zlmreport.fleet import workers
 from zlmreport.fleet.issuing import Happened, What
 from zlmreport.fleet.ledger import Ledger
 from zlmreport.fleet.night import Order, spend
@@ -83,7 +83,7 @@ def main(words: Sequence[str]) -> None:
     parser.add_argument("--certificates", type=int, default=1000, help="(%(default)s)")
     parser.add_argument("--format", nargs="+", default=["pdf", "pdf-typst"], help="of the PDF (%(default)s)")
     options = parser.parse_args(words)
-    pool.LIFE = sys.maxsize
+    workers.LIFE = sys.maxsize
     for each in options.format:
         with TemporaryDirectory() as folder:
             lines = list(_measured(Path(folder), options.certificates, each))

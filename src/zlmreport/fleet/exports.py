@@ -1,7 +1,7 @@
 """What a fleet leaves to other programs: samples for Prometheus, and a calendar of the tests that are due.
 
-Prometheus' node exporter collects the text format from files: metres, radians and seconds, as Prometheus has its
-units. No sample carries a time: the collector refuses them. A calendar is one of iCalendar (RFC 5545).
+The node exporter of Prometheus collects its text format from files: metres, radians and seconds, as Prometheus
+has its units; no sample carries a time, which the collector would refuse. The calendar is iCalendar.
 """
 
 from __future__ import annotations

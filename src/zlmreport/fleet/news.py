@@ -1,7 +1,7 @@
 """What is new on a morning, and the ways to tell people of it.
 
-Each event is a line, known by a subject, so that it is told once. Each way is a notifier of a plugin with its own
-keys, as the fleet file names it.
+Each event is a line, known by a subject, so that it is told once. Each way is a notifier of a plugin with
+its own keys, as the fleet file names it.
 """
 
 from __future__ import annotations

@@ -15,7 +15,6 @@ from typing import Protocol
 from zlmreport.errors import AccessError, Place, ZlmreportError
 from zlmreport.files import Document, confinement, write
 from zlmreport.fleet.basis import Basis, Disk, KnownFile, changes, program_versions
-from zlmreport.fleet.cluster import Cluster
 from zlmreport.fleet.exports import heartbeat
 from zlmreport.fleet.issuing import Desk, Happened, What, tidy
 from zlmreport.fleet.ledger import Ledger, Night, PastNight, Standing
@@ -23,10 +22,10 @@ from zlmreport.fleet.lessons import priors
 from zlmreport.fleet.making import Failed, Limits, Task, defaults_digest
 from zlmreport.fleet.news import Ways, digest, news_of, news_of_job, news_of_night, ways_of
 from zlmreport.fleet.plan import Due, Evening, Planned, plan, reasons
-from zlmreport.fleet.pool import Pool
 from zlmreport.fleet.records import About, Notice, State, due_date
 from zlmreport.fleet.state import Night as PastRun
 from zlmreport.fleet.state import Rules, state_of
+from zlmreport.fleet.workers import Cluster, Pool
 from zlmreport.job.fleet import FleetFile, is_retired, job_files, number_of
 from zlmreport.language import Language
 from zlmreport.plugin.protocols import Occasion

@@ -9,7 +9,7 @@ import pytest
 
 from fleet.deadly import PLUGIN
 from fleet.fleets import Fleet, Witness
-from zlmreport.fleet import night, pool
+from zlmreport.fleet import night, workers
 from zlmreport.fleet.issuing import What
 from zlmreport.fleet.records import State
 
@@ -27,7 +27,7 @@ def spent(fleet: Fleet) -> Witness:
     """Spend a night with two workers that make three certificates each before they are renewed."""
     witness = Witness()
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(pool, "LIFE", 3)
+        patch.setattr(workers, "LIFE", 3)
         night.spend(fleet.file, night.Order((fleet.folder / "deadly.py",), workers=2), witness)
     return witness
 

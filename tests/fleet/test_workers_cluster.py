@@ -17,7 +17,7 @@ from fleet.fleets import FLEET, Fleet, Witness
 from fleet.servers import server
 from processes import PYTHON, awaited, group
 from zlmreport.errors import AccessError
-from zlmreport.fleet import cluster, night
+from zlmreport.fleet import night, workers
 from zlmreport.fleet.issuing import What
 from zlmreport.fleet.records import State
 
@@ -118,7 +118,7 @@ def test_a_night_whose_scheduler_is_killed_says_so_and_the_next_makes_what_is_le
 def test_a_scheduler_that_is_not_there_is_named_with_its_place(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(cluster, "_PATIENCE", 0.2)
+    monkeypatch.setattr(workers, "_PATIENCE", 0.2)
     fleet = Fleet.of(tmp_path, "x")
     fleet.write("fleet.yaml", f"{FLEET}executor:\n  kind: dask\n  scheduler: tcp://127.0.0.1:1\n")
     with pytest.raises(AccessError, match=r"fleet.yaml:8:14: no scheduler with workers answers at tcp://127"):
