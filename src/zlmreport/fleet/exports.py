@@ -1,19 +1,24 @@
-"""What a fleet leaves to other programs: samples for Prometheus, and a calendar of the tests that are due.
+"""What a fleet leaves to others: samples for Prometheus, a calendar of due tests (RFC 5545), and priors.
 
-The node exporter of Prometheus collects its text format from files: metres, radians and seconds, as Prometheus
-has its units; no sample carries a time, which the collector would refuse. The calendar is iCalendar.
+The node exporter of Prometheus collects its text format from files: metres, radians and seconds, as it has
+its units; no sample carries a time, which the collector would refuse. Priors are what the tests of the fleet
+teach of noise and sizes of effects, for the next tests.
 """
 
 from __future__ import annotations
 
 import hashlib
+from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from datetime import UTC, date, datetime, timedelta
+from pathlib import Path
 from typing import TYPE_CHECKING
 
+from zlmreport.files import Document
 from zlmreport.fleet.drifts import Trend
-from zlmreport.fleet.records import About
+from zlmreport.fleet.ledger import Taught
+from zlmreport.fleet.records import About, file_name
 from zlmreport.fleet.state import FleetState, Term
 from zlmreport.language import Language, Words
 from zlmreport.quantities.units import ANGLES, ARCSECOND, LENGTHS, MICROMETRE, Unit
@@ -248,3 +253,33 @@ def _day(fleet: str, term: Term, moment: datetime, language: Language) -> Event:
     alarm.add("trigger", -_NOTICE)
     event.add_component(alarm)
     return event
+
+
+def priors(taught: Iterable[Taught], folder: Path) -> Iterator[Document]:
+    """Yield the files of priors that are not there yet: of each type of machine, for each kind of axis.
+
+    A file is named after the last day of whose tests it knows, and stays as it is: certificates are made with
+    it. The same ledger gives the same bytes.
+
+    Parameters
+    ----------
+    taught
+        In the order of measurement; a test of a machine without a manufacturer and model teaches nobody.
+    folder
+        Of the files.
+    """
+    from zlmreport.model.priors import Lesson, as_text, learned  # noqa: PLC0415 - only where there is a model
+
+    groups: defaultdict[tuple[str, str], list[Taught]] = defaultdict(list)
+    seen: set[frozenset[str]] = set()
+    for each in taught:
+        if each.subject.type and each.readings not in seen:
+            groups[file_name(each.subject.type), each.lesson["kind"]].append(each)
+            seen.add(each.readings)
+    for (type_, kind), tests in sorted(groups.items()):
+        last = tests[-1].subject.measured
+        path = folder / f"{type_}.{kind}.{last}.yaml"
+        if not path.exists():
+            found = learned([Lesson.from_json(each.lesson) for each in tests])
+            origin = f"the fleet, of {tests[-1].subject.type} and until {last},"
+            yield Document(path, as_text(found, origin).encode())

@@ -19,12 +19,12 @@ from zlmreport.certificate.document import Certificate
 from zlmreport.errors import InputError, Place, Problem, as_problems
 from zlmreport.files import confined
 from zlmreport.fleet.basis import Basis, files_behind, program_versions, programs_of, release
-from zlmreport.fleet.lessons import lesson_of
 from zlmreport.fleet.records import RecordedParameter, Subject, folder_of, parameters_of
 from zlmreport.job.fleet import FleetFile, load_fleet
 from zlmreport.job.job import Job
 from zlmreport.job.loading import chosen_formats, load
 from zlmreport.language import Words
+from zlmreport.model.effect import Effect
 from zlmreport.plugins import Registry, find_plugins
 
 #: The longest time between two signs of life of a night, s.
@@ -225,8 +225,27 @@ def _made(task: Task, job: Job, fleet: FleetFile, begun: float) -> Made:
         ),
         parameters=parameters,
         is_draft=is_draft,
-        lesson=None if is_draft else lesson_of(certificate, job, registry.effects),
+        lesson=None if is_draft else _lesson_of(certificate, job, registry.effects),
     )
+
+
+def _lesson_of(certificate: Certificate, job: Job, effects: Sequence[Effect]) -> Mapping[str, Any] | None:
+    """Return what the readings of a certificate teach; None without a model that describes them.
+
+    A job that knows of earlier tests, or of further ones, is diagnosed once more without them: each test
+    teaches by its own readings, or what one taught would come back with the next.
+    """
+    diagnosis = certificate.diagnosis
+    if diagnosis is None:
+        return None
+    from zlmreport.model.diagnosis import Verdict  # noqa: PLC0415 - only where there is a model
+    from zlmreport.model.priors import Lesson  # noqa: PLC0415
+    from zlmreport.model.study import Study  # noqa: PLC0415
+
+    if job.sessions or job.priors:
+        alone = replace(job, sessions=(), priors=None)
+        diagnosis = Study.of(alone, certificate.measurements, effects).diagnosis(effects)
+    return Lesson.of(diagnosis.fit).as_json() if diagnosis.verdict is Verdict.ADEQUATE else None
 
 
 def _kept(task: Task, folder: Path, number: str, suffixes: Sequence[str]) -> list[bytes]:

@@ -15,10 +15,9 @@ from typing import Protocol
 from zlmreport.errors import AccessError, Place, ZlmreportError
 from zlmreport.files import Document, confinement, write
 from zlmreport.fleet.basis import Basis, Disk, KnownFile, changes, program_versions
-from zlmreport.fleet.exports import heartbeat
+from zlmreport.fleet.exports import heartbeat, priors
 from zlmreport.fleet.issuing import Desk, Happened, What, tidy
 from zlmreport.fleet.ledger import Ledger, Night, PastNight, Standing
-from zlmreport.fleet.lessons import priors
 from zlmreport.fleet.making import Failed, Limits, Task, defaults_digest
 from zlmreport.fleet.news import Ways, digest, news_of, news_of_job, news_of_night, ways_of
 from zlmreport.fleet.plan import Due, Evening, Planned, plan, reasons

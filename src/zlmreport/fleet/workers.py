@@ -1,7 +1,6 @@
 """Who makes certificates: processes of this machine, or those of many that a Dask scheduler has.
 
-Processes are kept warm, renewed, missed when killed, stopped when late; the workers of a scheduler see the same
-files.
+The first are kept warm, renewed, missed when killed, stopped when late; the others see the same files.
 """
 
 from __future__ import annotations

@@ -11,9 +11,9 @@ from environments import ROOT
 from fleet.fleets import Fleet, Here
 from zlmreport.cli import main
 from zlmreport.fleet import night
+from zlmreport.fleet.exports import priors
 from zlmreport.fleet.issuing import What
 from zlmreport.fleet.ledger import Taught
-from zlmreport.fleet.lessons import priors
 from zlmreport.fleet.records import About, Subject
 
 _CONFIG = ROOT / "configs/second-test"
