@@ -81,6 +81,14 @@ def test_what_is_stopped_twice_is_set_aside_until_its_inputs_change(stopping: Fl
     assert stopping.entries()[-1].state is State.STOPPED
 
 
+def test_what_is_set_aside_is_tried_again_when_a_template_changes(stopping: Fleet) -> None:
+    template = stopping.write("jobs/look/style.css", "h2 { letter-spacing: 0 }")
+    stopping.job("x", ("  language: en\n", "  language: en\n  style: {templates: look}\n"))
+    assert [stopping.spend().what["x"] for _ in range(3)] == [What.FAILED, What.FAILED, What.SET_ASIDE]
+    template.write_text("h2 { letter-spacing: 1pt }", encoding="utf-8")
+    assert stopping.spend().what == {"x": What.FAILED}
+
+
 def test_what_is_set_aside_still_needs_somebody(stopping: Fleet) -> None:
     stopping.spend()
     stopping.spend()

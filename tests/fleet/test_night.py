@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import os
+import shutil
 from dataclasses import replace
 from pathlib import Path
 
+import matplotlib as mpl
 import pytest
 
 from fleet.fleets import FLEET, REGISTRY, VERSIONS, Fleet, without_processes
@@ -17,6 +19,7 @@ from zlmreport.fleet.ledger import Ledger
 from zlmreport.fleet.plan import Due
 from zlmreport.fleet.records import State
 
+FONTS = Path(mpl.get_data_path(), "fonts", "ttf")
 OTHER_READINGS = "2 2 3 -1 -2 -3"
 
 
@@ -80,6 +83,34 @@ def test_changed_readings_become_a_draft_beside_the_certificate(fleet: Fleet) ->
     assert (happened.what, happened.files) == (What.DRAFT, ("17/X/CAL-X.draft.txt",))
     assert fleet.certificate("x").read_bytes() == issued
     assert "Draft, not issued" in fleet.certificate("x", ".draft.txt").read_text(encoding="utf-8")
+
+
+def _look(fleet: Fleet) -> None:
+    """Give `x` a look of the laboratory's own: two fonts and a folder of templates."""
+    fonts = [FONTS / "DejaVuSerif.ttf", FONTS / "DejaVuSerif-Bold.ttf"]
+    names = [Path(shutil.copy(font, fleet.folder / "jobs")).name for font in fonts]
+    fleet.write("jobs/look/style.css", "h2 { letter-spacing: 0 }")
+    style = f"  style: {{typeface: {{regular: {names[0]}, semibold: {names[1]}}}, templates: look}}\n"
+    fleet.job("x", ("  language: en\n", f"  language: en\n{style}"))
+
+
+@pytest.mark.parametrize(
+    ("name", "why"),
+    [
+        ("DejaVuSerif.ttf", "file jobs/DejaVuSerif.ttf changed"),
+        ("DejaVuSerif-Bold.ttf", "file jobs/DejaVuSerif-Bold.ttf changed"),
+        ("look/style.css", "templates jobs/look changed"),
+        ("look/notice.html", "templates jobs/look changed"),  # a new one
+        ("look/.hidden", ""),  # no template
+    ],
+)
+def test_a_certificate_is_made_again_when_only_its_look_changes(fleet: Fleet, name: str, why: str) -> None:
+    _look(fleet)
+    assert fleet.spend().what["x"] is What.ISSUED
+    assert fleet.foretold()["x"].due is Due.NOTHING
+    with (fleet.folder / "jobs" / name).open("ab") as file:
+        file.write(b" ")
+    assert fleet.foretold()["x"].why.partition(" since")[0] == why
 
 
 def test_a_draft_says_what_changed_since_when(fleet: Fleet) -> None:

@@ -62,7 +62,8 @@ class KnownFile:
     Attributes
     ----------
     role
-        ``job``, ``readings``, ``logo`` …; of a certificate's own file, its format's suffix.
+        ``job``, ``readings``, ``logo`` …; ``templates`` of the folder of them; of a certificate's own file,
+        its format's suffix.
     path
         Relative to the folder of the fleet file, or from the root; of a certificate's own file, relative to
         the folder of certificates.
@@ -99,7 +100,10 @@ def is_intact(path: Path, file: KnownFile) -> bool:
 
 
 def sha256_of(path: Path) -> str:
-    """Return the digest of a file's bytes, hexadecimal."""
+    """Return the digest of a file's bytes, hexadecimal; of a folder, that of its files with their names."""
+    if path.is_dir():
+        held = [each for each in sorted(path.iterdir()) if each.is_file() and not each.name.startswith(".")]
+        return hashlib.sha256(repr([(each.name, sha256_of(each)) for each in held]).encode()).hexdigest()
     with path.open("rb") as opened:
         return hashlib.file_digest(opened, "sha256").hexdigest()
 
@@ -322,9 +326,8 @@ def files_behind(certificate: Certificate, job: Job, fleet: FleetFile, begun: fl
         When the work on it began, s: a file written after that may be another than the one that was read.
     """
     folder = fleet.path.parent
-    own = job.files[
-        1 if fleet.defaults else 0
-    ].path  # the first extends the defaults, too, and nobody wrote it
+    # With defaults the first file extends them, too, and nobody wrote it.
+    own = job.files[1 if fleet.defaults else 0].path
     seen: set[str] = set()
     stated = [(each.role.key, each.file.path, each.file.sha256) for each in certificate.sources]
     for role, path, sha256 in (*stated, *(("file", path, "") for path in _named(job))):
@@ -332,9 +335,10 @@ def files_behind(certificate: Certificate, job: Job, fleet: FleetFile, begun: fl
             continue
         seen.add(path_in(folder, path))
         look = Look.at(path)
-        digest = sha256 or hashlib.sha256(path.read_bytes()).hexdigest()
-        kind = "job" if path == own else role
-        yield KnownFile(kind, path_in(folder, path), digest, look if look.is_settled(begun) else None)
+        kind, settled = "job" if path == own else role, look if look.is_settled(begun) else None
+        yield KnownFile(kind, path_in(folder, path), sha256 or sha256_of(path), settled)
+    if templates := job.keys.certificate.style.templates:
+        yield KnownFile("templates", path_in(folder, templates), sha256_of(templates))
 
 
 def _named(job: Job) -> Iterator[Path]:

@@ -16,7 +16,7 @@ from zlmreport.fleet.ledger import Issued, Standing
 from zlmreport.fleet.records import State
 from zlmreport.job.extends import compose
 from zlmreport.job.fleet import FleetFile, number_of
-from zlmreport.job.tree import Items, Node, Scalar
+from zlmreport.job.tree import Items, Node, Scalar, found_at
 
 
 class Due(Enum):
@@ -171,10 +171,11 @@ def inputs_digest(path: Path, evening: Evening) -> str:
         return digest.hexdigest()
     for file in composed.files:
         digest.update(file.sha256.encode())
+    templates = found_at(composed.keys, ("certificate", "style", "templates"))
     for scalar in _scalars(composed.keys):
         named = Path(scalar.place.file).parent / scalar.text
         with contextlib.suppress(OSError, ValueError):
-            if named.is_file():
+            if named.is_file() or scalar is templates:
                 digest.update(sha256_of(named).encode())
     return digest.hexdigest()
 
