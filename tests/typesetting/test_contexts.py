@@ -23,8 +23,11 @@ TEMPLATES = sorted(file.name for file in (files(PACKAGE) / "templates").iterdir(
 PARTS = (
     templates.CellContext,
     templates.RowGroupContext,
+    document.Certificate,
     document.Facts,
     document.Letterhead,
+    document.Look,
+    document.PageWords,
     document.Party,
     overview.LinkContext,
     overview.OverviewCellContext,
@@ -53,7 +56,9 @@ def test_a_template_uses_what_its_context_documents_and_all_of_it(context: type)
 @pytest.mark.parametrize("template", TEMPLATES)
 def test_a_template_looks_only_into_fields_that_a_part_documents(template: str) -> None:
     of_loop = {"index", "first", "last", "revindex"}
-    documented = {field.name for part in PARTS for field in dataclasses.fields(part)} | of_loop
+    documented = (
+        {field.name for part in PARTS for field in dataclasses.fields(part)} | of_loop | {"running_head"}
+    )
     looked_at = {node.attr for node in parsed(template).find_all(nodes.Getattr)}
     assert looked_at <= documented
 

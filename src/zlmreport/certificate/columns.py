@@ -10,7 +10,7 @@ import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
-from itertools import combinations
+from itertools import combinations, count
 from math import ceil
 from typing import TypeAlias
 from unicodedata import combining
@@ -19,6 +19,7 @@ from zlmreport.certificate.document import (
     Align,
     Block,
     Cell,
+    Certificate,
     Column,
     Explained,
     Facts,
@@ -305,6 +306,32 @@ def gather_facts(blocks: Iterable[Block]) -> Iterator[GatheredBlock]:
         yield block
     if facts:
         yield facts
+
+
+@dataclass(frozen=True, slots=True)
+class NumberedBlock:
+    """A block; of a table or a graph its number, from 1, and its label, such as ``Table 2``."""
+
+    block: GatheredBlock
+    number: int = 0
+    label: str = ""
+
+
+def numbered(certificate: Certificate) -> Iterator[tuple[NumberedBlock, ...]]:
+    """Yield the blocks of the first page, then those of each section; tables and graphs are counted."""
+    words = certificate.page_words
+    of_tables, of_graphs = (words.table, count(1)), (words.figure, count(1))
+    counted = {Table: of_tables, Formulas: of_tables, Graph: of_graphs}
+
+    def number(block: GatheredBlock) -> NumberedBlock:
+        if isinstance(block, Table | Formulas | Graph):
+            word, numbers = counted[type(block)]
+            number = next(numbers)
+            return NumberedBlock(block, number, f"{word} {number}".strip())
+        return NumberedBlock(block)
+
+    for blocks in (certificate.cover, *(each.blocks for each in certificate.sections)):
+        yield tuple(map(number, gather_facts(blocks)))
 
 
 def side_by_side(groups: tuple[Facts, ...]) -> tuple[tuple[Facts, ...], ...]:

@@ -7,15 +7,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from itertools import count
 
 from markupsafe import Markup
 
 from zlmreport.certificate import columns
-from zlmreport.certificate.columns import GatheredBlock, gather_facts, side_by_side
+from zlmreport.certificate.columns import GatheredBlock, NumberedBlock
 from zlmreport.certificate.document import (
     Align,
-    Block,
     Cell,
     Certificate,
     Explained,
@@ -28,6 +26,7 @@ from zlmreport.certificate.document import (
     Table,
     Verdict,
 )
+from zlmreport.certificate.linked import Linked
 from zlmreport.typesetting.resources import linked_values
 from zlmreport.typesetting.templates import (
     CellContext,
@@ -83,118 +82,75 @@ class Setting:
 
 def compose(certificate: Certificate, setting: Setting = Setting()) -> str:
     """Set a certificate; the result starts with a document type and parses as XML."""
-    compositor = _Compositor(certificate, setting)
-    issued = certificate.issued
-    letterhead = certificate.letterhead
-    words = certificate.page_words
-    return render(
-        DocumentContext(
-            language=certificate.language.value,
-            is_compact=certificate.is_compact,
-            title=certificate.title,
-            subtitle=certificate.subtitle,
-            number=certificate.number,
-            author=letterhead.laboratory.name if letterhead else "",
-            description=certificate.description,
-            keywords=", ".join(certificate.keywords),
-            generator=certificate.generator,
-            issued=issued.isoformat() if issued else "",
-            logo=certificate.look.logo,
-            head=certificate.running_head,
-            foot=words.foot,
-            running_number=words.number,
-            page=words.page,
-            of=words.of,
-            end=words.end,
-            style=Markup(setting.style),  # noqa: S704 (the renderer's own style sheets)
-            policy=setting.policy,
-            script=Markup(setting.script),  # noqa: S704 (the renderer's own script)
-            letterhead=compositor.letterhead(),
-            cover=compositor.blocks(certificate.cover),
-            sections=tuple(
-                compositor.section(number, section)
-                for number, section in enumerate(certificate.sections, start=1)
-            ),
-        )
+    own = certificate.look.templates
+    cover, *sections = (
+        [(each.block, render(_context(each, certificate, setting), own)) for each in blocks]
+        for blocks in columns.numbered(certificate)
     )
+    linked = certificate.linked if setting.script else None
+    context = DocumentContext(
+        certificate,
+        style=Markup(setting.style),  # noqa: S704 (the renderer's own style sheets)
+        policy=setting.policy,
+        script=Markup(setting.script),  # noqa: S704 (the renderer's own script)
+        letterhead=_letterhead(certificate, setting),
+        cover=tuple(markup for _, markup in cover),
+        sections=tuple(
+            _section(number, section, blocks, linked, own)
+            for number, (section, blocks) in enumerate(
+                zip(certificate.sections, sections, strict=True), start=1
+            )
+        ),
+    )
+    return render(context)
 
 
-class _Compositor:
-    """Sets the parts of one document, and counts its tables and figures."""
+def _letterhead(certificate: Certificate, setting: Setting) -> Markup:
+    letterhead = certificate.letterhead
+    if letterhead is None:
+        return Markup()
+    logo = setting.logo if letterhead.logo else ""
+    return render(LetterheadContext(letterhead, logo), certificate.look.templates)
 
-    def __init__(self, certificate: Certificate, setting: Setting) -> None:
-        self._certificate = certificate
-        self._setting = setting
-        self._own = certificate.look.templates
-        self._tables = count(1)
-        self._figures = count(1)
 
-    def letterhead(self) -> Markup:
-        letterhead = self._certificate.letterhead
-        if letterhead is None:
-            return Markup()
-        logo = self._setting.logo if letterhead.logo else ""
-        return render(LetterheadContext(letterhead, logo), self._own)
+def _section(
+    number: int,
+    section: Section,
+    blocks: list[tuple[GatheredBlock, Markup]],
+    linked: Linked | None,
+    own: tuple[tuple[str, str], ...],
+) -> Markup:
+    """Set a section, the linked graphs before the first that cannot be pointed at."""
+    markup = [each for _, each in blocks]
+    if linked and linked.section == section.key:
+        first = next(at for at, (block, _) in enumerate(blocks) if isinstance(block, Graph))
+        markup.insert(first, render(LinkedContext(linked_values(linked))))
+    return render(SectionContext(section.key, number, section.title, section.new_page, tuple(markup)), own)
 
-    def section(self, number: int, section: Section) -> Markup:
-        return render(
-            SectionContext(
-                key=section.key,
-                number=number,
-                title=section.title,
-                new_page=section.new_page,
-                blocks=self._section_blocks(section),
-            ),
-            self._own,
-        )
 
-    def blocks(self, blocks: Iterable[Block]) -> tuple[Markup, ...]:
-        return tuple(render(self._context(block), self._own) for block in gather_facts(blocks))
-
-    def _section_blocks(self, section: Section) -> tuple[Markup, ...]:
-        """Return the blocks of a section, the linked graphs before the first that cannot be pointed at."""
-        linked = self._certificate.linked
-        if not self._setting.script or linked is None or linked.section != section.key:
-            return self.blocks(section.blocks)
-        first = next(at for at, block in enumerate(section.blocks) if isinstance(block, Graph))
-        return (
-            *self.blocks(section.blocks[:first]),
-            render(LinkedContext(linked_values(linked))),
-            *self.blocks(section.blocks[first:]),
-        )
-
-    def _context(self, block: GatheredBlock) -> Context:
-        match block:
-            case Table():
-                page = self._certificate.page_words.page
-                return table_context(
-                    block, self._table_label(), page, is_for_screens=self._setting.is_for_screens
-                )
-            case Formulas():
-                return formulas_context(block, self._table_label())
-            case Graph():
-                return self._graph(block)
-            case Paragraph(text):
-                return ParagraphContext(text)
-            case Notice(heading, items):
-                return NoticeContext(heading, items)
-            case facts:
-                return FactsContext(side_by_side(facts))
-
-    def _graph(self, graph: Graph) -> GraphContext:
-        number = next(self._figures)
-        language = self._certificate.language
-        drawings = self._setting.drawings
-        return GraphContext(
-            label=f"{self._certificate.page_words.figure} {number}".strip(),
-            caption=graph.figure.title.in_language(language),
-            alternative=graph.figure.alternative.in_language(language),
-            address=GRAPH_ADDRESS.format(number - 1),
-            drawing=Markup(drawings[number - 1]) if drawings else Markup(),  # noqa: S704 (the drawer's own)
-        )
-
-    def _table_label(self) -> str:
-        return f"{self._certificate.page_words.table} {next(self._tables)}".strip()
+def _context(numbered: NumberedBlock, certificate: Certificate, setting: Setting) -> Context:
+    label = numbered.label
+    match numbered.block:
+        case Table() as table:
+            page = certificate.page_words.page
+            return table_context(table, label, page, is_for_screens=setting.is_for_screens)
+        case Formulas() as formulas:
+            return formulas_context(formulas, label)
+        case Graph(figure):
+            number = numbered.number - 1
+            return GraphContext(
+                label=label,
+                caption=figure.title.in_language(certificate.language),
+                alternative=figure.alternative.in_language(certificate.language),
+                address=GRAPH_ADDRESS.format(number),
+                drawing=Markup(setting.drawings[number]) if setting.drawings else Markup(),  # noqa: S704 (the drawer's own)
+            )
+        case Paragraph(text):
+            return ParagraphContext(text)
+        case Notice(heading, items):
+            return NoticeContext(heading, items)
+        case facts:
+            return FactsContext(columns.side_by_side(facts))
 
 
 _SHAPE = {Mark.MET: "met", Mark.NOT_MET: "not-met", Mark.OPEN: "open"}

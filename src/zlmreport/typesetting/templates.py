@@ -23,7 +23,7 @@ from jinja2 import (
 from jinja2.sandbox import ImmutableSandboxedEnvironment
 from markupsafe import Markup
 
-from zlmreport.certificate.document import Facts, Letterhead
+from zlmreport.certificate.document import Certificate, Facts, Letterhead
 from zlmreport.errors import InputError, Place
 from zlmreport.quantities.formatting import Span, spans
 from zlmreport.typesetting.overview import (
@@ -219,20 +219,8 @@ class DocumentContext:
 
     Attributes
     ----------
-    language
-        ISO 639-1 code.
-    is_compact
-        Whether it is set in smaller type, with less room between its parts.
-    title, subtitle, number
-        As printed on the cover.
-    author, description, keywords, generator, issued
-        Metadata of the file; `issued` as ISO 8601, empty where not stated.
-    logo
-        On which side of the letterhead the logo stands: ``left`` or ``right``.
-    head, foot
-        What stands above every page but the first, and below the number at its foot.
-    running_number, page, of, end
-        Words of the page margins, and of the mark at the end.
+    certificate
+        What stands beside its blocks: titles, words of the page margins, metadata of the file.
     style
         Style sheets in the document's head; empty where the renderer hands them over otherwise.
     policy, script
@@ -242,23 +230,7 @@ class DocumentContext:
     """
 
     template: ClassVar[str] = "document.html"
-    language: str
-    is_compact: bool
-    title: str
-    subtitle: str
-    number: str
-    author: str
-    description: str
-    keywords: str
-    generator: str
-    issued: str
-    logo: str
-    head: str
-    foot: str
-    running_number: str
-    page: str
-    of: str
-    end: str
+    certificate: Certificate
     style: Markup
     policy: str
     script: Markup

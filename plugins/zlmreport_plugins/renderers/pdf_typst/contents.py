@@ -7,14 +7,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from functools import cache
-from itertools import count, repeat
+from itertools import repeat
 from math import inf
 from typing import Any, TypeAlias
 
 from zlmreport.plugin import (
     Align,
     Attachment,
-    Block,
     Cell,
     Certificate,
     Colour,
@@ -24,15 +23,14 @@ from zlmreport.plugin import (
     Fill,
     FontFace,
     Formulas,
-    GatheredBlock,
     Graph,
     Language,
     Letterhead,
     Mark,
     Notice,
+    NumberedBlock,
     PageWords,
     Paragraph,
-    Section,
     Segment,
     Stroke,
     Symbol,
@@ -43,8 +41,8 @@ from zlmreport.plugin import (
     draw_figure,
     facts_side_by_side,
     figure_size,
-    gather_facts,
     hexadecimal_colour,
+    numbered_blocks,
     table_layout,
 )
 from zlmreport_plugins.renderers.pdf_typst.words import fitted, parted, symbol_data
@@ -70,7 +68,9 @@ _WHOLE = 2000
 
 def contents(certificate: Certificate) -> Data:
     """Return all that is printed, and what the file says of itself."""
-    compositor = _Compositor(certificate)
+    cover, *sections = (
+        [_block(each, certificate.language) for each in blocks] for blocks in numbered_blocks(certificate)
+    )
     letterhead = certificate.letterhead
     return {
         "language": certificate.language.value,
@@ -92,10 +92,18 @@ def contents(certificate: Certificate) -> Data:
             **_words(certificate.page_words),
             "head": fitted(certificate.running_head, _RUNNING_HEAD),
         },
-        "cover": compositor.blocks(certificate.cover),
+        "cover": cover,
         "sections": [
-            compositor.section(number, section)
-            for number, section in enumerate(certificate.sections, start=1)
+            {
+                "key": section.key,
+                "number": str(number),
+                "title": fitted(section.title, _SECTION, FontFace.SEMIBOLD),
+                "new-page": section.new_page,
+                "blocks": blocks,
+            }
+            for number, (section, blocks) in enumerate(
+                zip(certificate.sections, sections, strict=True), start=1
+            )
         ],
     }
 
@@ -105,62 +113,34 @@ def enclosures(certificate: Certificate) -> list[Data]:
     return list(map(_enclosure, certificate.attachments))
 
 
-class _Compositor:
-    """Turns the parts of one document into data, and counts its tables and figures."""
+def _block(numbered: NumberedBlock, language: Language) -> Data:
+    match numbered.block:
+        case Table(caption=caption) as table:
+            return {"kind": "table", **_captioned(numbered, caption), **table_data(table)}
+        case Formulas(caption=caption) as formulas:
+            return {"kind": "formulas", **_captioned(numbered, caption), **formulas_data(formulas)}
+        case Graph(figure):
+            return {
+                "kind": "graph",
+                **_captioned(numbered, figure.title.in_language(language)),
+                "alternative": figure.alternative.in_language(language),
+                **graph_data(figure, language),
+            }
+        case Paragraph(text):
+            return {"kind": "paragraph", "text": fitted(text, _PAGE)}
+        case Notice(heading, items):
+            return {
+                "kind": "notice",
+                "heading": fitted(heading, _NOTICE, FontFace.SEMIBOLD),
+                "items": [fitted(item, _NOTICE) for item in items],
+                "whole": len(heading) + sum(map(len, items)) <= _WHOLE,
+            }
+        case facts:
+            return _facts(facts)
 
-    def __init__(self, certificate: Certificate) -> None:
-        self._language = certificate.language
-        self._words = certificate.page_words
-        self._tables = count(1)
-        self._figures = count(1)
 
-    def section(self, number: int, section: Section) -> Data:
-        return {
-            "key": section.key,
-            "number": str(number),
-            "title": fitted(section.title, _SECTION, FontFace.SEMIBOLD),
-            "new-page": section.new_page,
-            "blocks": self.blocks(section.blocks),
-        }
-
-    def blocks(self, blocks: Iterable[Block]) -> list[Data]:
-        return [self._block(block) for block in gather_facts(blocks)]
-
-    def _block(self, block: GatheredBlock) -> Data:
-        match block:
-            case Table(caption=caption):
-                return {"kind": "table", **self._table_caption(caption), **table_data(block)}
-            case Formulas(caption=caption):
-                return {"kind": "formulas", **self._table_caption(caption), **formulas_data(block)}
-            case Graph():
-                return self._graph(block)
-            case Paragraph(text):
-                return {"kind": "paragraph", "text": fitted(text, _PAGE)}
-            case Notice(heading, items):
-                return {
-                    "kind": "notice",
-                    "heading": fitted(heading, _NOTICE, FontFace.SEMIBOLD),
-                    "items": [fitted(item, _NOTICE) for item in items],
-                    "whole": len(heading) + sum(map(len, items)) <= _WHOLE,
-                }
-            case facts:
-                return _facts(facts)
-
-    def _graph(self, graph: Graph) -> Data:
-        figure = graph.figure
-        return {
-            "kind": "graph",
-            "label": f"{self._words.figure} {next(self._figures)}".strip(),
-            "caption": fitted(figure.title.in_language(self._language), _CAPTION),
-            "alternative": figure.alternative.in_language(self._language),
-            **graph_data(figure, self._language),
-        }
-
-    def _table_caption(self, caption: str) -> Data:
-        return {
-            "label": f"{self._words.table} {next(self._tables)}".strip(),
-            "caption": fitted(caption, _CAPTION),
-        }
+def _captioned(numbered: NumberedBlock, caption: str) -> Data:
+    return {"label": numbered.label, "caption": fitted(caption, _CAPTION)}
 
 
 def _facts(groups: tuple[Facts, ...]) -> Data:
