@@ -104,6 +104,14 @@ class Trend:
         return self.line.p_value if self.line else None
 
 
+def by_axis(trends: Iterable[Trend]) -> Mapping[tuple[str, str], list[Trend]]:
+    """Return trends by machine and axis, in the order in which the axes come first."""
+    found: defaultdict[tuple[str, str], list[Trend]] = defaultdict(list)
+    for each in trends:
+        found[each.series.machine, each.series.axis].append(each)
+    return found
+
+
 def trends(series: Iterable[Series]) -> tuple[Trend, ...]:
     """Return the trend of each series of a fleet, in the same order."""
     every = tuple(series)

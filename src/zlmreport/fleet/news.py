@@ -7,18 +7,18 @@ its own keys, as the fleet file names it.
 from __future__ import annotations
 
 import threading
-from collections import Counter, defaultdict
+from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from zlmreport.errors import InputError, Problem, ZlmreportError
 from zlmreport.fleet.causes import cause_of
-from zlmreport.fleet.drifts import Trend
+from zlmreport.fleet.drifts import Trend, by_axis
 from zlmreport.fleet.issuing import Happened, What
 from zlmreport.fleet.overview_words import ABOUTS
 from zlmreport.fleet.plan import Evening
-from zlmreport.fleet.records import About, Kind, News, Notice
+from zlmreport.fleet.records import About, Kind, News, Notice, named
 from zlmreport.fleet.state import FleetState
 from zlmreport.job.contradictions import validate
 from zlmreport.job.fleet import FleetFile
@@ -71,19 +71,19 @@ def news_of(state: FleetState, language: Language) -> Iterator[News]:
         entry = failure.entry
         message = entry.message.partition("\n")[0]
         yield News(Kind.FAILED, f"{entry.job}|{message}", f"{entry.job}: {message}")
-    for (machine, axis), trends in _by_axis(state.not_met):
+    for (machine, axis), trends in by_axis(state.not_met).items():
         stated = ", ".join(_not_met(each, language) for each in trends)
-        yield News(Kind.NOT_MET, f"{machine}|{axis}", f"{_named(machine, axis)}: {stated}")
-    for (machine, axis), trends in _by_axis(state.changed):
+        yield News(Kind.NOT_MET, f"{machine}|{axis}", f"{named(machine, axis)}: {stated}")
+    for (machine, axis), trends in by_axis(state.changed).items():
         yield _changed(machine, axis, trends, state, language)
-    for (machine, axis), trends in _by_axis(state.drifting):
+    for (machine, axis), trends in by_axis(state.drifting).items():
         stated = "; ".join(_drift(each, language) for each in trends)
-        yield News(Kind.DRIFTING, f"{machine}|{axis}|{trends[0].since}", f"{_named(machine, axis)}: {stated}")
+        yield News(Kind.DRIFTING, f"{machine}|{axis}|{trends[0].since}", f"{named(machine, axis)}: {stated}")
     for term in state.overdue:
         entry = term.entry
         told = _OVERDUE.given(measured=entry.measured, due=str(term.due)).in_language(language)
         subject = f"{entry.machine}|{entry.axis}|{term.due}"
-        yield News(Kind.OVERDUE, subject, f"{_named(entry.machine, entry.axis)}: {told}")
+        yield News(Kind.OVERDUE, subject, f"{entry.of_axis}: {told}")
     for entry in state.drafts:
         yield News(Kind.DRAFT, f"{entry.job}|{entry.number}", f"{entry.number}: {entry.message}")
 
@@ -121,7 +121,7 @@ def news_of_job(happened: Happened, known: Evening) -> Message | None:
 def _changed(machine: str, axis: str, trends: Sequence[Trend], state: FleetState, language: Language) -> News:
     """Return the change of an axis: one event, however many of its parameters show it."""
     stepped = [each for each in trends if each.step]
-    told = _named(machine, axis)
+    told = named(machine, axis)
     if not stepped:
         subject = f"{machine}|{axis}|scatter|{trends[0].since}"
         return News(Kind.CHANGED, subject, f"{told}: {_WILDER.in_language(language)}")
@@ -154,17 +154,6 @@ def _drift(trend: Trend, language: Language) -> str:
     if trend.forecast:
         told += _REACHED.given(month=f"{trend.forecast.expected:%Y-%m}").in_language(language)
     return told
-
-
-def _by_axis(trends: Iterable[Trend]) -> Iterable[tuple[tuple[str, str], list[Trend]]]:
-    found: defaultdict[tuple[str, str], list[Trend]] = defaultdict(list)
-    for each in trends:
-        found[each.series.machine, each.series.axis].append(each)
-    return found.items()
-
-
-def _named(machine: str, axis: str) -> str:
-    return ", ".join(part for part in (machine, axis) if part)
 
 
 def _signed(change: float, unit: str, language: Language) -> str:

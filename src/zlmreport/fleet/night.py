@@ -317,15 +317,16 @@ def overdue(known: Evening, last: str, now: str) -> Iterator[Happened]:
     for job, standing in sorted(known.standings.items()):
         subject = standing.subject
         if subject.measured and standing.state is State.MADE and not is_retired(job, known.fleet):
-            axis = subject.machine, subject.axis
+            axis = subject.axis_key
             if axis not in latest or latest[axis][1].subject.measured <= subject.measured:
                 latest[axis] = job, standing
     for job, standing in latest.values():
         subject = standing.subject
         due = due_date(subject.measured, subject.interval or known.fleet.keys.interval)
         if due and last[:10] < due <= now[:10]:
-            named = ", ".join(part for part in (subject.machine, subject.axis) if part)
-            why = f"{named} was measured on {subject.measured}, and was to be measured again by {due}"
+            why = (
+                f"{subject.of_axis} was measured on {subject.measured}, and was to be measured again by {due}"
+            )
             yield Happened(What.OVERDUE, job, standing.number, why)
 
 

@@ -5,15 +5,15 @@ What needs somebody, worst first; every machine with its axes and their latest v
 
 from __future__ import annotations
 
-from collections import Counter, defaultdict
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from datetime import date, timedelta
 from itertools import groupby
+from typing import Generic, TypeVar
 
 from zlmreport.fleet import overview_words as words
-from zlmreport.fleet.causes import LEAST_MACHINES, Shared, cause_of, shared
-from zlmreport.fleet.drifts import FALSE_SHARE, LEAST_DATES, Trend
+from zlmreport.fleet.causes import LEAST_MACHINES, Shared, shared
+from zlmreport.fleet.drifts import FALSE_SHARE, LEAST_DATES, Trend, by_axis
 from zlmreport.fleet.overview_cells import Cells, Names, Period, small_graph
 from zlmreport.fleet.records import Entry, Notice, RecordedParameter, State
 from zlmreport.fleet.state import SOON, Failure, FleetState, Night, Term
@@ -54,7 +54,7 @@ def overview(state: FleetState, language: Language, names: Names, files: str) ->
     files
         Folder of the certificates, relative to that of the page.
     """
-    cells = Cells(language, names, _period(state), files)
+    cells = Cells(language, names, _period(state), files, state.effects)
     script = overview_script()
     printed = replace(state, trends=tuple(map(names.as_printed, state.trends)))
     return render(
@@ -97,15 +97,13 @@ def _run(night: Night | None) -> Words:
 
 
 def _tiles(state: FleetState, cells: Cells) -> Iterator[TileContext]:
-    changed = {(each.series.machine, each.series.axis) for each in state.changed}
-    drifting = {(each.series.machine, each.series.axis) for each in state.drifting}
     counted = (
         (len(state.notices), words.NOTICED, "noticed"),
         (len(state.failures), words.FAILED, "failed"),
         (len(state.not_met), words.NOT_MET, "not-met"),
         (len(state.undecided), words.UNDECIDED, "undecided"),
-        (len(changed), words.CHANGED, "changed"),
-        (len(drifting), words.DRIFTING, "drifting"),
+        (len(by_axis(state.changed)), words.CHANGED, "changed"),
+        (len(by_axis(state.drifting)), words.DRIFTING, "drifting"),
         (len(state.overdue), words.OVERDUE, "overdue"),
         (len(state.soon), words.DUE_SOON, "due"),
         (len(state.drafts), words.DRAFTS, "drafts"),
@@ -121,13 +119,14 @@ def _sections(state: FleetState, cells: Cells) -> Iterator[OverviewSectionContex
     nothing = "" if needed else cells.say(words.NOTHING if state.jobs else words.NO_NIGHT)
     yield OverviewSectionContext("needs", cells.say(words.NEEDS), nothing, "calm", needed)
     if state.terms:
-        soon = _terms(_DUE, state.soon, cells)
+        soon = _DUE.of(_terms(state.soon, cells), cells)
         nothing = "" if state.soon else cells.say(words.NOTHING_DUE.given(days=SOON.days))
         tables = (render(soon),) if state.soon else ()
         yield OverviewSectionContext("due", cells.say(words.DUE_SOON), nothing, "calm", tables)
     common = shared(state.effects)
     if common:
-        tables = (render(_common(common, cells)),)
+        found = [(OverviewCellContext(each.axis, note=each.type), [each]) for each in common]
+        tables = (render(_SHARED.of(found, cells)),)
         yield OverviewSectionContext("shared", cells.say(words.SHARED), "", "", tables)
     shown = (render(tools(state, cells)), render(machines(state, cells))) if state.trends else ()
     yield OverviewSectionContext("machines", cells.say(words.MACHINES), "", "", shown)
@@ -135,277 +134,185 @@ def _sections(state: FleetState, cells: Cells) -> Iterator[OverviewSectionContex
     yield OverviewSectionContext("reading", cells.say(words.READING), "", "", reading)
 
 
+T = TypeVar("T")
+
+
 @dataclass(frozen=True, slots=True)
-class _Kind:
-    """A kind of thing that needs somebody: its anchor, and the words and columns of its table."""
+class _Table(Generic[T]):
+    """A table: its anchor and its words, the heading of what rows share, and each column with its cells."""
 
     key: str
     title: Words
     caption: Words
-    columns: tuple[Words, ...]
+    heading: Words
+    columns: tuple[tuple[Words, Callable[[Cells, T], OverviewCellContext]], ...]
+    style: str = ""
+
+    def of(
+        self, groups: Iterable[tuple[OverviewCellContext, Iterable[T]]], cells: Cells
+    ) -> OverviewTableContext:
+        """Return the table of groups, each with its first cell and what its rows are about."""
+        made = tuple(
+            OverviewGroupContext(
+                head, tuple(tuple(cell(cells, each) for _, cell in self.columns) for each in rows)
+            )
+            for head, rows in groups
+        )
+        headings = (self.heading, *(heading for heading, _ in self.columns))
+        return OverviewTableContext(
+            key=self.key,
+            style=self.style or self.key,
+            title=cells.say(self.title),
+            count=str(len(made)),
+            caption=cells.say(self.caption),
+            headings=tuple(OverviewCellContext(cells.say(each)) for each in headings),
+            groups=made,
+        )
 
 
-_NOTICED = _Kind("noticed", words.NOTICED, words.NOTICED_CAPTION, (words.ABOUT, words.MESSAGE))
-_FAILED = _Kind("failed", words.FAILED, words.FAILED_CAPTION, (words.JOB, words.MESSAGE, words.SINCE))
-_LIMIT_COLUMNS = (
-    *(words.AXIS, words.PARAMETER, words.VALUE, words.LIMIT),
-    *(words.COURSE, words.CERTIFICATE),
+def _message(text: str) -> OverviewCellContext:
+    return OverviewCellContext(text, style="message")
+
+
+def _date(moment: str) -> OverviewCellContext:
+    return OverviewCellContext(moment[:10], style="date")
+
+
+_VALUES = (
+    (words.PARAMETER, Cells.parameter),
+    (words.VALUE, Cells.value),
+    (words.LIMIT, Cells.limit),
 )
-_NOT_MET = _Kind("not-met", words.NOT_MET, words.NOT_MET_CAPTION, _LIMIT_COLUMNS)
-_UNDECIDED = _Kind("undecided", words.UNDECIDED, words.UNDECIDED_CAPTION, _LIMIT_COLUMNS)
-_CHANGED = _Kind(
+_COURSE = (words.COURSE, Cells.course)
+_OF_LIMITS = (*_VALUES, _COURSE, (words.CERTIFICATE, Cells.latest))
+_OF_TERMS: tuple[tuple[Words, Callable[[Cells, Term], OverviewCellContext]], ...] = (
+    (words.MEASURED_ON, lambda _, term: _date(term.entry.measured)),
+    (words.DUE, lambda _, term: _date(term.due.isoformat())),
+)
+_NOTICED: _Table[Notice] = _Table(
+    "noticed",
+    words.NOTICED,
+    words.NOTICED_CAPTION,
+    words.ABOUT,
+    ((words.MESSAGE, lambda _, notice: _message(notice.text)),),
+)
+_FAILED: _Table[Failure] = _Table(
+    "failed",
+    words.FAILED,
+    words.FAILED_CAPTION,
+    words.JOB,
+    (
+        (words.MESSAGE, lambda _, failure: _message(failure.entry.message)),
+        (words.SINCE, lambda _, failure: _date(failure.since)),
+    ),
+)
+_NOT_MET = _Table("not-met", words.NOT_MET, words.NOT_MET_CAPTION, words.AXIS, _OF_LIMITS)
+_UNDECIDED = _Table("undecided", words.UNDECIDED, words.UNDECIDED_CAPTION, words.AXIS, _OF_LIMITS)
+_CHANGED = _Table(
     "changed",
     words.CHANGED,
     words.CHANGED_CAPTION,
-    (
-        *(words.AXIS, words.PARAMETER, words.VALUE, words.LIMIT),
-        *(words.COURSE, words.CHANGE, words.CAME_WITH),
-    ),
+    words.AXIS,
+    (*_VALUES, _COURSE, (words.CHANGE, Cells.change), (words.CAME_WITH, Cells.came_with)),
 )
-_DRIFTING = _Kind(
+_DRIFTING = _Table(
     "drifting",
     words.DRIFTING,
     words.DRIFTING_CAPTION,
-    (
-        *(words.AXIS, words.PARAMETER, words.VALUE, words.LIMIT),
-        *(words.COURSE, words.DRIFT, words.REACHED),
-    ),
+    words.AXIS,
+    (*_VALUES, _COURSE, (words.DRIFT, Cells.drift), (words.REACHED, Cells.reached)),
 )
-_OVERDUE = _Kind(
-    "overdue", words.OVERDUE, words.OVERDUE_CAPTION, (words.CERTIFICATE, words.MEASURED_ON, words.DUE)
+_OVERDUE = _Table("overdue", words.OVERDUE, words.OVERDUE_CAPTION, words.CERTIFICATE, _OF_TERMS)
+_DUE = _Table(
+    "due-soon", words.DUE_SOON, words.DUE_CAPTION.given(days=SOON.days), words.CERTIFICATE, _OF_TERMS
 )
-_SHARED = _Kind(
-    "shared-by-type",
-    words.SHARED,
-    words.SHARED_CAPTION.given(least=LEAST_MACHINES),
-    (words.TYPE, words.EFFECT, words.MEAN, words.MACHINES_OF_TYPE),
-)
-_DUE = _Kind("due-soon", words.DUE_SOON, words.DUE_CAPTION.given(days=SOON.days), _OVERDUE.columns)
-_DRAFTS = _Kind(
+_DRAFTS: _Table[Entry] = _Table(
     "drafts",
     words.DRAFTS,
     words.DRAFTS_CAPTION,
-    (words.CERTIFICATE, words.REASON, words.JOB, words.SINCE),
+    words.CERTIFICATE,
+    (
+        (words.REASON, lambda _, entry: _message(entry.message)),
+        (words.JOB, lambda _, entry: OverviewCellContext(entry.job)),
+        (words.SINCE, lambda _, entry: _date(entry.night)),
+    ),
+)
+_SHARED: _Table[Shared] = _Table(
+    "shared-by-type",
+    words.SHARED,
+    words.SHARED_CAPTION.given(least=LEAST_MACHINES),
+    words.TYPE,
+    (
+        (words.EFFECT, lambda _, each: OverviewCellContext(each.effect, note=each.name.replace("_", " "))),
+        (words.MEAN, lambda cells, each: cells.mean(each.mean, each.expanded_uncertainty, each.unit)),
+        (
+            words.MACHINES_OF_TYPE,
+            lambda _, each: OverviewCellContext(str(len(each.machines)), note=", ".join(each.machines)),
+        ),
+    ),
 )
 
 
 def needs(state: FleetState, cells: Cells) -> Iterator[OverviewTableContext]:
     """Yield a table of each kind of thing that needs somebody; none where there is nothing of the kind."""
-    if state.notices:
-        yield _noticed(state.notices, cells)
-    if state.failures:
-        yield _failures(state.failures, cells)
-    if state.not_met:
-        yield _limits(_NOT_MET, state.not_met, cells)
-    if state.undecided:
-        yield _limits(_UNDECIDED, state.undecided, cells)
-    if state.changed:
-        yield _changes(state, cells)
-    if state.drifting:
-        yield _drifts(state.drifting, cells)
-    if state.overdue:
-        yield _terms(_OVERDUE, state.overdue, cells)
-    if state.drafts:
-        yield _drafts(state.drafts, cells)
-
-
-def _noticed(notices: Sequence[Notice], cells: Cells) -> OverviewTableContext:
-    groups = [
-        OverviewGroupContext(
-            OverviewCellContext(cells.say(words.ABOUTS[each.about])),
-            ((OverviewCellContext(each.text, style="message"),),),
-        )
-        for each in notices
+    noticed = [(OverviewCellContext(cells.say(words.ABOUTS[each.about])), [each]) for each in state.notices]
+    failed = [
+        (OverviewCellContext(each.entry.job, note=each.entry.of_axis), [each]) for each in state.failures
     ]
-    return _table(_NOTICED, groups, cells)
-
-
-def _failures(failures: Sequence[Failure], cells: Cells) -> OverviewTableContext:
-    groups = [
-        OverviewGroupContext(
-            OverviewCellContext(failure.entry.job, note=_subject(failure.entry)),
-            (
-                (
-                    OverviewCellContext(failure.entry.message, style="message"),
-                    OverviewCellContext(failure.since[:10], style="date"),
-                ),
-            ),
-        )
-        for failure in failures
-    ]
-    return _table(_FAILED, groups, cells)
-
-
-def _limits(kind: _Kind, trends: Sequence[Trend], cells: Cells) -> OverviewTableContext:
-    groups = [
-        OverviewGroupContext(
-            cells.axis(each[0]),
-            tuple(
-                (
-                    cells.parameter(trend),
-                    cells.value(trend),
-                    cells.limit(trend),
-                    cells.course(trend),
-                    cells.certificate(trend.series.calibrations[-1].entry),
-                )
-                for trend in each
-            ),
-        )
-        for each in _by_axis(trends)
-    ]
-    return _table(kind, groups, cells)
-
-
-def _changes(state: FleetState, cells: Cells) -> OverviewTableContext:
-    groups = [
-        OverviewGroupContext(
-            cells.axis(each[0]),
-            tuple(
-                (
-                    cells.parameter(trend),
-                    cells.value(trend),
-                    cells.limit(trend),
-                    cells.course(trend),
-                    cells.change(trend),
-                    cells.came_with(cause_of(trend, state.effects)),
-                )
-                for trend in each
-            ),
-        )
-        for each in _by_axis(state.changed)
-    ]
-    return _table(_CHANGED, groups, cells)
-
-
-def _drifts(trends: Sequence[Trend], cells: Cells) -> OverviewTableContext:
-    groups = []
-    for of_axis in _by_axis(trends):
-        limited = [each for each in of_axis if each.series.latest.limit is not None]
-        others = [each for each in of_axis if each.series.latest.limit is None]
-        # An axis of which nothing is limited still shows its first parameter.
-        shown = limited or of_axis[:1]
-        head = cells.axis(of_axis[0])
-        also = cells.symbols(each for each in others if each not in shown)
-        if also:
-            note = cells.say(words.ALSO.given(symbols=also))
-            head = OverviewCellContext(head.content, note=f"{head.note}; {note}")
-        rows = tuple(
-            (
-                cells.parameter(trend),
-                cells.value(trend),
-                cells.limit(trend),
-                cells.course(trend),
-                cells.drift(trend),
-                cells.reached(trend),
-            )
-            for trend in shown
-        )
-        groups.append(OverviewGroupContext(head, rows))
-    return _table(_DRIFTING, groups, cells)
-
-
-def _terms(kind: _Kind, terms: Sequence[Term], cells: Cells) -> OverviewTableContext:
-    groups = [
-        OverviewGroupContext(
-            OverviewCellContext(term.entry.number, note=_subject(term.entry), links=cells.links(term.entry)),
-            (
-                (
-                    OverviewCellContext(term.entry.measured, style="date"),
-                    OverviewCellContext(term.due.isoformat(), style="date"),
-                ),
-            ),
-        )
-        for term in terms
-    ]
-    return _table(kind, groups, cells)
-
-
-def _common(common: Sequence[Shared], cells: Cells) -> OverviewTableContext:
-    groups = [
-        OverviewGroupContext(
-            OverviewCellContext(each.axis, note=each.type),
-            (
-                (
-                    OverviewCellContext(each.effect, note=each.name.replace("_", " ")),
-                    cells.mean(each.mean, each.expanded_uncertainty, each.unit),
-                    OverviewCellContext(str(len(each.machines)), note=", ".join(each.machines)),
-                ),
-            ),
-        )
-        for each in common
-    ]
-    return _table(_SHARED, groups, cells)
-
-
-def _drafts(drafts: Sequence[Entry], cells: Cells) -> OverviewTableContext:
-    groups = [
-        OverviewGroupContext(
-            OverviewCellContext(entry.number, note=_subject(entry), links=cells.links(entry)),
-            (
-                (
-                    OverviewCellContext(entry.message, style="message"),
-                    OverviewCellContext(entry.job),
-                    OverviewCellContext(entry.night[:10], style="date"),
-                ),
-            ),
-        )
-        for entry in drafts
-    ]
-    return _table(_DRAFTS, groups, cells)
-
-
-def _by_axis(trends: Sequence[Trend]) -> list[list[Trend]]:
-    """Return trends by their axes, in the order in which the axes come first."""
-    found: defaultdict[tuple[str, str], list[Trend]] = defaultdict(list)
-    for each in trends:
-        found[_key(each)].append(each)
-    return list(found.values())
-
-
-def _subject(entry: Entry) -> str:
-    return ", ".join(each for each in (entry.machine, entry.axis) if each)
-
-
-def _table(kind: _Kind, groups: Sequence[OverviewGroupContext], cells: Cells) -> OverviewTableContext:
-    return OverviewTableContext(
-        key=kind.key,
-        style=kind.key,
-        title=cells.say(kind.title),
-        count=str(len(groups)),
-        caption=cells.say(kind.caption),
-        headings=tuple(OverviewCellContext(cells.say(column)) for column in kind.columns),
-        groups=tuple(groups),
+    tables = (
+        _NOTICED.of(noticed, cells),
+        _FAILED.of(failed, cells),
+        _NOT_MET.of(_axes(state.not_met, cells), cells),
+        _UNDECIDED.of(_axes(state.undecided, cells), cells),
+        _CHANGED.of(_axes(state.changed, cells), cells),
+        _DRIFTING.of(_drifts(state.drifting, cells), cells),
+        _OVERDUE.of(_terms(state.overdue, cells), cells),
+        _DRAFTS.of([(cells.issued(each), [each]) for each in state.drafts], cells),
     )
+    return (each for each in tables if each.groups)
 
 
-_COLUMNS = (
-    *(words.AXIS, words.PARAMETER, words.VALUE, words.LIMIT),
-    *(words.STATE, words.COURSE, words.CHANGE_OR_DRIFT),
-)
+def _axes(trends: Sequence[Trend], cells: Cells) -> Iterator[tuple[OverviewCellContext, list[Trend]]]:
+    return ((cells.axis(each[0]), each) for each in by_axis(trends).values())
+
+
+def _terms(terms: Sequence[Term], cells: Cells) -> Iterator[tuple[OverviewCellContext, list[Term]]]:
+    return ((cells.issued(each.entry), [each]) for each in terms)
+
+
+def _drifts(trends: Sequence[Trend], cells: Cells) -> Iterator[tuple[OverviewCellContext, list[Trend]]]:
+    for head, of_axis in _axes(trends, cells):
+        # An axis of which nothing is limited still shows its first parameter.
+        shown = [each for each in of_axis if each.series.latest.limit is not None] or of_axis[:1]
+        also = cells.symbols(each for each in of_axis if each not in shown)
+        note = f"{head.note}; {cells.say(words.ALSO.given(symbols=also))}" if also else head.note
+        yield replace(head, note=note), shown
 
 
 def machines(state: FleetState, cells: Cells) -> OverviewTableContext:
     """Return the table of all axes, machine by machine."""
-    marks, due = _marks(state), {_axis_of(term.entry): term.due for term in state.terms}
-    groups = [
-        _axis(of_axis, cells, marks[_key(of_axis[0])], due.get(_key(of_axis[0])))
-        for of_axis in _by_axis(state.trends)
-    ]
-    return OverviewTableContext(
-        key="axes",
-        style="machine",
-        title=cells.say(words.AXES),
-        count=str(len(groups)),
-        caption=cells.say(words.MACHINE_CAPTION.given(first=cells.period.first.isoformat())),
-        headings=tuple(OverviewCellContext(cells.say(column)) for column in _COLUMNS),
-        groups=tuple(groups),
+    table = _Table(
+        "axes",
+        words.AXES,
+        words.MACHINE_CAPTION.given(first=cells.period.first.isoformat()),
+        words.AXIS,
+        (*_VALUES, (words.STATE, Cells.state), _COURSE, (words.CHANGE_OR_DRIFT, Cells.change_or_drift)),
+        "machine",
     )
+    marks, due = _marks(state), {term.entry.axis_key: term.due for term in state.terms}
+    axes = by_axis(state.trends)
+    made = table.of([(_head(each, cells, due.get(key)), _shown(each)) for key, each in axes.items()], cells)
+    facts = [
+        _facts_of(each, [mark for mark, _, marked in marks if key in marked], due.get(key))
+        for key, each in axes.items()
+    ]
+    groups = tuple(replace(group, facts=own) for group, own in zip(made.groups, facts, strict=True))
+    return replace(made, groups=groups)
 
 
 def tools(state: FleetState, cells: Cells) -> OverviewToolsContext:
     """Return what a reader searches, chooses and orders the axes by: only what there is can be chosen."""
-    counted = Counter(mark for marks in _marks(state).values() for mark in marks)
-    choices = [(key, f"{cells.say(label)} ({counted[key]})") for key, label in _MARKS.items() if counted[key]]
+    choices = [(key, f"{cells.say(label)} ({len(axes)})") for key, label, axes in _marks(state) if axes]
     orders = (
         *(("machine", words.BY_MACHINE), ("used", words.BY_USE)),
         *((("due", words.BY_DUE),) if state.terms else ()),
@@ -422,76 +329,39 @@ def tools(state: FleetState, cells: Cells) -> OverviewToolsContext:
     )
 
 
-#: What an axis may be chosen by, as the tables of what needs somebody are named.
-_MARKS = {
-    "not-met": words.NOT_MET,
-    "undecided": words.UNDECIDED,
-    "changed": words.CHANGED,
-    "drifting": words.DRIFTING,
-    "overdue": words.OVERDUE,
-    "due": words.DUE_SOON,
-}
-
-
-def _marks(state: FleetState) -> Mapping[tuple[str, str], list[str]]:
-    found: defaultdict[tuple[str, str], list[str]] = defaultdict(list)
-    by_mark = {
-        "not-met": map(_key, state.not_met),
-        "undecided": map(_key, state.undecided),
-        "changed": map(_key, state.changed),
-        "drifting": map(_key, state.drifting),
-        "overdue": (_axis_of(term.entry) for term in state.overdue),
-        "due": (_axis_of(term.entry) for term in state.soon),
-    }
-    for mark, axes in by_mark.items():
-        for axis in dict.fromkeys(axes):
-            found[axis].append(mark)
-    return found
-
-
-def _key(trend: Trend) -> tuple[str, str]:
-    return trend.series.machine, trend.series.axis
-
-
-def _axis_of(entry: Entry) -> tuple[str, str]:
-    return entry.machine, entry.axis
-
-
-def _axis(
-    trends: Sequence[Trend], cells: Cells, marks: Sequence[str], due: date | None
-) -> OverviewGroupContext:
-    latest = max((trend.series.calibrations[-1] for trend in trends), key=lambda each: each.measured)
-    measured = latest.measured.isoformat()
-    said = (
-        words.MEASURED_DUE.given(date=measured, due=str(due)) if due else words.MEASURED.given(date=measured)
+def _marks(state: FleetState) -> Sequence[tuple[str, Words, frozenset[tuple[str, str]]]]:
+    """Return what an axis may be chosen by, named as the tables of what needs somebody, with these axes."""
+    return (
+        ("not-met", words.NOT_MET, frozenset(by_axis(state.not_met))),
+        ("undecided", words.UNDECIDED, frozenset(by_axis(state.undecided))),
+        ("changed", words.CHANGED, frozenset(by_axis(state.changed))),
+        ("drifting", words.DRIFTING, frozenset(by_axis(state.drifting))),
+        ("overdue", words.OVERDUE, frozenset(term.entry.axis_key for term in state.overdue)),
+        ("due", words.DUE_SOON, frozenset(term.entry.axis_key for term in state.soon)),
     )
-    named = trends[0].series.machine or cells.say(words.NO_MACHINE)
-    used = [
-        abs(trend.series.latest.value) / trend.series.latest.limit
-        for trend in trends
-        if trend.series.latest.limit
-    ]
-    head = OverviewCellContext(
-        trends[0].series.axis, note=f"{named}\n{cells.say(said)}", links=cells.links(latest.entry)
-    )
-    rows = tuple(
-        (
-            cells.parameter(trend),
-            cells.value(trend),
-            cells.limit(trend),
-            cells.state(trend),
-            cells.course(trend),
-            cells.change(trend) if trend.step or trend.is_wilder else cells.drift(trend),
-        )
-        for trend in _shown(trends)
-    )
-    facts = (
+
+
+def _latest(trends: Sequence[Trend]) -> Calibration:
+    return max((trend.series.calibrations[-1] for trend in trends), key=lambda each: each.measured)
+
+
+def _head(trends: Sequence[Trend], cells: Cells, due: date | None) -> OverviewCellContext:
+    latest, head = _latest(trends), cells.axis(trends[0])
+    said = words.MEASURED_DUE.given(due=str(due)) if due else words.MEASURED
+    note = f"{head.note}\n{cells.say(said.given(date=latest.measured.isoformat()))}"
+    return replace(head, note=note, links=cells.links(latest.entry))
+
+
+def _facts_of(trends: Sequence[Trend], marks: Sequence[str], due: date | None) -> tuple[tuple[str, str], ...]:
+    """Return by what a reader chooses and orders an axis."""
+    latest = [trend.series.latest for trend in trends]
+    used = [abs(each.value) / each.limit for each in latest if each.limit]
+    return (
         ("marks", " ".join(marks)),
         ("used", f"{max(used):.3f}" if used else ""),
-        ("measured", measured),
+        ("measured", _latest(trends).measured.isoformat()),
         ("due", due.isoformat() if due else ""),
     )
-    return OverviewGroupContext(head, rows, facts)
 
 
 def _shown(trends: Sequence[Trend]) -> tuple[Trend, ...]:

@@ -14,10 +14,10 @@ from urllib.parse import quote
 from zlmreport.evaluation.evaluation import Quantity
 from zlmreport.figures.canvas import Fill, Segment, Stroke, SvgCanvas
 from zlmreport.fleet import overview_words as words
-from zlmreport.fleet.causes import Cause
+from zlmreport.fleet.causes import cause_of
 from zlmreport.fleet.drifts import LEAST_DATES, Trend
 from zlmreport.fleet.records import Entry, RecordedParameter
-from zlmreport.fleet.trend import MOST_YEARS_AHEAD, Calibration, Line
+from zlmreport.fleet.trend import MOST_YEARS_AHEAD, Calibration, Line, Series
 from zlmreport.language import Language, Words
 from zlmreport.plugin.protocols import Standard
 from zlmreport.quantities.formatting import fixed_number, general_number, p_value, plain, rounded_pair
@@ -253,12 +253,15 @@ class Cells:
         That all graphs show.
     files
         Folder of the certificates, as seen from the page.
+    effects
+        Parameters of the error models of all axes over time.
     """
 
     language: Language
     names: Names
     period: Period
     files: str
+    effects: Sequence[Series]
 
     def say(self, phrase: Words) -> str:
         """Return a phrase in the page's language."""
@@ -342,8 +345,13 @@ class Cells:
             note=self.say(note),
         )
 
-    def came_with(self, cause: Cause | None) -> OverviewCellContext:
+    def change_or_drift(self, trend: Trend) -> OverviewCellContext:
+        """Return the change of a parameter that changed, and else its drift."""
+        return self.change(trend) if trend.step or trend.is_wilder else self.drift(trend)
+
+    def came_with(self, trend: Trend) -> OverviewCellContext:
         """Return what else changed: a parameter of the error model, the instrument."""
+        cause = cause_of(trend, self.effects)
         if cause is None:
             return OverviewCellContext("–", style="quiet")
         effect = f"{cause.effect} {self._signed(cause.change, cause.unit)}" if cause.effect else ""
@@ -383,9 +391,14 @@ class Cells:
         series = trend.series
         return OverviewCellContext(series.axis, note=series.machine or self.say(words.NO_MACHINE))
 
-    def certificate(self, entry: Entry) -> OverviewCellContext:
-        """Return a certificate's number, with links to its files."""
+    def latest(self, trend: Trend) -> OverviewCellContext:
+        """Return the number and the date of the latest certificate, with links to its files."""
+        entry = trend.series.calibrations[-1].entry
         return OverviewCellContext(entry.number, note=entry.measured, links=self.links(entry))
+
+    def issued(self, entry: Entry) -> OverviewCellContext:
+        """Return the number and the axis of a certificate, with links to its files."""
+        return OverviewCellContext(entry.number, note=entry.of_axis, links=self.links(entry))
 
     def links(self, entry: Entry) -> tuple[LinkContext, ...]:
         """Return a link to each file of a certificate, by the name of its format."""

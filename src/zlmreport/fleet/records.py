@@ -184,6 +184,11 @@ def file_name(text: str) -> str:
     return _NOT_IN_NAMES.sub("-", text).strip("-.")[:_LONGEST_NAME] or "-"
 
 
+def named(machine: str, axis: str) -> str:
+    """Return an axis for people, as far as it is known."""
+    return ", ".join(part for part in (machine, axis) if part)
+
+
 @dataclass(frozen=True, slots=True)
 class Subject:
     """What a job is about; empty where the job cannot be read, or does not say.
@@ -211,6 +216,16 @@ class Subject:
     interval: int | None = None
     instrument: str = ""
     type: str = ""
+
+    @property
+    def axis_key(self) -> tuple[str, str]:
+        """What tells an axis from others: the machine, and its name."""
+        return self.machine, self.axis
+
+    @property
+    def of_axis(self) -> str:
+        """Machine and axis for people, as far as they are known."""
+        return named(*self.axis_key)
 
     @classmethod
     def of(cls, job: Job) -> Self:
