@@ -12,7 +12,7 @@ import pypdfium2
 import pytest
 
 from certificate.documents import COMPLETE, certificate, having, registry
-from zlmreport.certificate import columns, room
+from zlmreport.certificate import columns
 from zlmreport.certificate.document import Block, Certificate, Facts, Graph, Notice, Paragraph, Table
 from zlmreport.errors import InputError
 
@@ -165,8 +165,8 @@ def test_its_graph_leaves_no_empty_foot(tmp_path: Path, renderer: str, paper: st
 def test_the_estimate_of_the_room_is_no_less_than_what_is_taken(tmp_path: Path, renderer: str) -> None:
     found = certificate(tmp_path, SHEET)
     (section,) = found.sections
-    estimate = room.head(found.letterhead, found.title) + room.heading(section.title)
-    estimate += room.height(section.blocks)
+    estimate = columns.head_height(found.letterhead, found.title) + columns.heading_height(section.title)
+    estimate += columns.height(section.blocks)
     taken = _lowest(found, renderer)
     assert taken < estimate + 12
     assert estimate < 1.15 * taken
@@ -176,5 +176,5 @@ def test_the_estimate_of_the_room_is_no_less_than_what_is_taken(tmp_path: Path, 
     "block", [Paragraph("word " * 100), Notice("Heading", ("item " * 60,)), Facts((("name", "value " * 40),))]
 )
 def test_more_text_takes_more_room(block: Block) -> None:
-    assert room.height([block]) > 20
+    assert columns.height([block]) > 20
     assert list(columns.gather_facts([block]))

@@ -50,25 +50,24 @@ NAMES = {
     ),
 }
 _TITLE = Words(en="As found and as left", de="Vorgefundener und hinterlassener Zustand")
-_ON_COVER = {
-    "adjustment": Words(
-        en="The axis was adjusted between two measurements. The results above are those after the "
-        "adjustment; the section “As found and as left” compares them with those before.",
-        de="Die Achse wurde zwischen zwei Messungen justiert. Die Ergebnisse oben gelten nach der "
-        "Justierung; der Abschnitt „Vorgefundener und hinterlassener Zustand“ vergleicht sie mit denen "
-        "davor.",
-    ),
-    "repair": Words(
-        en="The axis was repaired between two measurements. The results above are those after the "
-        "repair; the section “As found and as left” compares them with those before.",
-        de="Die Achse wurde zwischen zwei Messungen repariert. Die Ergebnisse oben gelten nach der "
-        "Reparatur; der Abschnitt „Vorgefundener und hinterlassener Zustand“ vergleicht sie mit denen "
-        "davor.",
-    ),
-}
+_ON_COVER = Words(
+    en="The axis was {done} between two measurements. The results above are those after the {work}; the "
+    "section “{title}” compares them with those before.",
+    de="Die Achse wurde zwischen zwei Messungen {done}. Die Ergebnisse oben gelten nach der {work}; der "
+    "Abschnitt „{title}“ vergleicht sie mit denen davor.",
+)
+#: The work between the measurements, that it was done, and the same as the name of a fact.
 _WORK = {
-    "adjustment": Words(en="Adjusted", de="Justiert"),
-    "repair": Words(en="Repaired", de="Repariert"),
+    "adjustment": (
+        Words(en="adjustment", de="Justierung"),
+        Words(en="adjusted", de="justiert"),
+        Words(en="Adjusted", de="Justiert"),
+    ),
+    "repair": (
+        Words(en="repair", de="Reparatur"),
+        Words(en="repaired", de="repariert"),
+        Words(en="Repaired", de="Repariert"),
+    ),
 }
 _NOT_ALIKE = Words(
     en="The two measurements are not alike; differences between them may come from that",
@@ -101,7 +100,8 @@ _LIMITS = Words(en="Limits as found and as left", de="Grenzwerte vorher und nach
 def on_cover(keys: AsFound | None, writer: Writer) -> Iterator[Paragraph]:
     """Yield which of the two measurements the first page shows."""
     if keys:
-        yield Paragraph(writer.say(_ON_COVER[keys.work]))
+        work, done, _ = _WORK[keys.work]
+        yield Paragraph(writer.say(_ON_COVER.given(work=work, done=done, title=_TITLE)))
 
 
 def beside_as_found(  # noqa: PLR0913, PLR0917 - two measurements of everything
@@ -208,7 +208,7 @@ def _circumstances(keys: AsFound, measurements: MeasurementSet, writer: Writer) 
         (Words(en="Environment as found", de="Umgebung dabei"), environment),
         (
             Words(en="Between the measurements", de="Zwischen den Messungen"),
-            (Fact(_WORK[keys.work], keys.adjustment, ("as_found.work", "as_found.adjustment")),),
+            (Fact(_WORK[keys.work][2], keys.adjustment, ("as_found.work", "as_found.adjustment")),),
         ),
     )
     for heading, facts in groups:

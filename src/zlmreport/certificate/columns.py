@@ -1,4 +1,4 @@
-"""How a table's columns and groups of facts share the page, and how numbers stand under each other.
+"""How a table's columns and groups of facts share the page, and how much of it blocks take.
 
 The tables have a fixed layout, which a page takes in a fraction of the time of one that measures every
 cell; so the widths are estimated here, from the characters in the cells.
@@ -25,6 +25,7 @@ from zlmreport.certificate.document import (
     Facts,
     Formulas,
     Graph,
+    Letterhead,
     Notice,
     Paragraph,
     RowGroup,
@@ -366,3 +367,103 @@ def _fact_lines(group: Facts) -> int:
         )
         for name, value in group.pairs
     )
+
+
+# How much of a page blocks take in a compact document, so that it is decided before it is set. The estimate
+# follows the style sheets (``.compact``) and the widths of the typeface, and is on the high side.
+
+#: In points, as all heights here.
+MILLIMETRE = 72 / 25.4
+#: The mark at the end of a document.
+END_MARK = 22.0
+#: What stands between the margins of a page of each paper, but for that mark.
+PAGES = {
+    paper: (height - 21 - 19) * MILLIMETRE - END_MARK for paper, height in (("A4", 297.0), ("Letter", 279.4))
+}
+#: What the first page has besides, for it has no running head.
+_OF_FIRST = 6 * MILLIMETRE
+#: Of the type and its lines, and of smaller types in parts of it.
+_TYPE = 8.1
+_LINE = 1.3 * _TYPE
+_SMALL_TYPE = 0.944
+_DENSE = 0.811
+#: Em of a page, with some words too long to end a line.
+_PAGE_EM = 57.0
+_NOTICE_EM = 52.0
+#: What the mark of a verdict adds to its row.
+_MARK = 1.3
+#: What parts five rows from the next.
+_FIVE = 4.6
+_SECTION_HEADING = 14.0 + 2.5 + 5.0
+_LOGO = 31.0
+#: Em of the names and values of facts in one of two columns.
+_NAME_EM, _VALUE_EM = 9.9, 16.8
+_FACTS_MARGIN = 4.0
+_USUAL_GRAPH = 60 * MILLIMETRE
+
+
+def height(blocks: Iterable[Block]) -> float:
+    """Return how high blocks stand, one below the other, facts that follow each other in two columns."""
+    return sum(map(_height, gather_facts(blocks)))
+
+
+def head_height(letterhead: Letterhead | None, title: str) -> float:
+    """Return how high the letterhead and the title stand, with what the first page has besides."""
+    room = _lines_of(title, 26.0) * 17.5 + _LINE * 1.1 + 7.0
+    if letterhead:
+        beside = ", ".join((*letterhead.laboratory.lines, letterhead.accreditation))
+        text = 13.8 + 9.8 * _lines_of(beside, 40.0)
+        room += max(text, _LOGO if letterhead.logo else 0.0) + 10.2
+    return room - _OF_FIRST
+
+
+def heading_height(title: str) -> float:
+    """Return how high the heading of a section stands that begins a page."""
+    return _SECTION_HEADING + (_lines_of(title, 38.0) - 1) * 14.0
+
+
+def _height(block: GatheredBlock) -> float:
+    match block:
+        case Table():
+            return _table_height(block)
+        case Formulas(rows=rows):
+            return 25.0 + len(rows) * (_DENSE * _LINE + 3.4)
+        case Graph(figure):
+            drawing = figure.height * MILLIMETRE if figure.height else _USUAL_GRAPH * len(figure.panels)
+            return drawing + 10.0 + _SMALL_TYPE * _LINE
+        case Paragraph(text):
+            return _lines_of(text, _PAGE_EM) * _LINE + 3.0
+        case Notice(title, items):
+            lines = sum(_lines_of(item, _NOTICE_EM) for item in items) + _lines_of(title, _NOTICE_EM)
+            return lines * _LINE + 1.5 * len(items) + 19.0
+        case facts:
+            return _FACTS_MARGIN + max(map(_facts_height, side_by_side(facts)))
+
+
+def _table_height(table: Table) -> float:
+    layout = table_layout(table)
+    rows = [row for group in table.groups for row in group.rows]
+    em = (_SMALL_TYPE if layout.size == "regular" else _DENSE) * _TYPE
+    head_lines = 2 if any(column.unit for column in table.columns) else 1
+    head = _lines_of(table.caption, _PAGE_EM) * _SMALL_TYPE * _LINE + 3.0 + head_lines * 1.25 * em + 5.0
+    between = len(rows) * (3.0 if layout.size == "regular" else 1.4)
+    between += len(rows) // 5 * _FIVE if layout.in_fives else 0.0
+    between += _MARK * sum(any(isinstance(cell, Verdict) for cell in row) for row in rows)
+    return head + layout.lines * 1.3 * em + between + 8.0
+
+
+def _facts_height(groups: tuple[Facts, ...]) -> float:
+    room = 0.0
+    for group in groups:
+        room += _LINE + 2.0 if group.heading else 0.0
+        room += sum(
+            max(_lines_of(name, _NAME_EM), sum(_lines_of(line, _VALUE_EM) for line in value.split("\n")))
+            * _LINE
+            + 1.6
+            for name, value in group.pairs
+        )
+    return room
+
+
+def _lines_of(text: str, room: float) -> int:
+    return max(1, ceil(width_of(text) / room))

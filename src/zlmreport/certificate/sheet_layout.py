@@ -10,7 +10,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from zlmreport.certificate import conditions, conformity, cover, results, room, statements, uncertainty
+from zlmreport.certificate import columns, conditions, conformity, cover, results, statements, uncertainty
 from zlmreport.certificate.circumstances import stated_facts
 from zlmreport.certificate.document import Block, Facts, Graph, Paragraph, Section
 from zlmreport.certificate.material import LaidOut, Material
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 #: Heights of the graph, mm: the least, that with a table by position below it, and the most.
 _LEAST_GRAPH, _LEAST_ABOVE_TABLE, _LARGEST_GRAPH = 38.0, 50.0, 130.0
 #: What a page before the last has besides, points: no end of the document, but some to spare for browsers.
-_GAINED = room.END_MARK - 9.0
+_GAINED = columns.END_MARK - 9.0
 #: Of its caption and of the space around it, mm.
 _BESIDE_GRAPH = 8.0
 
@@ -57,7 +57,7 @@ def lay_out(of: Material) -> LaidOut:
     sections: list[Section] = []
     pages = together(of.evaluated, of.writer)
     for page in pages:
-        beside = 0.0 if sections else room.head(of.letterhead, of.title)
+        beside = 0.0 if sections else columns.head_height(of.letterhead, of.title)
         section, left_over = _sheet(of, page, beside if page is pages[-1] else beside - _GAINED)
         beyond |= left_over
         sections.append(section)
@@ -110,16 +110,16 @@ def _sheet(of: Material, page: tuple[Evaluated, ...], beside: float) -> tuple[Se
     title = results.title_of([each.evaluation for each in page], writer)
     before, after = _before_graph(of, page), _after_graph(of, page)
     main = main_graph(page[0].figures)
-    free = room.PAGES[of.job.keys.certificate.paper] - beside - room.heading(title)
-    free -= sum(room.height(each.blocks) for each in (*before, *after))
+    free = columns.PAGES[of.job.keys.certificate.paper] - beside - columns.heading_height(title)
+    free -= sum(columns.height(each.blocks) for each in (*before, *after))
     table = results.positions(evaluation, writer)
     graph, above_table = (
-        (each + _BESIDE_GRAPH) * room.MILLIMETRE if main else 0.0
+        (each + _BESIDE_GRAPH) * columns.MILLIMETRE if main else 0.0
         for each in (_LEAST_GRAPH, _LEAST_ABOVE_TABLE)
     )
-    holds_table = room.height([table]) <= free - above_table
+    holds_table = columns.height([table]) <= free - above_table
     if holds_table:
-        free -= room.height([table])
+        free -= columns.height([table])
     blocks = (
         *_blocks(before),
         *([Graph(_as_high_as(main, free))] if main else []),
@@ -134,7 +134,7 @@ def _blocks(items: Iterable[_Item]) -> Iterator[Block]:
 
 
 def _as_high_as(figure: Figure, free: float) -> Figure:
-    height = free / room.MILLIMETRE - _BESIDE_GRAPH
+    height = free / columns.MILLIMETRE - _BESIDE_GRAPH
     return replace(figure, height=round(min(max(height, _LEAST_GRAPH), _LARGEST_GRAPH), 1))
 
 
@@ -146,7 +146,7 @@ def _beyond(items: Sequence[_Item], excess: float) -> dict[str, str]:
             break
         if each.blocks:
             found[each.what] = each.clause
-            excess -= room.height(each.blocks)
+            excess -= columns.height(each.blocks)
     return found
 
 
@@ -211,7 +211,7 @@ def _facts(of: Material, page: Sequence[Evaluated]) -> Iterator[Block]:
         if pair[1] != in_title
     )
     yield from min(
-        ((Facts(pairs[:end]), Facts(pairs[end:])) for end in range(1, len(pairs))), key=room.height
+        ((Facts(pairs[:end]), Facts(pairs[end:])) for end in range(1, len(pairs))), key=columns.height
     )
     axis = conditions.axis_in_words(job, writer)
     for group in _conditions(of):

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from typing import TypeAlias
 
-from zlmreport.certificate import conditions, conformity, cover, results, room, statements
+from zlmreport.certificate import columns, conditions, conformity, cover, results, statements
 from zlmreport.certificate.document import (
     Block,
     Column,
@@ -71,10 +71,10 @@ def lay_out(of: Material) -> LaidOut:
     certificate goes over to the uncertainty where only that makes the first page too long.
     """
     pages = together(of.evaluated, of.writer)
-    page = room.PAGES[of.job.keys.certificate.paper]
+    page = columns.PAGES[of.job.keys.certificate.paper]
     on_cover, said = cover.blocks(of, pages), tuple(statements.paragraphs(of.job.keys, of.writer))
-    free = page - room.head(of.letterhead, of.title) - room.height(on_cover)
-    is_said_at_end = room.height(said) > free >= 0
+    free = page - columns.head_height(of.letterhead, of.title) - columns.height(on_cover)
+    is_said_at_end = columns.height(said) > free >= 0
     breaks = 0 <= free <= (1 - _FULL_ENOUGH) * page
     *others, last = map(_without_graphs, uncertainty_sections(of))
     if is_said_at_end:
@@ -113,8 +113,10 @@ def _results(of: Material, pages: Pages, room_of_page: float | None) -> Iterator
     if keys:
         from zlmreport.certificate.as_found import beside_as_found  # noqa: PLC0415 - of the few that need it
 
-        sections = beside_as_found(keys, sections, of.as_found, of.evaluated, of.writer, page_of_one)
-        yield _on_a_page(_in_less_room(next(sections)), room.PAGES[of.job.keys.certificate.paper])
+        sections = beside_as_found(
+            keys, sections, of.as_found, of.evaluated, of.writer, lambda each, writer: page((each,), writer)
+        )
+        yield _on_a_page(_in_less_room(next(sections)), columns.PAGES[of.job.keys.certificate.paper])
     if room_of_page is None:
         yield from sections
     else:
@@ -134,8 +136,8 @@ def _in_less_room(section: Section) -> Section:
 def _on_a_page(section: Section, page: float) -> Section:
     """Return a section with its graphs somewhat lower, if that makes it fit on a page."""
     graphs = [each.figure for each in section.blocks if isinstance(each, Graph)]
-    excess = room.heading(section.title) + room.height(section.blocks) - page
-    drawn = sum(each.height or 0.0 for each in graphs) * room.MILLIMETRE
+    excess = columns.heading_height(section.title) + columns.height(section.blocks) - page
+    drawn = sum(each.height or 0.0 for each in graphs) * columns.MILLIMETRE
     if excess <= 0 or drawn - excess < _LEAST_DRAWN * drawn:
         return section
     part = 1 - excess / drawn
@@ -198,11 +200,6 @@ def said_of_all(evaluations: Sequence[Evaluation], writer: Writer) -> Iterator[B
         names = ", ".join(each.designation for each in others)
         yield Paragraph(writer.say(words.given(others=names, first=first.designation)))
     yield from _shortfalls(evaluations, writer)
-
-
-def page_of_one(evaluated: Evaluated, writer: Writer) -> Section:
-    """Return the results by a standard that shares its page with none."""
-    return page((evaluated,), writer)
 
 
 def in_common(pages: Sequence[Sequence[Evaluated]], writer: Writer) -> Iterator[Section]:
@@ -290,7 +287,7 @@ def _shortfalls(evaluations: Sequence[Evaluation], writer: Writer) -> Iterator[N
 def parameters(evaluation: Evaluation, writer: Writer) -> Table:
     """Return all parameters by a standard: a row each, what repeats apart from what scatters."""
     values = Values.of([evaluation], writer, with_interval=True)
-    columns = (
+    headings = (
         Column(writer.say(Words(en="Symbol", de="Zeichen"))),
         Column(writer.say(Words(en="Parameter", de="Kenngröße"))),
         *values.columns,
@@ -314,4 +311,4 @@ def parameters(evaluation: Evaluation, writer: Writer) -> Table:
         has_uncertainty=values.has_uncertainty,
         writer=writer,
     )
-    return Table(told, columns, rows, dense=True)
+    return Table(told, headings, rows, dense=True)
