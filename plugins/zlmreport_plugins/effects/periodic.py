@@ -93,7 +93,7 @@ class ScrewPitch(Effect):
         en="Mostly wobble of the screw in its bearings, a coupling out of line or a bent shaft: check run-"
         "out, bearings and coupling, then the screw. A pitch table carries it only with four or more rows"
         " a pitch, else leave it out. A linear scale as feedback removes it.",
-        de="Meist Taumeln der Spindel in ihren Lagern, eine fluchtungsfehlerhafte Kupplung oder eine krumme "
+        de="Meist Taumeln der Spindel in ihren Lagern, eine nicht fluchtende Kupplung oder eine krumme "
         "Welle: Rundlauf, Lager und Kupplung prüfen, dann die Spindel. Eine Spindelfehlertabelle trägt es"
         " nur mit vier oder mehr Zeilen je Steigung, sonst weglassen. Ein Linearmaßstab als Messsystem "
         "beseitigt es.",
