@@ -80,6 +80,11 @@ def test_ticks_lie_between_the_limits_in_steps_of_1_2_or_5(start: float, span: f
         assert len(steps) <= most
 
 
+def test_a_flat_graph_has_a_scale_too() -> None:
+    (scale,) = value_scales([np.array([-61.0, 65.0])], 0.2, 3, POINT)
+    assert scale.labels == ("−50", "0", "50")
+
+
 def test_all_panels_have_one_span() -> None:
     one, other = value_scales([np.array([0.0, 10.0]), np.array([100.0, 104.0])], 0.1, 5, POINT)
     assert one.upper - one.lower == pytest.approx(other.upper - other.lower)

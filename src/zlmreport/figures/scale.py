@@ -19,6 +19,8 @@ _MOST_MARKED_TARGETS = 100
 #: Least distance between two labels, and between two round positions, in points.
 _LABEL_DISTANCE = 6.0
 _LEAST_ROUND_DISTANCE = 34.0
+#: Of an axis of deviations: one number alone gives no scale.
+_FEWEST_TICKS = 3
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,7 +100,7 @@ def value_scales(
     part
         Of the span, left free at both ends.
     most
-        Largest number of ticks.
+        Largest number of ticks; of a flat graph more, so that there are three.
     sign
         The decimal sign of the labels.
     alike
@@ -111,7 +113,8 @@ def value_scales(
         span = longest if alike else own_upper - own_lower
         middle = (own_lower + own_upper) / 2
         lower, upper = widened(middle - span / 2, middle + span / 2, part)
-        scales.append(Scale(lower, upper, *_labelled_ticks(lower, upper, most, sign)))
+        steps = next(n for n in itertools.count(most) if len(round_ticks(lower, upper, n)[0]) >= _FEWEST_TICKS)
+        scales.append(Scale(lower, upper, *_labelled_ticks(lower, upper, steps, sign)))
     return tuple(scales)
 
 
