@@ -21,7 +21,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     registry: Registry = collect(
         (Plugin(module.__name__), module) for module in (effects, laser_csv, iso230_2, json_results)
     )
-    for command in ("simulate", "report", "check"):
+    for command in ("simulate", "report"):
         monkeypatch.setattr(f"zlmreport.cli.{command}.find_plugins", lambda **_: registry)
     monkeypatch.chdir(tmp_path)
     (tmp_path / "spec.yaml").write_text(SOUND, encoding="utf-8")

@@ -22,7 +22,10 @@ from zlmreport.testing import instruments
 
 
 class _Emulator:
-    """A gauge that says its position in nanometres, 100 times a second, and E while something is wrong."""
+    """A gauge that says its position in nanometres, 100 times a second, and E while something is wrong.
+
+    A colon begins each of its lines: what was cut off before it is not taken for its first digits.
+    """
 
     def __init__(self, scene: Scene) -> None:
         self._scene = scene
@@ -34,7 +37,7 @@ class _Emulator:
             self._sent += 1
             at = self._sent / 100
             is_wrong = self._scene.troubles.has(Trouble.LOST_BEAM, at)
-            lines += b"E\n" if is_wrong else b"%d\n" % round(self._scene.axis.position(at) * 1e9)
+            lines += b":E\n" if is_wrong else b":%d\n" % round(self._scene.axis.position(at) * 1e9)
         return lines
 
     def answer(self, data: bytes, time: float) -> bytes:  # noqa: ARG002
@@ -68,7 +71,8 @@ class _Gauge:
 
     def _readings(self, data: bytes, now: float, factor: float) -> list[LiveReading]:
         found = []
-        for line in data.split(b"\n")[: None if self.takes_cut else -1]:
+        for sent in data.split(b"\n")[: None if self.takes_cut else -1]:
+            line = sent.rpartition(b":")[2]
             if line == b"E":
                 found.append(LiveReading(1.0, now, self.fault, message="lost" if self.fault else ""))
             elif line.lstrip(b"-").isdigit():

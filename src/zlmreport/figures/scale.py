@@ -113,7 +113,9 @@ def value_scales(
         span = longest if alike else own_upper - own_lower
         middle = (own_lower + own_upper) / 2
         lower, upper = widened(middle - span / 2, middle + span / 2, part)
-        steps = next(n for n in itertools.count(most) if len(round_ticks(lower, upper, n)[0]) >= _FEWEST_TICKS)
+        steps = next(
+            n for n in itertools.count(most) if len(round_ticks(lower, upper, n)[0]) >= _FEWEST_TICKS
+        )
         scales.append(Scale(lower, upper, *_labelled_ticks(lower, upper, steps, sign)))
     return tuple(scales)
 
