@@ -12,7 +12,8 @@ from playwright.sync_api import Page
 from fleet.histories import entry, history, parameter, quarters
 from zlmreport.fleet.overview import overview
 from zlmreport.fleet.overview_cells import Names
-from zlmreport.fleet.state import Night, Rules, state_of
+from zlmreport.fleet.records import PastNight
+from zlmreport.fleet.state import Rules, state_of
 from zlmreport.language import Language
 from zlmreport.plugins import find_plugins
 
@@ -37,7 +38,7 @@ def page_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
                 interval=80 if number < 10 else 1000,
             )
         )
-    state = state_of("Hall North", entries, [], Night(BEGAN, BEGAN), Rules())
+    state = state_of("Hall North", entries, [], PastNight(BEGAN, BEGAN), Rules())
     file = tmp_path_factory.mktemp("overview") / "fleet.html"
     file.write_text(overview(state, Language.ENGLISH, Names(find_plugins().standards), "."), encoding="utf-8")
     return file

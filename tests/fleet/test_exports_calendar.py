@@ -9,14 +9,15 @@ from icalendar import Calendar
 
 from fleet.histories import entry
 from zlmreport.fleet.exports import calendar
-from zlmreport.fleet.state import Night, Rules, state_of
+from zlmreport.fleet.records import PastNight
+from zlmreport.fleet.state import Rules, state_of
 from zlmreport.language import Language
 
 ENTRIES = [
     entry(dt.date(2026, 1, 10), job="x.yaml", machine="MC 800; EX-1, Süd"),
     entry(dt.date(2026, 6, 30), job="y.yaml", machine="", axis="Y"),
 ]
-NIGHT = Night(dt.datetime(2026, 7, 1, 2, tzinfo=dt.UTC), None)
+NIGHT = PastNight(dt.datetime(2026, 7, 1, 2, tzinfo=dt.UTC), None)
 
 
 def test_each_axis_has_its_day_with_a_reminder_two_weeks_before() -> None:

@@ -12,10 +12,10 @@ from environments import ROOT
 from fleet.exposition import Family, parse
 from fleet.histories import entry, history, parameter, quarters
 from zlmreport.fleet.exports import heartbeat, metrics
-from zlmreport.fleet.records import About, Entry, Notice, State
-from zlmreport.fleet.state import Night, Rules, state_of
+from zlmreport.fleet.records import About, Entry, Notice, PastNight, State
+from zlmreport.fleet.state import Rules, state_of
 
-NIGHT = Night(
+NIGHT = PastNight(
     datetime(2026, 11, 21, 2, tzinfo=UTC), datetime(2026, 11, 21, 2, tzinfo=UTC) + timedelta(seconds=94.5)
 )
 (DAY,) = quarters(1)
@@ -23,7 +23,7 @@ DRIFT = history([8.0, 9.12, 10.18, 11.31, 12.4, 13.49])
 
 
 def told(
-    entries: Sequence[Entry], name: str = "Hall North", night: Night | None = NIGHT
+    entries: Sequence[Entry], name: str = "Hall North", night: PastNight | None = NIGHT
 ) -> dict[str, Family]:
     rules = Rules(interval=365)
     return parse(metrics(state_of(name, entries, [each.job for each in entries], night, rules)))
@@ -41,7 +41,7 @@ def test_the_last_run_is_told_in_seconds() -> None:
 
 
 def test_a_run_that_was_interrupted_has_no_duration() -> None:
-    families = told(DRIFT, night=Night(NIGHT.began, None))
+    families = told(DRIFT, night=PastNight(NIGHT.began, None))
     assert "zlmreport_fleet_last_run_duration_seconds" not in families
 
 
@@ -65,7 +65,7 @@ def test_jobs_are_counted_by_their_state() -> None:
 
 
 def test_what_concerns_the_whole_night_is_one_and_all_else_zero() -> None:
-    noticed = Night(NIGHT.began, NIGHT.ended, (Notice(About.FOLDER, "the folder is empty"),))
+    noticed = PastNight(NIGHT.began, NIGHT.ended, (Notice(About.FOLDER, "the folder is empty"),))
     samples = told(DRIFT, night=noticed)["zlmreport_fleet_notice"].samples
     assert {dict(labels)["about"]: value for labels, value in samples.items()} == {
         "jobs": 0,

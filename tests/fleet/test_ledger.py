@@ -91,8 +91,11 @@ def test_the_latest_entry_of_each_job_is_found(address: str) -> None:
     with night(address, NIGHTS[1]) as (ledger, at_work):
         draft = replace(ENTRY, night=NIGHTS[1], state=State.DRAFT)
         at_work.add(draft, FILES, BASIS)
-        assert ledger.latest() == (draft, FAILURE)
-        assert ledger.issued() == (ENTRY,)
+        assert {job: each.state for job, each in ledger.standings().items()} == {
+            ENTRY.job: State.DRAFT,
+            FAILURE.job: State.FAILED,
+        }
+        assert list(ledger.certificates()) == [ENTRY.number]
 
 
 def test_a_certificate_confirmed_keeps_its_first_entry(address: str) -> None:
@@ -102,7 +105,7 @@ def test_a_certificate_confirmed_keeps_its_first_entry(address: str) -> None:
         at_work.issue(replace(ENTRY, night=NIGHTS[1]), FILES, BASIS)
         assert ledger.certificates()["CAL-1"].night == NIGHTS[0]
         assert len(list(ledger.entries())) == 2
-        assert len(ledger.issued()) == 1
+        assert len(ledger.certificates()) == 1
 
 
 def test_a_number_is_given_once_whatever_fleet_asks(address: str) -> None:
@@ -119,7 +122,7 @@ def test_fleets_see_their_own_jobs_only(address: str) -> None:
     with night(address) as (_, at_work):
         at_work.issue(ENTRY, FILES, BASIS)
     with Ledger.open(address, "south") as ledger:
-        assert not ledger.latest()
+        assert not list(ledger.entries())
 
 
 def test_a_night_that_did_not_end_is_noticed_by_the_next(address: str) -> None:
@@ -147,7 +150,7 @@ def test_a_reader_is_let_in_during_a_night(address: str) -> None:
     with night(address) as (_, at_work):
         at_work.issue(ENTRY, FILES, BASIS)
         with Ledger.open(address, "north", create=False) as reader:
-            assert reader.latest() == (ENTRY,)
+            assert list(reader.entries()) == [ENTRY]
 
 
 def test_nights_of_a_fleet_are_kept(address: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

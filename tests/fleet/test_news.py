@@ -21,8 +21,8 @@ from zlmreport.fleet import news, night
 from zlmreport.fleet.news import digest, news_of
 from zlmreport.fleet.night import MissingError
 from zlmreport.fleet.plan import Planned
-from zlmreport.fleet.records import About, Notice
-from zlmreport.fleet.state import Night, Rules, state_of
+from zlmreport.fleet.records import About, Notice, PastNight
+from zlmreport.fleet.state import Rules, state_of
 from zlmreport.language import Language
 from zlmreport.plugin import AccessError, Message, Occasion, Options, Place, Words, hookimpl
 from zlmreport.plugins import Plugin, collect
@@ -178,7 +178,7 @@ def test_news_is_in_the_language_of_the_fleet() -> None:
     entries = [*history(values), *history([5.0, 6.0, 7.1, 8.0, 9.1, 10.0, 11.1], axis="Y")]
     entries.append(entry(dt.date(2026, 8, 1), parameter(21.53, conforms=False), axis="Z", job="z.yaml"))
     clock = Notice(About.CLOCK, "the clock stands at …")
-    last = Night(dt.datetime(2027, 9, 1, tzinfo=dt.UTC), None, (clock,))
+    last = PastNight(dt.datetime(2027, 9, 1, tzinfo=dt.UTC), None, (clock,))
     state = state_of("Halle Nord", entries, [], last, Rules(365))
     keys = SimpleNamespace(name="Halle Nord", keys=SimpleNamespace(language="de"))
     message = digest(keys, tuple(news_of(state, Language.GERMAN)))  # type: ignore[arg-type]

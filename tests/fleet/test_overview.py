@@ -18,8 +18,8 @@ import pytest
 from fleet.histories import entry, history, parameter, quarters
 from zlmreport.fleet.overview import overview
 from zlmreport.fleet.overview_cells import Names, with_unit
-from zlmreport.fleet.records import MODEL, About, Entry, Notice, State
-from zlmreport.fleet.state import Night, state_of
+from zlmreport.fleet.records import MODEL, About, Entry, Notice, PastNight, State
+from zlmreport.fleet.state import state_of
 from zlmreport.language import Language
 from zlmreport.plugins import find_plugins
 
@@ -33,7 +33,7 @@ def of_night(one: Entry, **changes: Any) -> Entry:
 
 def page(*entries: Entry, language: Language = Language.ENGLISH, files: str = ".") -> str:
     jobs = [each.job for each in entries]
-    night = Night(NIGHT, NIGHT + timedelta(seconds=94)) if entries else None
+    night = PastNight(NIGHT, NIGHT + timedelta(seconds=94)) if entries else None
     state = state_of("Hall North", entries, jobs, night)
     return overview(state, language, Names(find_plugins().standards), files)
 
@@ -62,7 +62,7 @@ FAILURE = of_night(
 
 def test_what_concerns_the_whole_night_stands_first() -> None:
     notices = (Notice(About.FOLDER, "the folder is empty"),)
-    state = state_of("Hall North", CALM, ["x"], Night(NIGHT, NIGHT, notices))
+    state = state_of("Hall North", CALM, ["x"], PastNight(NIGHT, NIGHT, notices))
     html = overview(state, Language.ENGLISH, Names(find_plugins().standards), ".")
     assert "Folder of certificates the folder is empty" in text(section(html, "needs"))
 

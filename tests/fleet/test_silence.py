@@ -13,8 +13,8 @@ from zlmreport.fleet import ledger, night
 from zlmreport.fleet.issuing import What
 from zlmreport.fleet.ledger import Ledger
 from zlmreport.fleet.night import MissingError
-from zlmreport.fleet.records import About, Notice, State
-from zlmreport.fleet.state import Night, Rules, state_of
+from zlmreport.fleet.records import About, Notice, PastNight, State
+from zlmreport.fleet.state import Rules, state_of
 
 
 @pytest.fixture
@@ -152,8 +152,8 @@ def test_the_overview_lists_by_when_axes_are_to_be_measured(fleet: Fleet) -> Non
     assert [(term.due.isoformat(), term.is_over) for term in state.terms] == [("2027-11-18", True)]
 
 
-def night_of(day: str) -> Night:
-    return Night(dt.datetime.fromisoformat(f"{day}T02:00:00+00:00"), None)
+def night_of(day: str) -> PastNight:
+    return PastNight(dt.datetime.fromisoformat(f"{day}T02:00:00+00:00"), None)
 
 
 def test_a_night_that_gives_no_sign_of_life_is_killed_and_its_place_taken(

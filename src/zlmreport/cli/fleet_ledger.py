@@ -6,7 +6,6 @@ import datetime as dt
 import os
 import sys
 from argparse import Namespace
-from datetime import datetime
 from functools import partial
 from pathlib import Path
 
@@ -15,10 +14,10 @@ from zlmreport.errors import AccessError, Place
 from zlmreport.files import Document, write
 from zlmreport.fleet.basis import path_in
 from zlmreport.fleet.exports import calendar, metrics
-from zlmreport.fleet.ledger import Ledger, PastNight
+from zlmreport.fleet.ledger import Ledger
 from zlmreport.fleet.overview import overview
 from zlmreport.fleet.overview_cells import Names
-from zlmreport.fleet.state import FleetState, Night, Rules, state_of
+from zlmreport.fleet.state import FleetState, Rules, state_of
 from zlmreport.job.fleet import FleetFile, is_retired, job_files, load_fleet
 from zlmreport.language import Language
 from zlmreport.plugins import find_plugins
@@ -48,15 +47,8 @@ def report(options: Namespace) -> int:
 def _state(fleet: FleetFile) -> FleetState:
     jobs = [path_in(fleet.path.parent, path) for path in job_files(fleet)]
     with Ledger.open(fleet.ledger, fleet.name, create=False) as ledger:
-        night = ledger.last_night()
-        last = _night(night) if night else None
         rules = Rules(fleet.keys.interval, partial(is_retired, fleet=fleet))
-        return state_of(fleet.name, ledger.entries(), jobs, last, rules)
-
-
-def _night(past: PastNight) -> Night:
-    ended = datetime.fromisoformat(past.ended) if past.ended else None
-    return Night(datetime.fromisoformat(past.began), ended, past.notices)
+        return state_of(fleet.name, ledger.entries(), jobs, ledger.last_night(), rules)
 
 
 def backup(options: Namespace) -> int:

@@ -15,7 +15,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any, Self
 
-from sqlalchemy import Connection, Insert, Row, Select, func, insert, select, update
+from sqlalchemy import Connection, Insert, Row, func, insert, select, update
 from sqlalchemy.exc import IntegrityError
 
 from zlmreport.fleet.basis import Basis, KnownFile
@@ -37,6 +37,7 @@ from zlmreport.fleet.records import (
     Kind,
     News,
     Notice,
+    PastNight,
     RecordedParameter,
     State,
     Subject,
@@ -129,14 +130,11 @@ class Night:
 
     def beat(self, now: str) -> None:
         """Give a sign of life."""
-        with self.database.transaction() as connection:
-            connection.execute(update(NIGHTS).where(NIGHTS.c.id == self.identity).values(beat=now))
+        self._note(beat=now)
 
     def notice(self, notices: Sequence[Notice]) -> None:
         """Note what concerns the whole night."""
-        kept = [[each.about.value, each.text] for each in notices]
-        with self.database.transaction() as connection:
-            connection.execute(update(NIGHTS).where(NIGHTS.c.id == self.identity).values(notices=kept))
+        self._note(notices=[[each.about.value, each.text] for each in notices])
 
     def report(self, news: Sequence[News], *, is_all: bool = True) -> None:
         """Note what is new: what is not known yet, or had ended.
@@ -195,8 +193,11 @@ class Night:
 
     def end(self, ended: str) -> None:
         """Note that the night has come to its end."""
+        self._note(ended=ended)
+
+    def _note(self, **values: object) -> None:
         with self.database.transaction() as connection:
-            connection.execute(update(NIGHTS).where(NIGHTS.c.id == self.identity).values(ended=ended))
+            connection.execute(update(NIGHTS).where(NIGHTS.c.id == self.identity).values(**values))
 
     def _insert(
         self,
@@ -306,23 +307,6 @@ class Issued:
 
 
 @dataclass(frozen=True, slots=True)
-class PastNight:
-    """A run of a fleet.
-
-    Attributes
-    ----------
-    began, ended
-        Date and time, ISO 8601 in UTC; one that is at work, or was interrupted, has not ended.
-    notices
-        What concerned all of it.
-    """
-
-    began: str
-    ended: str | None
-    notices: tuple[Notice, ...] = ()
-
-
-@dataclass(frozen=True, slots=True)
 class Taught:
     """What a certificate teaches other tests.
 
@@ -385,16 +369,27 @@ class Ledger:
 
     def entries(self) -> Iterator[Entry]:
         """Yield the whole history of the fleet with parameters, oldest first; drafts and failures too."""
-        yield from self._read(select(ENTRIES.c.id))
-
-    def latest(self) -> tuple[Entry, ...]:
-        """Return the latest entry of every job, in the order of job files."""
-        latest = select(func.max(ENTRIES.c.id)).where(ENTRIES.c.fleet == self._fleet).group_by(ENTRIES.c.job)
-        return tuple(sorted(self._read(latest), key=lambda entry: entry.job))
-
-    def issued(self) -> tuple[Entry, ...]:
-        """Return the entries by which certificates were issued, one a number, oldest first."""
-        return tuple(self._read(select(CERTIFICATES.c.entry)))
+        own = ENTRIES.c.fleet == self._fleet
+        entries = (
+            select(ENTRIES, NIGHTS.c.began)
+            .join(NIGHTS, ENTRIES.c.night == NIGHTS.c.id)
+            .where(own)
+            .order_by(ENTRIES.c.id)
+        )
+        parameters = (
+            select(PARAMETERS)
+            .join(ENTRIES, PARAMETERS.c.entry == ENTRIES.c.id)
+            .where(own)
+            .order_by(PARAMETERS.c.entry, PARAMETERS.c.row)
+        )
+        with self._database.transaction() as connection:
+            stated = {
+                entry: tuple(map(_parameter, rows))
+                for entry, rows in itertools.groupby(connection.execute(parameters), lambda row: row.entry)
+            }
+            rows = connection.execute(entries).all()
+        for row in rows:
+            yield _entry(row, stated.get(row.id, ()))
 
     def last_night(self) -> PastNight | None:
         """Return the last night of the fleet; None before the first."""
@@ -404,7 +399,8 @@ class Ledger:
         if night is None:
             return None
         notices = tuple(Notice(About(about), text) for about, text in night.notices or ())
-        return PastNight(night.began, night.ended, notices)
+        ended = dt.datetime.fromisoformat(night.ended) if night.ended else None
+        return PastNight(dt.datetime.fromisoformat(night.began), ended, notices)
 
     def standings(self) -> Mapping[str, Standing]:
         """Return what the ledger knows of each job, by its path."""
@@ -507,30 +503,6 @@ class Ledger:
             return None
         silent = dt.datetime.fromisoformat(now) - dt.datetime.fromisoformat(night.beat)
         return night if silent >= STUCK and night.process != os.getpid() else None
-
-    def _read(self, chosen: Select[Any]) -> Iterator[Entry]:
-        """Yield some entries with their parameters, oldest first."""
-        own = (ENTRIES.c.fleet == self._fleet, ENTRIES.c.id.in_(chosen))
-        entries = (
-            select(ENTRIES, NIGHTS.c.began)
-            .join(NIGHTS, ENTRIES.c.night == NIGHTS.c.id)
-            .where(*own)
-            .order_by(ENTRIES.c.id)
-        )
-        parameters = (
-            select(PARAMETERS)
-            .join(ENTRIES, PARAMETERS.c.entry == ENTRIES.c.id)
-            .where(*own)
-            .order_by(PARAMETERS.c.entry, PARAMETERS.c.row)
-        )
-        with self._database.transaction() as connection:
-            stated = {
-                entry: tuple(map(_parameter, rows))
-                for entry, rows in itertools.groupby(connection.execute(parameters), lambda row: row.entry)
-            }
-            rows = connection.execute(entries).all()
-        for row in rows:
-            yield _entry(row, stated.get(row.id, ()))
 
 
 def _kill(process: int) -> None:

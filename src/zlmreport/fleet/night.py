@@ -17,12 +17,11 @@ from zlmreport.files import Document, confinement, write
 from zlmreport.fleet.basis import Basis, Disk, KnownFile, changes, program_versions
 from zlmreport.fleet.exports import heartbeat, priors
 from zlmreport.fleet.issuing import Desk, Happened, What, tidy
-from zlmreport.fleet.ledger import Ledger, Night, PastNight, Standing
+from zlmreport.fleet.ledger import Ledger, Night, Standing
 from zlmreport.fleet.making import Failed, Limits, Task, defaults_digest
 from zlmreport.fleet.news import Ways, digest, news_of, news_of_job, news_of_night, ways_of
 from zlmreport.fleet.plan import Due, Evening, Planned, plan, reasons
-from zlmreport.fleet.records import About, Notice, State, due_date
-from zlmreport.fleet.state import Night as PastRun
+from zlmreport.fleet.records import About, Notice, PastNight, State, due_date
 from zlmreport.fleet.state import Rules, state_of
 from zlmreport.fleet.workers import Cluster, Pool
 from zlmreport.job.fleet import FleetFile, is_retired, job_files, number_of
@@ -136,7 +135,7 @@ def spend(fleet: FleetFile, order: Order, watch: Watch) -> None:
             night.notice(noticed)
             for notice in noticed:
                 watch.noticed(notice)
-            before = last.began if last else ""
+            before = last.began.isoformat() if last else ""
             witness = _Witness(watch, known, ways)
             _spend(known, order, witness, _Work(night, gone, before, ends, ledger.longest()))
             if witness.saw_something or night.was_interrupted or (last and last.notices):
@@ -146,7 +145,7 @@ def spend(fleet: FleetFile, order: Order, watch: Watch) -> None:
                 began = dt.datetime.fromisoformat(night.began)
                 rules = Rules(fleet.keys.interval, lambda job: is_retired(job, fleet))
                 names = [known.job_of(path) for path in jobs]
-                now = PastRun(began, None, noticed)
+                now = PastNight(began, None, noticed)
                 state = state_of(fleet.name, ledger.entries(), names, now, rules)
                 night.report(tuple(news_of(state, language)))
             _tell(fleet, night, ways, watch)
@@ -178,15 +177,6 @@ class _Witness:
     known: Evening
     ways: Ways
     saw_something: bool = False
-
-    def planned(self, jobs: Sequence[Planned]) -> None:
-        self.watch.planned(jobs)
-
-    def noticed(self, notice: Notice) -> None:
-        self.watch.noticed(notice)
-
-    def learned(self, file: Path) -> None:
-        self.watch.learned(file)
 
     def happened(self, happened: Happened) -> None:
         self.saw_something |= happened.what is not What.UNCHANGED
@@ -222,8 +212,8 @@ def _notices(known: Evening, night: Night, gone: Sequence[str], last: PastNight 
     """Yield what concerns the whole night, and lets it go on."""
     if night.took_over:
         yield Notice(About.STUCK, f"the night of {night.took_over} gave no sign of life; it was killed")
-    if last and night.began < last.began:
-        text = f"the clock stands at {night.began}, before the last night: {last.began}"
+    if last and dt.datetime.fromisoformat(night.began) < last.began:
+        text = f"the clock stands at {night.began}, before the last night: {last.began.isoformat()}"
         yield Notice(About.CLOCK, text)
     new, before = _newly_gone(known, gone), len(known.jobs) + len(gone)
     if len(new) > _FEW and len(new) > _PART * before:
@@ -256,7 +246,7 @@ class _Work:
     longest: Mapping[str, float]
 
 
-def _spend(known: Evening, order: Order, watch: Watch, work: _Work) -> None:
+def _spend(known: Evening, order: Order, witness: _Witness, work: _Work) -> None:
     night = work.night
     if night.was_interrupted:
         tidy(known.fleet.output, _files_in(known))
@@ -266,13 +256,13 @@ def _spend(known: Evening, order: Order, watch: Watch, work: _Work) -> None:
         executor = _executor(known.fleet, order, due, lambda: _sign(known.fleet, night)) if due else None
         stack.enter_context(executor or contextlib.nullcontext())
         planned = plan(known, why)
-        watch.planned(planned)
+        witness.watch.planned(planned)
         desk = Desk(known, night)
         for happened in (*map(desk.vanished, work.gone), *overdue(known, work.last, night.began)):
-            watch.happened(happened)
+            witness.happened(happened)
         for each in planned:
             if each.due not in _MADE:
-                watch.happened(_not_made(each, desk))
+                witness.happened(_not_made(each, desk))
         tasks = {each.path.absolute(): each for each in planned if each.due in _MADE}
         left = [(each, _task(each, known, order.plugins, work)) for each in reversed(tasks.values())]
 
@@ -284,9 +274,9 @@ def _spend(known: Evening, order: Order, watch: Watch, work: _Work) -> None:
             for task, result in executor.results(waiting()):
                 happened = desk.kept(tasks[task.job.absolute()], result)
                 is_upgrade = task.stated is not None and happened.what is What.CONFIRMED
-                watch.happened(replace(happened, is_upgrade=is_upgrade))
+                witness.happened(replace(happened, is_upgrade=is_upgrade))
         for each, _ in reversed(left):
-            watch.happened(Happened(What.LEFT, each.job, each.number, each.why))
+            witness.happened(Happened(What.LEFT, each.job, each.number, each.why))
 
 
 def _sign(fleet: FleetFile, night: Night) -> None:

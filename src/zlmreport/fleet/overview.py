@@ -15,8 +15,8 @@ from zlmreport.fleet import overview_words as words
 from zlmreport.fleet.causes import LEAST_MACHINES, Shared, shared
 from zlmreport.fleet.drifts import FALSE_SHARE, LEAST_DATES, Trend, by_axis
 from zlmreport.fleet.overview_cells import Cells, Names, Period, small_graph
-from zlmreport.fleet.records import Entry, Notice, RecordedParameter, State
-from zlmreport.fleet.state import SOON, Failure, FleetState, Night, Term
+from zlmreport.fleet.records import Entry, Notice, PastNight, RecordedParameter, State
+from zlmreport.fleet.state import SOON, Failure, FleetState, Term
 from zlmreport.fleet.steps import LEAST_BEFORE, SEEN, SMALL
 from zlmreport.fleet.trend import Calibration, Series, line_through
 from zlmreport.language import Language, Words
@@ -85,7 +85,7 @@ def _facts(state: FleetState, cells: Cells) -> Iterator[tuple[str, str]]:
     yield cells.say(words.CERTIFICATES), str(len(state.certificates))
 
 
-def _run(night: Night | None) -> Words:
+def _run(night: PastNight | None) -> Words:
     if night is None:
         return words.NEVER
     began = night.began.strftime("%Y-%m-%d %H:%M UTC")

@@ -6,7 +6,7 @@ import math
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from datetime import date, timedelta
+from datetime import date, datetime, timedelta
 from enum import StrEnum
 from pathlib import PurePosixPath
 from typing import Any, Self
@@ -108,6 +108,30 @@ class Notice:
 
     about: About
     text: str
+
+
+@dataclass(frozen=True, slots=True)
+class PastNight:
+    """A run of a fleet.
+
+    Attributes
+    ----------
+    began
+        With its offset from UTC.
+    ended
+        None for a run that is at work, or was interrupted.
+    notices
+        What concerned all of it.
+    """
+
+    began: datetime
+    ended: datetime | None
+    notices: tuple[Notice, ...] = ()
+
+    @property
+    def seconds(self) -> float | None:
+        """How long it took."""
+        return (self.ended - self.began).total_seconds() if self.ended else None
 
 
 @dataclass(frozen=True, slots=True)

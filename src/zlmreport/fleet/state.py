@@ -7,35 +7,11 @@ from dataclasses import dataclass
 from datetime import date, datetime, timedelta
 
 from zlmreport.fleet.drifts import Trend, trends
-from zlmreport.fleet.records import MODEL, Entry, Notice, State, due_date
+from zlmreport.fleet.records import MODEL, Entry, Notice, PastNight, State, due_date
 from zlmreport.fleet.trend import Series, series_of, standing
 
 #: What is due within this time may be planned now.
 SOON = timedelta(days=90)
-
-
-@dataclass(frozen=True, slots=True)
-class Night:
-    """A run of the fleet.
-
-    Attributes
-    ----------
-    began
-        With its offset from UTC.
-    ended
-        None for a run that was interrupted.
-    notices
-        What concerned all of it.
-    """
-
-    began: datetime
-    ended: datetime | None
-    notices: tuple[Notice, ...] = ()
-
-    @property
-    def seconds(self) -> float | None:
-        """How long it took."""
-        return (self.ended - self.began).total_seconds() if self.ended else None
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,7 +68,7 @@ class FleetState:
     """
 
     name: str
-    night: Night | None
+    night: PastNight | None
     jobs: int
     made: int
     failures: tuple[Failure, ...]
@@ -180,7 +156,7 @@ def state_of(
     name: str,
     entries: Iterable[Entry],
     jobs: Sequence[str],
-    night: Night | None,
+    night: PastNight | None,
     rules: Rules = Rules(),
 ) -> FleetState:
     """Return the state of a fleet.
