@@ -13,6 +13,7 @@ import sys
 from collections.abc import Callable, Mapping
 from pathlib import Path
 
+import bill_of_materials
 import command_texts
 import comparison
 import door
@@ -66,6 +67,7 @@ def generate(folder: Path) -> set[str]:
             page.write_text(after, encoding="utf-8")
     (folder / "reference" / "job.schema.json").write_text(job_keys.schema_text(), encoding="utf-8")
     (folder / "reference" / "zlmreport.1").write_text(manual.text(), encoding="utf-8")
+    (folder / "reference" / "zlmreport.cdx.json").write_text(bill_of_materials.text(), encoding="utf-8")
     stub = folder.parent / "src/zlmreport/plugin/__init__.pyi"
     stub.parent.mkdir(parents=True, exist_ok=True)
     stub.write_text(door.stub(), encoding="utf-8")

@@ -58,7 +58,7 @@ def test_every_part_that_can_be_generated_stands_in_a_page() -> None:
     assert known == {part for page in _GENERATED for part in _PART.findall(page.read_text(encoding="utf-8"))}
 
 
-@pytest.mark.parametrize("file", ["job.schema.json", "zlmreport.1"])
+@pytest.mark.parametrize("file", ["job.schema.json", "zlmreport.1", "zlmreport.cdx.json"])
 def test_a_generated_file_is_up_to_date(file: str, regenerated: Path) -> None:
     stands, should = (folder / "reference" / file for folder in (DOCS, regenerated))
     assert stands.read_text(encoding="utf-8") == should.read_text(encoding="utf-8")

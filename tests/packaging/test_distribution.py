@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import json
 import pkgutil
 import re
 import sys
@@ -81,6 +82,34 @@ def test_the_wheel_holds_nothing_else_but_a_manual_page(in_wheel: set[str]) -> N
     roots = {name.partition("/")[0] for name in in_wheel - manual}
     others = {root for root in roots if not root.endswith(".dist-info")}
     assert others == {"zlmreport", "zlmreport_plugins", "zlmreport_step_gauge", "zlmreport_templates"}
+
+
+def test_the_wheel_holds_a_bill_of_what_it_runs_on(
+    zlmreport_distribution: Distribution, metadata: dict[str, Any]
+) -> None:
+    with zipfile.ZipFile(zlmreport_distribution.wheel) as wheel:
+        (name,) = (each for each in wheel.namelist() if ".dist-info/sboms/" in each)
+        bill = json.loads(wheel.read(name))
+    assert (bill["bomFormat"], bill["specVersion"], bill["version"]) == ("CycloneDX", "1.7", 1)
+    own = bill["metadata"]["component"]
+    assert zlmreport_distribution.wheel.name.startswith(f"{own['name']}-{own['version']}-")
+    assert {each["name"] for each in bill["components"]} == names_of(metadata["dependencies"])
+    assert bill["dependencies"] == [
+        {"ref": own["bom-ref"], "dependsOn": [each["bom-ref"] for each in bill["components"]]}
+    ]
+
+
+def test_the_bill_states_ranges_and_invents_no_version(metadata: dict[str, Any]) -> None:
+    bill = json.loads((ROOT / "docs/reference/zlmreport.cdx.json").read_text(encoding="utf-8"))
+    for component, requirement in zip(bill["components"], metadata["dependencies"], strict=True):
+        assert component["type"] == "library"
+        assert component["isExternal"] is True  # without it no range may stand there
+        assert "version" not in component
+        assert component["purl"] == f"pkg:pypi/{component['name']}"
+        least = re.search(r"[\d.]+\d", requirement)
+        assert least
+        assert component["versionRange"].startswith(f"vers:pypi/>={least[0]}")
+        assert component["licenses"]
 
 
 @pytest.mark.parametrize(
