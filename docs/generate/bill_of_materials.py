@@ -1,4 +1,4 @@
-"""The bill of materials that stands in the wheel (CycloneDX 1.7, PEP 770): what runs the project, under which licence.
+"""The bill of materials in the wheel (CycloneDX 1.7, PEP 770): what runs the project, under which licence.
 
 A wheel fixes no versions of what it needs, so ranges are stated.
 """
