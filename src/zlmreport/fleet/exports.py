@@ -10,171 +10,143 @@ from __future__ import annotations
 import hashlib
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
 from datetime import UTC, date, datetime, timedelta
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from zlmreport.files import Document
-from zlmreport.fleet.drifts import Trend
+from zlmreport.fleet.drifts import Trend, by_axis
 from zlmreport.fleet.ledger import Taught
 from zlmreport.fleet.records import About, file_name
 from zlmreport.fleet.state import FleetState, Term
+from zlmreport.fleet.trend import Series
 from zlmreport.language import Language, Words
-from zlmreport.quantities.units import ANGLES, ARCSECOND, LENGTHS, MICROMETRE, Unit
+from zlmreport.quantities.units import ANGLES, LENGTHS
 from zlmreport.version import __version__
 
 if TYPE_CHECKING:
     from icalendar import Event
 
 _UNITS = {unit.ascii: unit for unit in (*LENGTHS, *ANGLES)}
-#: What follows the name of a metric, by the unit of the ledger.
-_QUANTITIES = ((LENGTHS, MICROMETRE, "meters"), (ANGLES, ARCSECOND, "radians"))
-
-
-@dataclass(slots=True)
-class _Family:
-    """A metric: its name, what it says, and its samples."""
-
-    name: str
-    about: str
-    samples: list[tuple[Mapping[str, str], float]] = field(default_factory=list)
-
-    def lines(self) -> Iterator[str]:
-        """Yield its lines; none without a sample."""
-        if not self.samples:
-            return
-        yield f"# HELP {self.name} {_escaped(self.about)}"
-        yield f"# TYPE {self.name} gauge"
-        for labels, value in self.samples:
-            stated = ",".join(f'{name}="{_escaped(text, quotes=True)}"' for name, text in labels.items())
-            yield f"{self.name}{{{stated}}} {value!r}"
+#: What follows the name of a metric, by the units of the ledger.
+_QUANTITIES = ((LENGTHS, "meters"), (ANGLES, "radians"))
+_Samples = Iterable[tuple[Mapping[str, str], float | None]]
 
 
 def metrics(state: FleetState) -> str:
     """Return the text of the file."""
-    families = (*_of_fleet(state), *_of_axes(state), *_of_parameters(state))
-    return "".join(f"{line}\n" for family in families for line in family.lines())
+    return "".join((*_of_fleet(state), *_of_axes(state), *_of_parameters(state)))
 
 
 def heartbeat(fleet: str, moment: datetime, *, is_at_work: bool) -> str:
     """Return the file by which a night shows that it is alive."""
     labels = {"fleet": fleet}
-    beat = _Family("zlmreport_fleet_heartbeat_timestamp_seconds", "When a run last gave a sign of life.")
-    work = _Family("zlmreport_fleet_at_work", "1 while a run is at work, and after one that was killed.")
-    beat.samples.append((labels, moment.timestamp()))
-    work.samples.append((labels, float(is_at_work)))
-    return "".join(f"{line}\n" for family in (beat, work) for line in family.lines())
+    beat = [(labels, moment.timestamp())]
+    about = "1 while a run is at work, and after one that was killed."
+    return _family(
+        "fleet_heartbeat_timestamp_seconds", "When a run last gave a sign of life.", beat
+    ) + _family("fleet_at_work", about, [(labels, float(is_at_work))])
 
 
-def _of_fleet(state: FleetState) -> Iterator[_Family]:
-    fleet = {"fleet": state.name}
-    began = _Family("zlmreport_fleet_last_run_timestamp_seconds", "When the last run of the fleet began.")
-    lasted = _Family("zlmreport_fleet_last_run_duration_seconds", "How long the last run of the fleet took.")
-    if state.night:
-        began.samples.append((fleet, state.night.began.timestamp()))
-        if state.night.seconds is not None:
-            lasted.samples.append((fleet, state.night.seconds))
-    jobs = _Family("zlmreport_fleet_jobs", "Jobs of the fleet by their state after the last run.")
-    jobs.samples = [({**fleet, "state": name}, float(count)) for name, count in state.counts.items()]
-    notices = _Family("zlmreport_fleet_notice", "1 if the last run as a whole was not as it should be.")
+def _family(name: str, about: str, samples: _Samples) -> str:
+    """Return a metric: what it says, and its samples; none of what is not known."""
+    lines = []
+    for labels, value in samples:
+        if value is not None:
+            stated = ",".join(f'{key}="{_escaped(text, quotes=True)}"' for key, text in labels.items())
+            lines.append(f"zlmreport_{name}{{{stated}}} {value!r}\n")
+    head = f"# HELP zlmreport_{name} {_escaped(about)}\n# TYPE zlmreport_{name} gauge\n"
+    return "".join((head, *lines)) if lines else ""
+
+
+def _of_fleet(state: FleetState) -> Iterator[str]:
+    fleet, night = {"fleet": state.name}, state.night
+    began, seconds = (night.began.timestamp(), night.seconds) if night else (None, None)
+    jobs = [({**fleet, "state": name}, float(count)) for name, count in state.counts.items()]
     noticed = {each.about for each in state.notices}
-    notices.samples = [({**fleet, "about": about.value}, float(about in noticed)) for about in About]
-    yield from (began, lasted, jobs, notices)
+    notices = [({**fleet, "about": about.value}, float(about in noticed)) for about in About]
+    for name, about, samples in (
+        ("last_run_timestamp_seconds", "When the last run of the fleet began.", [(fleet, began)]),
+        ("last_run_duration_seconds", "How long the last run of the fleet took.", [(fleet, seconds)]),
+        ("jobs", "Jobs of the fleet by their state after the last run.", jobs),
+        ("notice", "1 if the last run as a whole was not as it should be.", notices),
+    ):
+        yield _family(f"fleet_{name}", about, samples)
 
 
-def _of_axes(state: FleetState) -> Iterator[_Family]:
-    measured = _Family(
-        "zlmreport_axis_measured_timestamp_seconds", "Date of the last measurement of the axis."
-    )
-    latest: dict[tuple[str, str], date] = {}
-    for trend in state.trends:
-        axis = trend.series.machine, trend.series.axis
-        day = trend.series.calibrations[-1].measured
-        latest[axis] = max(day, latest.get(axis, day))
-    measured.samples = [
-        ({"fleet": state.name, "machine": machine, "axis": axis}, _timestamp(day))
-        for (machine, axis), day in latest.items()
+def _of_axes(state: FleetState) -> Iterator[str]:
+    def of_axis(axis: tuple[str, str], day: date) -> tuple[Mapping[str, str], float]:
+        return {"fleet": state.name, "machine": axis[0], "axis": axis[1]}, _timestamp(day)
+
+    measured = [
+        of_axis(axis, max(each.series.calibrations[-1].measured for each in trends))
+        for axis, trends in by_axis(state.trends).items()
     ]
-    yield measured
-    due = _Family("zlmreport_axis_due_timestamp_seconds", "When the axis is to be measured again.")
-    due.samples = [
-        (
-            {"fleet": state.name, "machine": term.entry.machine, "axis": term.entry.axis},
-            _timestamp(term.due),
+    yield _family("axis_measured_timestamp_seconds", "Date of the last measurement of the axis.", measured)
+    due = [of_axis(term.entry.axis_key, term.due) for term in state.terms]
+    yield _family("axis_due_timestamp_seconds", "When the axis is to be measured again.", due)
+
+
+def _of_parameters(state: FleetState) -> Iterator[str]:
+    def family(name: str, about: str, values: Iterable[tuple[Series, float | None]]) -> str:
+        samples = (
+            (
+                {
+                    "fleet": state.name,
+                    "machine": each.machine,
+                    "axis": each.axis,
+                    "standard": each.standard,
+                    "symbol": each.symbol,
+                },
+                value,
+            )
+            for each, value in values
         )
-        for term in state.terms
-    ]
-    yield due
+        return _family(f"parameter_{name}", about, samples)
 
-
-def _of_parameters(state: FleetState) -> Iterator[_Family]:
-    for units, _, quantity in _QUANTITIES:
+    for units, quantity in _QUANTITIES:
         of_kind = [each for each in state.trends if _UNITS.get(each.series.unit) in units]
         for name, about, value in _AMOUNTS:
-            yield _family(f"zlmreport_parameter_{name}_{quantity}", about, state.name, of_kind, value)
+            amounts = ((each.series, _in_si(each.series.unit, value(each))) for each in of_kind)
+            yield family(f"{name}_{quantity}", about, amounts)
     for name, about, value in _STATEMENTS:
-        yield _family(f"zlmreport_parameter_{name}", about, state.name, state.trends, value)
+        yield family(name, about, ((each.series, value(each)) for each in state.trends))
 
 
-def _family(
-    name: str, about: str, fleet: str, trends: Iterable[Trend], value: Callable[[Trend], float | None]
-) -> _Family:
-    family = _Family(name, about)
-    for trend in trends:
-        stated = value(trend)
-        if stated is not None:
-            series = trend.series
-            labels = {
-                "fleet": fleet,
-                "machine": series.machine,
-                "axis": series.axis,
-                "standard": series.standard,
-                "symbol": series.symbol,
-            }
-            family.samples.append((labels, stated))
-    return family
-
-
-def _in_si(trend: Trend, value: float | None) -> float | None:
-    unit: Unit | None = _UNITS.get(trend.series.unit)
-    return None if value is None or unit is None else unit.to_si(value)
-
-
-def _slope(trend: Trend) -> float | None:
-    return _in_si(trend, trend.line.slope) if trend.line else None
-
-
-def _conforms(trend: Trend) -> float | None:
-    conforms = trend.series.latest.conforms
-    return None if conforms is None else float(conforms)
-
-
-def _reached(trend: Trend) -> float | None:
-    return _timestamp(trend.forecast.expected) if trend.forecast else None
+def _in_si(unit: str, value: float | None) -> float | None:
+    return None if value is None else _UNITS[unit].to_si(value)
 
 
 def _timestamp(day: date) -> float:
     return datetime(day.year, day.month, day.day, tzinfo=UTC).timestamp()
 
 
+#: In the unit of the ledger.
 _AMOUNTS: tuple[tuple[str, str, Callable[[Trend], float | None]], ...] = (
-    ("value", "Latest certified value.", lambda trend: _in_si(trend, trend.series.latest.value)),
+    ("value", "Latest certified value.", lambda trend: trend.series.latest.value),
     (
         "expanded_uncertainty",
         "Expanded uncertainty of the latest certified value.",
-        lambda trend: _in_si(trend, trend.series.latest.expanded_uncertainty),
+        lambda trend: trend.series.latest.expanded_uncertainty,
     ),
-    ("limit", "Limit of the amount of the value.", lambda trend: _in_si(trend, trend.series.latest.limit)),
+    ("limit", "Limit of the amount of the value.", lambda trend: trend.series.latest.limit),
     (
         "visible_step",
         "Step that the next test would show in 95 % of all cases.",
-        lambda trend: _in_si(trend, trend.smallest),
+        lambda trend: trend.smallest,
     ),
-    ("change_per_year", "Slope of the line through the certified values, in a year.", _slope),
+    (
+        "change_per_year",
+        "Slope of the line through the certified values, in a year.",
+        lambda trend: trend.line.slope if trend.line else None,
+    ),
 )
 _STATEMENTS: tuple[tuple[str, str, Callable[[Trend], float | None]], ...] = (
-    ("conforms", "1 if the limit is met, 0 if not; absent where nothing is stated.", _conforms),
+    (
+        "conforms",
+        "1 if the limit is met, 0 if not; absent where nothing is stated.",
+        lambda trend: None if trend.series.latest.conforms is None else float(trend.series.latest.conforms),
+    ),
     (
         "drift_p_value",
         "Chance of so steep a line where nothing drifts; of this parameter alone.",
@@ -190,7 +162,11 @@ _STATEMENTS: tuple[tuple[str, str, Callable[[Trend], float | None]], ...] = (
         "1 if the parameter drifts, with all tests of the fleet in view.",
         lambda trend: None if trend.line is None else float(trend.drifts),
     ),
-    ("limit_reached_timestamp_seconds", "When a drift meets its limit.", _reached),
+    (
+        "limit_reached_timestamp_seconds",
+        "When a drift meets its limit.",
+        lambda trend: _timestamp(trend.forecast.expected) if trend.forecast else None,
+    ),
 )
 
 
