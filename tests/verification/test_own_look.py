@@ -8,17 +8,19 @@ from pathlib import Path
 import matplotlib as mpl
 import pytest
 
-from verification.issued import LABORATORY, issue, lay_out, page_with, with_page_content
+from verification.issued import LABORATORY, issue, lay_out, page_with, with_digit, with_page_content
 from zlmreport.verification.findings import Outcome, Verdict, Verification
 
 FONT = Path(mpl.get_data_path(), "fonts", "ttf", "DejaVuSerif.ttf")
-STYLE = f"style: {{typeface: {{regular: {FONT}, semibold: {FONT}}}, templates: house}}"
+TYPEFACE = f"typeface: {{regular: {FONT}, semibold: {FONT}}}"
+LOOKS = {"templates": "templates: house", "templates and typeface": f"{TYPEFACE}, templates: house"}
 
 
-@pytest.fixture
-def issued(tmp_path: Path) -> bytes:
-    """A report by a template and in a typeface of the laboratory's own."""
-    job = lay_out(tmp_path, laboratory=LABORATORY.replace("issued:", f"{STYLE}, issued:"))
+@pytest.fixture(params=LOOKS.values(), ids=LOOKS)
+def issued(request: pytest.FixtureRequest, tmp_path: Path) -> bytes:
+    """A report by a template, or also in a typeface, of the laboratory's own."""
+    style = f"style: {{{request.param}}}, issued:"
+    job = lay_out(tmp_path, laboratory=LABORATORY.replace("issued:", style))
     (tmp_path / "house").mkdir()
     (tmp_path / "house" / "notice.html").write_text('<div>{% include "usual/notice.html" %}</div>', "utf-8")
     return issue(job)
@@ -41,3 +43,27 @@ def test_a_number_that_is_taken_from_its_pages_is_found(
     found = verified(with_page_content(issued, page, lambda _: b""))
     assert found.outcome is not Outcome.UNDECIDED
     assert any("cannot be read on its pages" in each.detail for each in found.document)
+
+
+#: A digit of a result; a limit, which has no decimals; two uncertainties that change places.
+CHANGED = {
+    "a result": ([("7.26", "7.96")], Outcome.DOES_NOT_HOLD),
+    "a whole number": ([("20", "30")], Outcome.UNDECIDED),
+    "two numbers": ([("0.71", "0.73"), ("0.73", "0.71")], Outcome.UNDECIDED),
+}
+
+
+@pytest.mark.parametrize(("digits", "outcome"), CHANGED.values(), ids=CHANGED)
+def test_a_page_whose_number_was_changed_never_holds(
+    digits: list[tuple[str, str]],
+    outcome: Outcome,
+    issued: bytes,
+    verified: Callable[[bytes], Verification],
+) -> None:
+    forged, changed = issued, set()
+    for number, other in digits:
+        changed.add(f"page {page_with(forged, number)}")
+        forged = with_digit(forged, number, other)
+    found = verified(forged)
+    assert found.outcome is outcome
+    assert Verdict.HOLDS not in {each.verdict for each in found.pages if each.subject in changed}

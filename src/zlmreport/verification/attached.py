@@ -14,7 +14,7 @@ import os
 import posixpath
 import tempfile
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -141,7 +141,7 @@ class Layout:
         """Return what went wrong with the files by their own names."""
         return tuple(
             Problem(
-                Place(self.names.get(problem.place.file, problem.place.file), *_position(problem.place)),
+                replace(problem.place, file=self.names.get(problem.place.file, problem.place.file)),
                 self._named(problem.message),
             )
             for problem in error.problems
@@ -188,10 +188,6 @@ def _file_name(source: StatedSource) -> str:
     except UnicodeEncodeError:
         is_possible = False
     return name if is_possible and name not in {"", ".", ".."} else "file"
-
-
-def _position(place: Place) -> tuple[int, int]:
-    return place.line, place.column
 
 
 _SHOWN_DIGITS = 12

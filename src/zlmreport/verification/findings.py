@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
 
@@ -46,6 +47,17 @@ class Finding:
     subject: str
     verdict: Verdict
     detail: Words | str = ""
+
+    @classmethod
+    def of(cls, subject: str, difference: str) -> Finding:
+        """Return that a statement holds, or how it differs."""
+        return cls(subject, Verdict.DIFFERS if difference else Verdict.HOLDS, difference)
+
+
+def first_of(told: Sequence[str], most: int) -> str:
+    """Return the first of what is told in a row, and how much more there is."""
+    more = len(told) - most
+    return "; ".join(told[:most]) + (f"; and {more} more" if more > 0 else "")
 
 
 @dataclass(frozen=True, slots=True)

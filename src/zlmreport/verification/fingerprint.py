@@ -9,7 +9,7 @@ from typing import Any, TypeAlias
 
 from zlmreport.errors import InputError, Place
 from zlmreport.verification.carrier import TooLargeError, unpacked
-from zlmreport.verification.shape import is_of_signature
+from zlmreport.verification.shape import PACKING, is_of_signature
 
 #: An object of pypdf.
 PdfObject: TypeAlias = Any
@@ -18,18 +18,7 @@ PdfObject: TypeAlias = Any
 _LARGEST = 256 * 1024 * 1024
 _MOST_OBJECTS = 2_000_000
 #: How streams are packed, and what leads back up or is counted over the whole file.
-_LEFT_OUT = frozenset(
-    {
-        "/DecodeParms",
-        "/Filter",
-        "/Length",
-        "/Parent",
-        "/ParentTree",
-        "/ParentTreeNextKey",
-        "/StructParent",
-        "/StructParents",
-    }
-)
+_LEFT_OUT = PACKING | {"/Parent", "/ParentTree", "/ParentTreeNextKey", "/StructParent", "/StructParents"}
 #: Lists to which a signature adds; one alone may stand there without a list.
 _EXTENDED_BY_SIGNATURES = frozenset({"/Annots", "/K"})
 

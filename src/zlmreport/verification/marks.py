@@ -99,6 +99,9 @@ class _Pen:
     text: _Matrix = _UNIT
     marks: list[Mark] = field(default_factory=list)
 
+    def set(self, **changed: Any) -> None:
+        self.state = replace(self.state, **changed)
+
     def resource(self, kind: str, name: Any) -> Any:
         entries = self.resources.get(kind)
         found = entries.get_object().raw_get(str(name)) if entries is not None else None
@@ -170,31 +173,25 @@ def _restore(pen: _Pen) -> None:
 
 
 def _transform(pen: _Pen, *values: Any) -> None:
-    pen.state = replace(pen.state, matrix=_times(_numbers(values), pen.state.matrix))
-
-
-def _line_width(pen: _Pen, width: Any) -> None:
-    pen.state = replace(pen.state, width=float(width))
+    pen.set(matrix=_times(_numbers(values), pen.state.matrix))
 
 
 def _style(name: str) -> Callable[..., None]:
     def draw(pen: _Pen, *values: Any) -> None:
         others = tuple(each for each in pen.state.style if each[0] != name)
-        pen.state = replace(pen.state, style=tuple(sorted((*others, (name, repr(values))))))
+        pen.set(style=tuple(sorted((*others, (name, repr(values))))))
 
     return draw
 
 
 def _graphics_state(pen: _Pen, name: Any) -> None:
-    pen.state = replace(pen.state, alpha=pen.digest(pen.resource("/ExtGState", name)))
+    pen.set(alpha=pen.digest(pen.resource("/ExtGState", name)))
 
 
 def _colour(which: str, space: str = "") -> Callable[..., None]:
     def draw(pen: _Pen, *values: Any) -> None:
-        old = getattr(pen.state, which)
         rounded = tuple(round(value, 4) for value in _numbers(values))
-        changed: Any = {which: (space or old[0], rounded)}
-        pen.state = replace(pen.state, **changed)
+        pen.set(**{which: (space or getattr(pen.state, which)[0], rounded)})
 
     return draw
 
@@ -203,8 +200,7 @@ def _colour_space(which: str) -> Callable[..., None]:
     def draw(pen: _Pen, name: Any) -> None:
         is_device = name in {"/DeviceGray", "/DeviceRGB"}
         space = str(name) if is_device else pen.digest(pen.resource("/ColorSpace", name))
-        changed: Any = {which: (space, ())}
-        pen.state = replace(pen.state, **changed)
+        pen.set(**{which: (space, ())})
 
     return draw
 
@@ -221,14 +217,9 @@ def _segment(kind: str) -> Callable[..., None]:
 
 def _rectangle(pen: _Pen, *values: Any) -> None:
     x, y, width, height = _numbers(values)
-    for kind, *corner in (
-        ("m", x, y),
-        ("l", x + width, y),
-        ("l", x + width, y + height),
-        ("l", x, y + height),
-        ("h",),
-    ):
-        _segment(str(kind))(pen, *corner)
+    corners = ((x, y), (x + width, y), (x + width, y + height), (x, y + height), ())
+    for kind, corner in zip("mlllh", corners, strict=True):
+        _segment(kind)(pen, *corner)
 
 
 def _paint(operator: str) -> Callable[..., None]:
@@ -257,10 +248,6 @@ def _clip(rule: str) -> Callable[..., None]:
     return draw
 
 
-def _begin_text(pen: _Pen) -> None:
-    pen.line = pen.text = _UNIT
-
-
 def _text_matrix(pen: _Pen, *values: Any) -> None:
     pen.line = pen.text = _numbers(values)
 
@@ -274,13 +261,12 @@ def _font(pen: _Pen, name: Any, size: Any) -> None:
     digest = pen.digest(used)
     if digest not in pen.known_fonts:
         pen.known_fonts[digest] = glyphs(used.get_object())
-    pen.state = replace(pen.state, font=digest, size=float(size))
+    pen.set(font=digest, size=float(size))
 
 
 def _set(which: str) -> Callable[..., None]:
     def draw(pen: _Pen, value: Any) -> None:
-        changed: Any = {which: float(value)}
-        pen.state = replace(pen.state, **changed)
+        pen.set(**{which: float(value)})
 
     return draw
 
@@ -288,10 +274,6 @@ def _set(which: str) -> Callable[..., None]:
 def _visibly(_: _Pen, mode: Any) -> None:
     if mode != 0:
         raise ForeignError("draws words that nobody sees")
-
-
-def _show(pen: _Pen, text: Any) -> None:
-    _show_all(pen, [text])
 
 
 def _show_all(pen: _Pen, items: Any) -> None:
@@ -333,39 +315,26 @@ def _begin_marked(pen: _Pen, tag: Any, properties: Any = None) -> None:
     pen.mark("tag", str(tag), tuple(sorted((key, repr(value)) for key, value in entries if key != "/MCID")))
 
 
-def _end_marked(pen: _Pen) -> None:
-    pen.mark("end of tag")
-
-
 _OPERATORS: dict[bytes, Callable[..., None]] = {
     b"q": _save,
     b"Q": _restore,
     b"cm": _transform,
-    b"w": _line_width,
-    b"J": _style("J"),
-    b"j": _style("j"),
-    b"M": _style("M"),
-    b"d": _style("d"),
+    b"w": _set("width"),
+    **{name.encode(): _style(name) for name in "JjMd"},
     b"gs": _graphics_state,
     b"rg": _colour("fill", "rgb"),
     b"RG": _colour("stroke", "rgb"),
     b"g": _colour("fill", "grey"),
     b"G": _colour("stroke", "grey"),
-    b"sc": _colour("fill"),
-    b"SC": _colour("stroke"),
-    b"scn": _colour("fill"),
-    b"SCN": _colour("stroke"),
+    **dict.fromkeys((b"sc", b"scn"), _colour("fill")),
+    **dict.fromkeys((b"SC", b"SCN"), _colour("stroke")),
     b"cs": _colour_space("fill"),
     b"CS": _colour_space("stroke"),
-    b"m": _segment("m"),
-    b"l": _segment("l"),
-    b"c": _segment("c"),
-    b"h": _segment("h"),
+    **{name.encode(): _segment(name) for name in "mlch"},
     b"re": _rectangle,
-    b"W": _clip("W"),
-    b"W*": _clip("W*"),
+    **{name.encode(): _clip(name) for name in ("W", "W*")},
     **{name.encode(): _paint(name) for name in ("n", "S", "f", "f*", "B", "B*")},
-    b"BT": _begin_text,
+    b"BT": lambda pen: _text_matrix(pen, *_UNIT),
     b"ET": lambda _: None,
     b"Tm": _text_matrix,
     b"Td": _next_line,
@@ -373,10 +342,9 @@ _OPERATORS: dict[bytes, Callable[..., None]] = {
     b"Ts": _set("rise"),
     b"Tc": _set("spacing"),
     b"Tr": _visibly,
-    b"Tj": _show,
+    b"Tj": lambda pen, text: _show_all(pen, [text]),
     b"TJ": _show_all,
     b"Do": _picture,
-    b"BMC": _begin_marked,
-    b"BDC": _begin_marked,
-    b"EMC": _end_marked,
+    **dict.fromkeys((b"BMC", b"BDC"), _begin_marked),
+    b"EMC": lambda pen: pen.mark("end of tag"),
 }

@@ -10,11 +10,10 @@ from typing import Any
 
 from zlmreport.verification import raster, shape
 from zlmreport.verification.carrier import Carrier, guarded
-from zlmreport.verification.findings import Finding, Verdict
+from zlmreport.verification.findings import Finding, Verdict, first_of
 from zlmreport.verification.fingerprint import Fingerprints
 from zlmreport.verification.fonts import show_the_same
 from zlmreport.verification.marks import TOLERANCE, ForeignError, Mark, marks
-from zlmreport.verification.shape import is_of_signature
 
 #: Words of a page that are compared, and differences of a page that are told.
 _MOST_WORDS = 5000
@@ -34,20 +33,7 @@ _PARTS = {
     "/StructTreeRoot": "structure with alternative texts",
 }
 #: Compared page by page and file by file, or added by a signature.
-_NOT_COMPARED = frozenset(
-    {
-        "/AF",
-        "/AcroForm",
-        "/DSS",
-        "/EmbeddedFiles",
-        "/Extensions",
-        "/Names",
-        "/Pages",
-        "/Perms",
-        "/Type",
-        "/Version",
-    }
-)
+_NOT_COMPARED = shape.OF_SIGNATURES | {"/AF", "/EmbeddedFiles", "/Names", "/Pages", "/Type"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,12 +60,6 @@ def compare(carrier: Carrier, again: Prints, *, is_signed: bool) -> Compared:
     `is_signed` says whether it may have what belongs to a signature.
     """
     return guarded(lambda: _Comparison(Prints(carrier), again).compared(is_signed=is_signed), carrier.place)
-
-
-def words(carrier: Carrier, number: int) -> list[str]:
-    """Return the words of a page in reading order."""
-    text: str = carrier.reader.pages[number].extract_text()
-    return text.split()[:_MOST_WORDS]
 
 
 class _Comparison:
@@ -134,10 +114,8 @@ class _Comparison:
             or name not in again
             or not self._is_same_resource(name, used[name], again[name])
         ]
-        if differing:
-            kind = differing[0][0]
-            return Finding(_page(number), Verdict.DIFFERS, f"its {_RESOURCES.get(kind, kind)} differ")
-        return Finding(_page(number), Verdict.HOLDS)
+        kinds = [_RESOURCES.get(kind, kind) for kind, _ in differing[:1]]
+        return Finding.of(_page(number), f"its {kinds[0]} differ" if kinds else "")
 
     def _is_same_resource(self, name: tuple[str, str], used: Any, again: Any) -> bool:
         digests = self._prints.of(used), self._prints_again.of(again)
@@ -167,13 +145,10 @@ class _Comparison:
         is_same = len(drawn) == len(drawn_again) and all(map(Mark.is_as, drawn, drawn_again))
         if is_same and all(map(Mark.is_where, drawn, drawn_again)):
             return Finding(subject, Verdict.HOLDS)
-        differences = list(
-            _differences(words(self._prints.carrier, number), words(self._prints_again.carrier, number_again))
-        )
+        words, words_again = self._prints.words(number), self._prints_again.words(number_again)
+        differences = list(_differences(words, words_again))
         if differences:
-            shown = "; ".join(differences[:_MOST_DIFFERENCES])
-            more = len(differences) - _MOST_DIFFERENCES
-            return Finding(subject, Verdict.DIFFERS, shown + (f"; and {more} more" if more > 0 else ""))
+            return Finding(subject, Verdict.DIFFERS, first_of(differences, _MOST_DIFFERENCES))
         if is_same and not self._is_drawn_alike:
             return Finding(
                 subject, Verdict.OPEN, "the same is drawn, but not where it is printed again: look at it"
@@ -184,15 +159,14 @@ class _Comparison:
         """Yield what else a document holds, part by part."""
         stated, again = self._prints.parts, self._prints_again.parts
         for key in sorted({*stated, *again}):
-            subject = _PARTS.get(key, key)
             if key not in again:
-                yield Finding(subject, Verdict.DIFFERS, "is added")
+                difference = "is added"
             elif key not in stated:
-                yield Finding(subject, Verdict.DIFFERS, "is missing")
-            elif self._is_same_part(stated[key], again[key]):
-                yield Finding(subject, Verdict.HOLDS)
+                difference = "is missing"
             else:
-                yield Finding(subject, Verdict.DIFFERS, "is not what is printed again")
+                is_same = self._is_same_part(stated[key], again[key])
+                difference = "" if is_same else "is not what is printed again"
+            yield Finding.of(_PARTS.get(key, key), difference)
         yield from _metadata(self._prints.carrier.metadata, self._prints_again.carrier.metadata)
 
     def _is_same_part(self, stated: Any, again: Any) -> bool:
@@ -255,6 +229,11 @@ class Prints:
             self._marks[number] = marks(self._reader.pages[number], self.of, self._fonts)
         return self._marks[number]
 
+    def words(self, number: int) -> list[str]:
+        """Return the words of a page in reading order."""
+        text: str = self._reader.pages[number].extract_text()
+        return text.split()[:_MOST_WORDS]
+
     def resources(self, number: int) -> dict[tuple[str, str], Any]:
         """Return what a page may draw with, by kind and name."""
         kinds: Any = self._reader.pages[number].get("/Resources", {}).get_object()
@@ -283,7 +262,7 @@ def _links(page: Any) -> Any:
 
     listed = page.get("/Annots", ())
     listed = listed.get_object() if hasattr(listed, "get_object") else listed
-    return ArrayObject(each for each in listed if not is_of_signature(each.get_object()))
+    return ArrayObject(each for each in listed if not shape.is_of_signature(each.get_object()))
 
 
 def _page(number: int) -> str:
@@ -311,8 +290,5 @@ def _metadata(stated: Mapping[str, str], again: Mapping[str, str]) -> Iterator[F
     """Yield the entries of the information dictionary; the library that wrote the file is no part of it."""
     for key in sorted({*stated, *again} - {"/Producer"}):
         found, expected = stated.get(key), again.get(key)
-        subject = f"metadata: {key.removeprefix('/')}"
-        if found == expected:
-            yield Finding(subject, Verdict.HOLDS)
-        else:
-            yield Finding(subject, Verdict.DIFFERS, f"{found!r} stands where {expected!r} is printed again")
+        difference = "" if found == expected else f"{found!r} stands where {expected!r} is printed again"
+        yield Finding.of(f"metadata: {key.removeprefix('/')}", difference)

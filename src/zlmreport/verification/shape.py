@@ -14,7 +14,7 @@ from typing import Any, TypeAlias
 
 from zlmreport.errors import InputError
 from zlmreport.verification.carrier import Carrier
-from zlmreport.verification.findings import Finding, Verdict
+from zlmreport.verification.findings import Finding, first_of
 
 #: Where an entry stands, its key, and what kind of value it has.
 Trait: TypeAlias = tuple[str, str, str]
@@ -25,7 +25,7 @@ _MOST_OBJECTS = 2_000_000
 _MOST_TOLD = 4
 _SUBJECT = "structure of the file"
 #: How a stream is packed; looked at on its own.
-_PACKING = frozenset({"/DecodeParms", "/Filter", "/Length"})
+PACKING = frozenset({"/DecodeParms", "/Filter", "/Length"})
 _PACKED = frozenset({"/FlateDecode"})
 _PREDICTION = frozenset({"/BitsPerComponent", "/Colors", "/Columns", "/Predictor"})
 #: Entries whose keys are names that a renderer gives.
@@ -33,7 +33,7 @@ _MAPS = frozenset({"/ColorSpace", "/ExtGState", "/Font", "/Pattern", "/Propertie
 #: Names of which a part is given by chance.
 _NAMES_BY_CHANCE = frozenset({"/BaseFont", "/FontName"})
 #: Added by a signature, and looked at with it.
-_OF_SIGNATURES = frozenset({"/AcroForm", "/DSS", "/Extensions", "/Perms", "/Version"})
+OF_SIGNATURES = frozenset({"/AcroForm", "/DSS", "/Extensions", "/Perms", "/Version"})
 _BEGIN = re.compile(rb"%PDF-\d\.\d[\r\n]")
 _END = re.compile(rb"startxref\s+(\d+)\s+%%EOF\s*\Z")
 _OBJECTS = re.compile(rb"\s*(xref\b|\d+\s+\d+\s+obj\b)")
@@ -56,12 +56,7 @@ def compare(carrier: Carrier, known: Collection[Trait], *, is_signed: bool) -> F
         *strangers(carrier.reader, is_signed=is_signed),
         *dict.fromkeys(_said(trait) for trait in traits(carrier) if trait not in known),
     ]
-    if not told:
-        return Finding(_SUBJECT, Verdict.HOLDS)
-    more = len(told) - _MOST_TOLD
-    return Finding(
-        _SUBJECT, Verdict.DIFFERS, "; ".join(told[:_MOST_TOLD]) + (f"; and {more} more" if more > 0 else "")
-    )
+    return Finding.of(_SUBJECT, first_of(told, _MOST_TOLD))
 
 
 def _around(content: bytes) -> Iterator[str]:
@@ -116,7 +111,7 @@ def _inside(value: Any, where: str, key: str) -> Iterator[_Place]:
         yield from ((item, where, f"{key} []") for item in value)
     elif isinstance(value, dict):
         dictionary: Any = value
-        left_out = _PACKING | (_OF_SIGNATURES if where == "the file" else frozenset())
+        left_out = PACKING | (OF_SIGNATURES if where == "the file" else frozenset())
         for inner in dictionary:
             if inner not in left_out:
                 named = _named(inner, key, is_map=key in _MAPS)

@@ -61,12 +61,6 @@ _OTHER_LIBRARIES = Words(
 )
 
 _SIGNATURE = "signature"
-_INTEGRITY = {
-    Integrity.INTACT: Verdict.HOLDS,
-    Integrity.ALTERED: Verdict.DIFFERS,
-    Integrity.UNSIGNED: Verdict.OPEN,
-    Integrity.UNCHECKED: Verdict.OPEN,
-}
 
 
 @dataclass(frozen=True, slots=True)
@@ -135,8 +129,9 @@ def verify(
             )
         lacking = Finding("results file", Verdict.DIFFERS, "is not attached; every certificate carries one")
         return replace(found, files=(lacking,))
-    found = replace(found, identity=_identity(stated.results))
-    sources = stated.results.provenance.sources
+    identity, provenance = dict(stated.results.certificate), stated.results.provenance
+    found = replace(found, identity=Identity(**identity, generator=provenance.generator))
+    sources = provenance.sources
     with laid_out(sources, carrier.carried) as layout:
         try:
             again = _again(layout.job, carrier, stated.results, registry)
@@ -158,14 +153,6 @@ def verify(
 def _unforeseen(place: Place, error: Exception) -> ZlmreportError:
     reason = " ".join(f"{type(error).__name__}: {error}".split())[:300]
     return InputError.at(place, f"cannot be evaluated again: {reason}")
-
-
-def _identity(results: Results) -> Identity:
-    certificate = results.certificate
-    generator = results.provenance.generator
-    return Identity(
-        certificate.number, certificate.title, certificate.issued, generator, certificate.language
-    )
 
 
 def _again(job_path: Path, carrier: Carrier, stated: Results, registry: Registry) -> _Again:
@@ -255,9 +242,8 @@ def _compared(found: Verification, carrier: Carrier, stated: Stated, again: _Aga
     if again.has_own_look:
         lacking = guarded(lambda: _numbers(again.prints.carrier) - _numbers(carrier), carrier.place)
         detail = f"{', '.join(sorted(lacking)[:8])} cannot be read on its pages" if lacking else ""
-        numbers = Finding("printed numbers", Verdict.DIFFERS if lacking else Verdict.HOLDS, detail)
         found = replace(_left_open(found), remarks=(_OWN_LOOK,))
-        return replace(found, document=(*found.document, numbers))
+        return replace(found, document=(*found.document, Finding.of("printed numbers", detail)))
     return found if printed.is_drawn_alike else replace(found, remarks=(_OTHER_LIBRARIES,))
 
 
@@ -288,21 +274,29 @@ def _signature_finding(state: SignatureState, *, is_required: bool) -> Finding:
 
     `is_required` says whether it must bear an intact signature that is trusted.
     """
-    details = {
-        Integrity.INTACT: _joined([_signed(each) for each in state.signatures]),
-        Integrity.ALTERED: Words(
-            en="the file is signed, but {reason}", de="die Datei ist signiert, aber: {reason}"
-        ).given(reason=state.reason),
-        Integrity.UNSIGNED: Words(
-            en="not signed: nothing tells who made the file",
-            de="nicht signiert: nichts sagt, wer die Datei hergestellt hat",
+    verdict, detail = {
+        Integrity.INTACT: (Verdict.HOLDS, _joined([_signed(each) for each in state.signatures])),
+        Integrity.ALTERED: (
+            Verdict.DIFFERS,
+            Words(en="the file is signed, but {reason}", de="die Datei ist signiert, aber: {reason}").given(
+                reason=state.reason
+            ),
         ),
-        Integrity.UNCHECKED: Words(
-            en="signed, but the signature is not checked: {reason}",
-            de="signiert, aber die Signatur ist nicht geprüft: {reason}",
-        ).given(reason=state.reason),
-    }
-    verdict, detail = _INTEGRITY[state.integrity], details[state.integrity]
+        Integrity.UNSIGNED: (
+            Verdict.OPEN,
+            Words(
+                en="not signed: nothing tells who made the file",
+                de="nicht signiert: nichts sagt, wer die Datei hergestellt hat",
+            ),
+        ),
+        Integrity.UNCHECKED: (
+            Verdict.OPEN,
+            Words(
+                en="signed, but the signature is not checked: {reason}",
+                de="signiert, aber die Signatur ist nicht geprüft: {reason}",
+            ).given(reason=state.reason),
+        ),
+    }[state.integrity]
     if is_required and not state.is_trusted and state.integrity is not Integrity.UNCHECKED:
         required = Words(
             en="a signature that is trusted is required", de="eine Signatur, der vertraut wird, ist verlangt"
