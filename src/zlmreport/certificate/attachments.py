@@ -12,7 +12,7 @@ from pathlib import PurePosixPath
 from typing import TYPE_CHECKING
 
 from zlmreport.errors import InputError, Place
-from zlmreport.job.tree import texts
+from zlmreport.job.tree import scalars
 from zlmreport.job.types import path_from_job
 from zlmreport.language import Language, Words
 
@@ -130,7 +130,7 @@ def sources(job: Job, readings: Iterable[SourceFile], logo: SourceFile | None) -
     logo
         The file of its laboratory's logo, if it has one.
     """
-    stated = frozenset(texts(job.tree))
+    stated = frozenset(each.text for each in scalars(job.tree))
     found: dict[tuple[str, str], tuple[Role, SourceFile]] = {}
 
     def add(role: Role, file: SourceFile) -> None:

@@ -132,12 +132,8 @@ class Basis:
     @property
     def digest(self) -> str:
         """The digest of all of it: equal where nothing has changed."""
-        content = {
-            "files": sorted((file.role, file.path, file.sha256) for file in self.files),
-            "programs": dict(self.programs),
-            "formats": self.formats,
-            "defaults": self.defaults,
-        }
+        files = sorted((file.role, file.path, file.sha256) for file in self.files)
+        content = {**self.as_json(), "files": files}
         return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
 
     def as_json(self) -> dict[str, Any]:

@@ -10,7 +10,7 @@ import signal
 import socket
 import time
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass, field, fields, replace
+from dataclasses import asdict, dataclass, field, fields
 from pathlib import Path
 from types import TracebackType
 from typing import Any, Self
@@ -225,28 +225,6 @@ class Night:
             ]
             connection.execute(insert(PARAMETERS), rows)
         return identity
-
-
-def begin(database: Database, fleet: str, began: str) -> Night:
-    """Begin a night; whoever does holds the lock of the ledger.
-
-    Parameters
-    ----------
-    database
-        Of the ledger.
-    fleet
-        Name of the fleet.
-    began
-        Date and time, ISO 8601 in UTC.
-    """
-    last = select(NIGHTS.c.ended).where(NIGHTS.c.fleet == fleet).order_by(NIGHTS.c.id.desc()).limit(1)
-    host = socket.gethostname()
-    own = insert(NIGHTS).values(fleet=fleet, began=began, host=host, process=os.getpid(), beat=began)
-    with database.transaction() as connection:
-        before = connection.execute(last).first()
-        identity = _added(connection, own)
-    was_interrupted = before is not None and before.ended is None
-    return Night(database, fleet, identity, began, was_interrupted)
 
 
 def _added(connection: Connection, row: Insert) -> int:
@@ -491,8 +469,17 @@ class Ledger:
                 if stuck is None:
                     raise
                 _kill(stuck.process)
-                stack.enter_context(_locked_soon(self._database, holder))
-            yield replace(begin(self._database, self._fleet, began), took_over=stuck.began if stuck else "")
+                _enter_soon(stack, self._database, holder)
+            yield self._begun(began, stuck.began if stuck else "")
+
+    def _begun(self, began: str, took_over: str) -> Night:
+        """Begin a night; whoever does holds the lock of the ledger."""
+        before = self.last_night()
+        own = {"fleet": self._fleet, "began": began, "host": socket.gethostname(), "process": os.getpid()}
+        with self._database.transaction() as connection:
+            identity = _added(connection, insert(NIGHTS).values(beat=began, **own))
+        was_interrupted = before is not None and before.ended is None
+        return Night(self._database, self._fleet, identity, began, was_interrupted, took_over)
 
     def _stuck(self, now: str) -> Row[Any] | None:
         """Return the night at work if it is of this host, and has been silent for too long."""
@@ -511,20 +498,14 @@ def _kill(process: int) -> None:
         os.kill(process, signal.SIGKILL)
 
 
-@contextlib.contextmanager
-def _locked_soon(database: Database, holder: str) -> Iterator[None]:
+def _enter_soon(stack: contextlib.ExitStack, database: Database, holder: str) -> None:
     """Hold the lock that one who was killed gives up as the system clears it away."""
     for _ in range(_ATTEMPTS):
-        with contextlib.suppress(TakenError), contextlib.ExitStack() as stack:
+        with contextlib.suppress(TakenError):
             stack.enter_context(locked(database, holder))
-            held = stack.pop_all()
-            break
+            return
         time.sleep(_PAUSE)
-    else:
-        held = contextlib.ExitStack()
-        held.enter_context(locked(database, holder))
-    with held:
-        yield
+    stack.enter_context(locked(database, holder))
 
 
 def _entry(row: Row[Any], parameters: tuple[RecordedParameter, ...]) -> Entry:

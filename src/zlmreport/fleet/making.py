@@ -202,15 +202,19 @@ def _made(task: Task, job: Job, fleet: FleetFile, begun: float) -> Made:
     suffixes = [each.suffix for each in renderers]
     contents = [each.content for each in outcome.documents]
     folder = PurePosixPath(task.folder or folder_of(job.keys, fleet.keys.output.layout))
-    issued = {**_digests(fleet.output / folder, certificate.number, suffixes), **task.issued}
+    # Files that have the number already, though no ledger may know them.
+    paths = {suffix: fleet.output / folder / f"{certificate.number}{suffix}" for suffix in suffixes}
+    there = {suffix: path.read_bytes() for suffix, path in paths.items() if path.is_file()}
+    digests = {suffix: _digest(content) for suffix, content in there.items()}
+    issued = {**digests, **task.issued}
     is_draft = any(
         issued.get(suffix, digest) != digest
         for suffix, digest in zip(suffixes, map(_digest, contents), strict=True)
     )
     parameters = tuple(parameters_of(certificate))
-    kept = _kept(task, fleet.output / folder, certificate.number, suffixes)
-    if is_draft and kept and task.stated is not None and _are_alike(task.stated, parameters):
-        is_draft, contents = False, kept
+    is_whole = all(task.issued.get(suffix, "") == digests.get(suffix) for suffix in suffixes)
+    if is_draft and is_whole and task.stated is not None and _are_alike(task.stated, parameters):
+        is_draft, contents = False, [there[suffix] for suffix in suffixes]
     if is_draft:
         rendered = pipeline.render(drafted(certificate), renderers, registry)
         contents = [rendered[each.identifier] for each in renderers]
@@ -248,14 +252,6 @@ def _lesson_of(certificate: Certificate, job: Job, effects: Sequence[Effect]) ->
     return Lesson.of(diagnosis.fit).as_json() if diagnosis.verdict is Verdict.ADEQUATE else None
 
 
-def _kept(task: Task, folder: Path, number: str, suffixes: Sequence[str]) -> list[bytes]:
-    """Return the files of the certificate that has this number; nothing if they are not all as issued."""
-    paths = [folder / f"{number}{suffix}" for suffix in suffixes]
-    contents = [path.read_bytes() for path in paths if path.is_file()]
-    issued = [task.issued.get(suffix) for suffix in suffixes]
-    return contents if list(map(_digest, contents)) == issued else []
-
-
 def _are_alike(before: Iterable[RecordedParameter], now: Iterable[RecordedParameter]) -> bool:
     """Whether two certificates state the same values, to the rounding of doubles."""
     return sorted(map(_rounded, before)) == sorted(map(_rounded, now))
@@ -270,12 +266,6 @@ def _rounded(parameter: RecordedParameter) -> str:
 def defaults_digest(fleet: FleetFile) -> str:
     """Return the digest of a fleet's defaults; empty without any."""
     return _digest(fleet.defaults.as_yaml().encode()) if fleet.defaults else ""
-
-
-def _digests(folder: Path, number: str, suffixes: Sequence[str]) -> dict[str, str]:
-    """Return the digests of files that have the number already, though no ledger may know them."""
-    paths = {suffix: folder / f"{number}{suffix}" for suffix in suffixes}
-    return {suffix: _digest(path.read_bytes()) for suffix, path in paths.items() if path.is_file()}
 
 
 def _digest(content: bytes) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import datetime as dt
+import itertools
 import math
 import os
 import time
@@ -14,7 +15,7 @@ from typing import Protocol
 
 from zlmreport.errors import AccessError, Place, ZlmreportError
 from zlmreport.files import Document, confinement, write
-from zlmreport.fleet.basis import Basis, Disk, KnownFile, changes, program_versions
+from zlmreport.fleet.basis import Basis, Disk, changes, program_versions
 from zlmreport.fleet.exports import heartbeat, priors
 from zlmreport.fleet.issuing import Desk, Happened, What, tidy
 from zlmreport.fleet.ledger import Ledger, Night, Standing
@@ -125,12 +126,13 @@ def spend(fleet: FleetFile, order: Order, watch: Watch) -> None:
         missing = _missing(known, gone)
         with ledger.night(_now(), str(fleet.path)) as night, _alive(fleet):
             if missing:
-                night.notice([missing.notice])
-                night.report(tuple(news_of_night([missing.notice], language)), is_all=False)
+                place, notice = missing
+                night.notice([notice])
+                night.report(tuple(news_of_night([notice], language)), is_all=False)
                 _tell(fleet, night, ways, watch)
                 if not night.was_interrupted:  # else the next night still has to tidy up
                     night.end(_now())
-                raise MissingError.at(missing.place, missing.notice.text)
+                raise MissingError.at(place, notice.text)
             noticed = tuple(_notices(known, night, gone, last))
             night.notice(noticed)
             for notice in noticed:
@@ -249,7 +251,9 @@ class _Work:
 def _spend(known: Evening, order: Order, witness: _Witness, work: _Work) -> None:
     night = work.night
     if night.was_interrupted:
-        tidy(known.fleet.output, _files_in(known))
+        kept = [each.files for each in known.standings.values()]
+        kept += [each.files for each in known.certificates.values()]
+        tidy(known.fleet.output, itertools.chain.from_iterable(kept))
     why = reasons(known)
     with contextlib.ExitStack() as stack:
         due = sum(map(bool, why.values()))
@@ -324,16 +328,8 @@ def _newly_gone(known: Evening, gone: Sequence[str]) -> Sequence[str]:
     return [job for job in gone if known.standings[job].state is not State.VANISHED]
 
 
-@dataclass(frozen=True, slots=True)
-class _Missing:
-    """What is not there, where it was, and without which nothing is done."""
-
-    place: Place
-    notice: Notice
-
-
-def _missing(known: Evening, gone: Sequence[str]) -> _Missing | None:
-    """Return whether a folder seems not to be mounted, or the ledger not to be this fleet's."""
+def _missing(known: Evening, gone: Sequence[str]) -> tuple[Place, Notice] | None:
+    """Return what is not there and where: a folder that is not mounted, another fleet's ledger; else None."""
     fleet = known.fleet
     new = _newly_gone(known, gone)
     if len(new) > _FEW and len(new) > len(known.jobs):
@@ -341,7 +337,7 @@ def _missing(known: Evening, gone: Sequence[str]) -> _Missing | None:
             f"{len(new)} jobs are gone since the last night, and {len(known.jobs)} are there; look whether "
             "their folder is mounted, or name those under retired that are gone on purpose"
         )
-        return _Missing(Place(str(fleet.path)), Notice(About.JOBS, message))
+        return Place(str(fleet.path)), Notice(About.JOBS, message)
     own = [each for each in known.certificates.values() if each.fleet == fleet.name and each.files]
     is_empty = not fleet.output.is_dir() or not _other_than_reports(fleet)
     if own and is_empty:
@@ -349,7 +345,7 @@ def _missing(known: Evening, gone: Sequence[str]) -> _Missing | None:
             f"the folder is empty, and {len(own)} certificates were issued into it; look whether it is "
             "mounted. A file in it, whatever it is, lets the night make them again"
         )
-        return _Missing(Place(str(fleet.output)), Notice(About.FOLDER, message))
+        return Place(str(fleet.output)), Notice(About.FOLDER, message)
     if known.standings or is_empty:
         return None
     stems = {path.name.partition(".")[0] for path in fleet.output.rglob("*") if path.is_file()}
@@ -360,7 +356,7 @@ def _missing(known: Evening, gone: Sequence[str]) -> _Missing | None:
             f"{len(known.jobs)} jobs have theirs; put its backup back, or make it again: "
             f"zlmreport fleet rebuild {fleet.path}"
         )
-        return _Missing(Place(str(fleet.ledger)), Notice(About.LEDGER, message))
+        return Place(str(fleet.ledger)), Notice(About.LEDGER, message)
     return None
 
 
@@ -409,14 +405,6 @@ def _executor(fleet: FleetFile, order: Order, due: int, beat: Callable[[], None]
         return Cluster(keys.scheduler or "", fleet.place_of("executor", "scheduler"), beat)
     wanted = order.workers or keys.workers or len(os.sched_getaffinity(0))
     return Pool(min(wanted, due), order.plugins, beat)
-
-
-def _files_in(known: Evening) -> Iterator[KnownFile]:
-    """Yield all files that the ledger has taken over."""
-    for standing in known.standings.values():
-        yield from standing.files
-    for certificate in known.certificates.values():
-        yield from certificate.files
 
 
 def _now() -> str:

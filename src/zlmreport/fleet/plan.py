@@ -16,7 +16,7 @@ from zlmreport.fleet.ledger import Issued, Standing
 from zlmreport.fleet.records import State
 from zlmreport.job.extends import compose
 from zlmreport.job.fleet import FleetFile, number_of
-from zlmreport.job.tree import Items, Node, Scalar, found_at
+from zlmreport.job.tree import found_at, scalars
 
 
 class Due(Enum):
@@ -172,23 +172,12 @@ def inputs_digest(path: Path, evening: Evening) -> str:
     for file in composed.files:
         digest.update(file.sha256.encode())
     templates = found_at(composed.keys, ("certificate", "style", "templates"))
-    for scalar in _scalars(composed.keys):
+    for scalar in scalars(composed.keys):
         named = Path(scalar.place.file).parent / scalar.text
         with contextlib.suppress(OSError, ValueError):
             if named.is_file() or scalar is templates:
                 digest.update(sha256_of(named).encode())
     return digest.hexdigest()
-
-
-def _scalars(node: Node) -> Iterator[Scalar]:
-    if isinstance(node, Scalar):
-        yield node
-    elif isinstance(node, Items):
-        for item in node.items:
-            yield from _scalars(item)
-    else:
-        for entry in node.entries.values():
-            yield from _scalars(entry.value)
 
 
 def _refusal(issued: Issued, evening: Evening) -> str:

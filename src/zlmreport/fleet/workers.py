@@ -298,7 +298,7 @@ class Cluster:
             yield
         except (CancelledError, OSError) as error:
             message = f"the scheduler {self.scheduler} is gone; the next night makes what is left"
-            raise AccessError([*AccessError.at(self.named_at, message).problems]) from error
+            raise AccessError.at(self.named_at, message) from error
 
     def _send(self, waiting: Iterator[Task], under_way: dict[Any, tuple[Task, float]]) -> None:
         """Let no worker wait, and none have more than it needs: results are as large as documents."""

@@ -131,11 +131,11 @@ def merged(base: Keys, own: Keys) -> Keys:
     return Keys(own.place, MappingProxyType(entries))
 
 
-def texts(tree: Node) -> Iterator[str]:
-    """Yield every single value as it is spelt."""
+def scalars(tree: Node) -> Iterator[Scalar]:
+    """Yield every single value."""
     if isinstance(tree, Scalar):
-        yield tree.text
+        yield tree
     else:
         parts = tree.items if isinstance(tree, Items) else (entry.value for entry in tree.entries.values())
         for part in parts:
-            yield from texts(part)
+            yield from scalars(part)
