@@ -44,12 +44,12 @@ def parsed(template: str) -> nodes.Template:
 
 
 def test_each_template_has_one_context_and_each_context_its_template() -> None:
-    assert sorted(context.template for context in CONTEXTS) == TEMPLATES
+    assert sorted(templates.template_of(context) for context in CONTEXTS) == TEMPLATES
 
 
-@pytest.mark.parametrize("context", CONTEXTS, ids=lambda context: context.template)
+@pytest.mark.parametrize("context", CONTEXTS, ids=templates.template_of)
 def test_a_template_uses_what_its_context_documents_and_all_of_it(context: type) -> None:
-    used = meta.find_undeclared_variables(parsed(context.template))
+    used = meta.find_undeclared_variables(parsed(templates.template_of(context)))
     assert used == {field.name for field in dataclasses.fields(context)}
 
 

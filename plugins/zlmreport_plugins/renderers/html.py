@@ -35,19 +35,22 @@ class HtmlRenderer:
             HtmlSetting,
             compose_html,
             figure_to_svg,
+            linked_script,
             own_style,
+            script_fingerprint,
         )
 
         letterhead = certificate.letterhead
         logo = letterhead.logo if letterhead else None
-        script = _script() if certificate.linked else ""
+        script = linked_script() if certificate.linked else ""
+        allowed = [f"script-src {script_fingerprint(script)}"] if script else []
         setting = HtmlSetting(
             style=_style(certificate.paper, certificate.look.accent, with_linked=bool(script))
             + own_style(certificate.look, lambda font: _data_address(font, "font/sfnt"))
             + _foot(certificate.page_words),
             drawings=tuple(figure_to_svg(figure, certificate.language) for figure in certificate.figures),
             logo=_data_address(logo, letterhead.logo_type) if letterhead and logo else "",
-            policy=_policy(script),
+            policy="; ".join([*_ALLOWED, *allowed]),
             script=script,
             is_for_screens=True,
         )
@@ -82,20 +85,6 @@ def _css_text(text: str) -> str:
     return (
         '"' + "".join(each if each.isalnum() or each == " " else f"\\{ord(each):06x}" for each in text) + '"'
     )
-
-
-def _script() -> str:
-    from zlmreport.plugin import linked_script  # noqa: PLC0415 (brings Jinja)
-
-    return linked_script()
-
-
-def _policy(script: str) -> str:
-    """Return what the page may do: use what it contains, and run this script or none."""
-    from zlmreport.plugin import script_fingerprint  # noqa: PLC0415 (brings Jinja)
-
-    allowed = [f"script-src {script_fingerprint(script)}"] if script else []
-    return "; ".join([*_ALLOWED, *allowed])
 
 
 def _data_address(content: bytes, media_type: str) -> str:

@@ -249,8 +249,7 @@ def changes(pairs: Sequence[Pair], writer: Writer) -> Table:
     )
     groups = tuple(
         RowGroup(
-            tuple(_change(*each, writer, known=known) for each in _parameters(*pair)),
-            pair[1].designation,
+            tuple(_change(*each, writer, known=known) for each in _parameters(*pair)), pair[1].designation
         )
         for pair in pairs
     )

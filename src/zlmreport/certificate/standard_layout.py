@@ -49,14 +49,11 @@ _MOST_BESIDE = 2
 Pages: TypeAlias = list[tuple[Evaluated, ...]]
 
 _SHARED = Words(
-    en="These readings give the same numbers by {others}; the names are those of {first}.",
-    de="Diese Messwerte ergeben nach {others} dieselben Zahlen; die Benennungen sind die von {first}.",
+    en="These readings give the same numbers by {others}; {named} are those of {first}.",
+    de="Diese Messwerte ergeben nach {others} dieselben Zahlen; {named} sind die von {first}.",
 )
-_SHARED_WITH_LIMITS = Words(
-    en="These readings give the same numbers by {others}; names and limits are those of {first}.",
-    de="Diese Messwerte ergeben nach {others} dieselben Zahlen; Benennungen und Grenzwerte sind die von "
-    "{first}.",
-)
+_NAMES = Words(en="the names", de="die Benennungen")
+_NAMES_AND_LIMITS = Words(en="names and limits", de="Benennungen und Grenzwerte")
 _DEFINITIONS = Words(
     en="Limits, requirements and definitions", de="Grenzwerte, Anforderungen und Definitionen"
 )
@@ -196,9 +193,10 @@ def said_of_all(evaluations: Sequence[Evaluation], writer: Writer) -> Iterator[B
     """Yield that standards share a page, whose names it has, and what deviates from them."""
     first, *others = evaluations
     if others:
-        words = _SHARED_WITH_LIMITS if any(each.limit is not None for each in first.parameters) else _SHARED
+        has_limits = any(each.limit is not None for each in first.parameters)
+        named = _NAMES_AND_LIMITS if has_limits else _NAMES
         names = ", ".join(each.designation for each in others)
-        yield Paragraph(writer.say(words.given(others=names, first=first.designation)))
+        yield Paragraph(writer.say(_SHARED.given(others=names, named=named, first=first.designation)))
     yield from _shortfalls(evaluations, writer)
 
 

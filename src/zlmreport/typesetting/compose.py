@@ -19,7 +19,6 @@ from zlmreport.certificate.document import (
     Explained,
     Formulas,
     Graph,
-    Mark,
     Notice,
     Paragraph,
     Section,
@@ -37,8 +36,6 @@ from zlmreport.typesetting.templates import (
     GraphContext,
     LetterheadContext,
     LinkedContext,
-    NoticeContext,
-    ParagraphContext,
     RowGroupContext,
     SectionContext,
     TableContext,
@@ -133,9 +130,9 @@ def _context(numbered: NumberedBlock, certificate: Certificate, setting: Setting
     match numbered.block:
         case Table() as table:
             page = certificate.page_words.page
-            return table_context(table, label, page, is_for_screens=setting.is_for_screens)
+            return _table(table, label, page, is_for_screens=setting.is_for_screens)
         case Formulas() as formulas:
-            return formulas_context(formulas, label)
+            return _formulas(formulas, label)
         case Graph(figure):
             number = numbered.number - 1
             return GraphContext(
@@ -145,32 +142,16 @@ def _context(numbered: NumberedBlock, certificate: Certificate, setting: Setting
                 address=GRAPH_ADDRESS.format(number),
                 drawing=Markup(setting.drawings[number]) if setting.drawings else Markup(),  # noqa: S704 (the drawer's own)
             )
-        case Paragraph(text):
-            return ParagraphContext(text)
-        case Notice(heading, items):
-            return NoticeContext(heading, items)
+        case Paragraph() | Notice() as block:
+            return block
         case facts:
             return FactsContext(columns.side_by_side(facts))
 
 
-_SHAPE = {Mark.MET: "met", Mark.NOT_MET: "not-met", Mark.OPEN: "open"}
 _ALIGNMENT = {Align.LEFT: "", Align.RIGHT: "right", Align.CENTRE: "centre"}
 
 
-def table_context(table: Table, label: str, page: str, *, is_for_screens: bool = False) -> TableContext:
-    """Return the context of a table.
-
-    Parameters
-    ----------
-    table
-        The table.
-    label
-        Its number: ``Table 2``.
-    page
-        Word before the number of a page.
-    is_for_screens
-        Whether it says of a cell what stands above it, and can be scrolled by keys.
-    """
+def _table(table: Table, label: str, page: str, *, is_for_screens: bool) -> TableContext:
     layout = columns.table_layout(table)
     styles = tuple(
         "apart" if apart else _ALIGNMENT[column.align]
@@ -203,8 +184,7 @@ def table_context(table: Table, label: str, page: str, *, is_for_screens: bool =
     )
 
 
-def formulas_context(formulas: Formulas, label: str) -> FormulasContext:
-    """Return the context of definitions, which are set as a table without headings."""
+def _formulas(formulas: Formulas, label: str) -> FormulasContext:
     layout = columns.table_layout(formulas)
     return FormulasContext(
         label=label,
@@ -234,6 +214,6 @@ def _per_cent(widths: Iterable[float]) -> tuple[str, ...]:
 
 def _cell(cell: Cell, style: str, padding: str) -> CellContext:
     if isinstance(cell, Verdict):
-        return CellContext(cell.word, f"verdict {_SHAPE[cell.mark]} {style}".strip())
+        return CellContext(cell.word, f"verdict {cell.mark.value.replace(' ', '-')} {style}".strip())
     note = cell.meaning if isinstance(cell, Explained) else ""
     return CellContext(columns.text_of(cell, symbol), f"{style} {padding}".strip(), note=note)

@@ -23,7 +23,7 @@ from jinja2 import (
 from jinja2.sandbox import ImmutableSandboxedEnvironment
 from markupsafe import Markup
 
-from zlmreport.certificate.document import Certificate, Facts, Letterhead
+from zlmreport.certificate.document import Certificate, Facts, Letterhead, Notice, Paragraph
 from zlmreport.errors import InputError, Place
 from zlmreport.quantities.formatting import Span, spans
 from zlmreport.typesetting.overview import (
@@ -142,23 +142,6 @@ class FactsContext:
 
 
 @dataclass(frozen=True, slots=True)
-class ParagraphContext:
-    """A paragraph."""
-
-    template: ClassVar[str] = "paragraph.html"
-    text: str
-
-
-@dataclass(frozen=True, slots=True)
-class NoticeContext:
-    """A statement that nobody may overlook."""
-
-    template: ClassVar[str] = "notice.html"
-    heading: str
-    items: tuple[str, ...]
-
-
-@dataclass(frozen=True, slots=True)
 class GraphContext:
     """A graph with its caption.
 
@@ -257,8 +240,8 @@ Context: TypeAlias = (
     | TableContext
     | FormulasContext
     | FactsContext
-    | ParagraphContext
-    | NoticeContext
+    | Paragraph
+    | Notice
     | GraphContext
     | LinkedContext
     | SymbolContext
@@ -269,6 +252,15 @@ Context: TypeAlias = (
     | OverviewLegendContext
     | WorkbenchContext
 )
+
+
+#: Blocks of a document that stand in their templates as they are.
+_OF_BLOCKS: dict[type, str] = {Paragraph: "paragraph.html", Notice: "notice.html"}
+
+
+def template_of(context: type[Context]) -> str:
+    """Return the name of the template that belongs to a kind of context."""
+    return _OF_BLOCKS.get(context) or str(vars(context)["template"])
 
 
 #: Characters that XML 1.0 has no place for, not even escaped.
@@ -305,7 +297,7 @@ def render(context: Context, own: tuple[tuple[str, str], ...] = ()) -> Markup:
         If a template of a laboratory's own is wrong, or leaves out a word that the usual one prints.
     """
     values = {field.name: getattr(context, field.name) for field in fields(context)}
-    name = context.template
+    name = template_of(type(context))
     text = environment().get_template(name).render(values)
     if name in dict(own):
         usual, place = text, Place(name)

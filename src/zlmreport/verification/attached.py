@@ -72,15 +72,12 @@ class Stated:
 
     Attributes
     ----------
-    file
-        The attachment.
     tree
         All that it says.
     results
         What is understood of it.
     """
 
-    file: Carried
     tree: dict[str, Any] = field(repr=False)
     results: Results
 
@@ -102,7 +99,7 @@ def stated_by(carrier: Carrier) -> Stated | None:
             raise ValueError(f"{file.name}: no JSON: {error}") from error
         if isinstance(tree, dict) and tree.get("schema") == SCHEMA:
             try:
-                return Stated(file, tree, Results.model_validate(tree))
+                return Stated(tree, Results.model_validate(tree))
             except ValidationError as error:
                 first = error.errors()[0]
                 where = ".".join(map(str, first["loc"]))

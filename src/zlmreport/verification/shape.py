@@ -163,21 +163,9 @@ _FIELD = frozenset(
     {"/F", "/FT", "/P", "/Parent", "/Rect", "/StructParent", "/Subtype", "/T", "/TU", "/Type", "/V"}
 )
 _PLACE = frozenset({"/K", "/P", "/Pg", "/S", "/Type"})
-_SIGNATURE = frozenset(
-    {
-        "/ByteRange",
-        "/Contents",
-        "/Filter",
-        "/Location",
-        "/M",
-        "/Name",
-        "/Prop_Build",
-        "/Reason",
-        "/Reference",
-        "/SubFilter",
-        "/Type",
-    }
-)
+#: Of a signature: how it is made, and what it says of itself.
+_MADE_BY = frozenset({"/ByteRange", "/Contents", "/Filter", "/Reference", "/SubFilter", "/Type"})
+_SIGNATURE = _MADE_BY | {"/Location", "/M", "/Name", "/Prop_Build", "/Reason"}
 _FORM = frozenset({"/Fields", "/SigFlags"})
 _PROOFS = frozenset({"/CRLs", "/Certs", "/OCSPs", "/Type", "/VRI"})
 _PERMISSIONS = frozenset({"/DocMDP"})

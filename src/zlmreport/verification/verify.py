@@ -71,7 +71,6 @@ class _Again:
     than the one that made it had to print it.
     """
 
-    certificate: Certificate
     programs: pipeline.Programs
     prints: pages.Prints
     results: bytes
@@ -171,7 +170,6 @@ def _again(job_path: Path, carrier: Carrier, stated: Results, registry: Registry
     ]
     contents = pipeline.render(certificate, [results, *others, printer], registry)
     return _Again(
-        certificate,
         here,
         pages.Prints(opened(contents[printer.identifier], Place(f"{carrier.place} (printed again)"))),
         contents[pipeline.RESULTS],

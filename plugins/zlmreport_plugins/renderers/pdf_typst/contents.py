@@ -13,7 +13,6 @@ from typing import Any, TypeAlias
 
 from zlmreport.plugin import (
     Align,
-    Attachment,
     Cell,
     Certificate,
     Colour,
@@ -26,10 +25,8 @@ from zlmreport.plugin import (
     Graph,
     Language,
     Letterhead,
-    Mark,
     Notice,
     NumberedBlock,
-    PageWords,
     Paragraph,
     Segment,
     Stroke,
@@ -71,7 +68,7 @@ def contents(certificate: Certificate) -> Data:
     cover, *sections = (
         [_block(each, certificate.language) for each in blocks] for blocks in numbered_blocks(certificate)
     )
-    letterhead = certificate.letterhead
+    letterhead, words = certificate.letterhead, certificate.page_words
     return {
         "language": certificate.language.value,
         "paper": certificate.paper,
@@ -89,7 +86,11 @@ def contents(certificate: Certificate) -> Data:
         "accent": certificate.look.accent,
         "logo": certificate.look.logo,
         "words": {
-            **_words(certificate.page_words),
+            "number": fitted(words.number, _RUNNING_NUMBER),
+            "foot": fitted(words.foot, _RUNNING_NUMBER),
+            "page": words.page,
+            "of": words.of,
+            "end": words.end,
             "head": fitted(certificate.running_head, _RUNNING_HEAD),
         },
         "cover": cover,
@@ -110,7 +111,16 @@ def contents(certificate: Certificate) -> Data:
 
 def enclosures(certificate: Certificate) -> list[Data]:
     """Return the files that the document carries."""
-    return list(map(_enclosure, certificate.attachments))
+    return [
+        {
+            "name": each.name,
+            "content": _bytes(each.content),
+            "type": each.media_type,
+            "relationship": each.relationship.value.lower(),
+            "description": each.description,
+        }
+        for each in certificate.attachments
+    ]
 
 
 def _block(numbered: NumberedBlock, language: Language) -> Data:
@@ -178,26 +188,6 @@ def _letterhead(letterhead: Letterhead) -> Data:
     }
 
 
-def _words(words: PageWords) -> Data:
-    return {
-        "number": fitted(words.number, _RUNNING_NUMBER),
-        "foot": fitted(words.foot, _RUNNING_NUMBER),
-        "page": words.page,
-        "of": words.of,
-        "end": words.end,
-    }
-
-
-def _enclosure(attachment: Attachment) -> Data:
-    return {
-        "name": attachment.name,
-        "content": _bytes(attachment.content),
-        "type": attachment.media_type,
-        "relationship": attachment.relationship.value.lower(),
-        "description": attachment.description,
-    }
-
-
 def _bytes(content: bytes) -> str | list[int]:
     """Return bytes as JSON can hold them: as the text that they are, or one by one."""
     try:
@@ -220,8 +210,6 @@ _SMALL = 0.9
 _GROUP = 50.0
 #: Characters of a cell that fits on a page for certain.
 _LONG_CELL = 400
-
-_SHAPE = {Mark.MET: "met", Mark.NOT_MET: "not-met", Mark.OPEN: "open"}
 
 
 def table_data(table: Table) -> dict[str, Any]:
@@ -300,7 +288,11 @@ def _cell(cell: Cell, room: float, padding: str = "", face: FontFace = FontFace.
         case Symbol(notation):
             return symbol_data(notation)
         case Verdict(mark, word):
-            return {"kind": "verdict", "shape": _SHAPE[mark], "word": fitted(word, room - _BADGE)}
+            return {
+                "kind": "verdict",
+                "shape": mark.value.replace(" ", "-"),
+                "word": fitted(word, room - _BADGE),
+            }
         case Explained(name, meaning):
             return {
                 "kind": "explained",
