@@ -16,8 +16,8 @@ from zlmreport.figures.canvas import Fill, Segment, Stroke, SvgCanvas
 from zlmreport.fleet import overview_words as words
 from zlmreport.fleet.causes import cause_of
 from zlmreport.fleet.drifts import LEAST_DATES, Trend
-from zlmreport.fleet.records import Entry, RecordedParameter
-from zlmreport.fleet.trend import MOST_YEARS_AHEAD, Calibration, Line, Series
+from zlmreport.fleet.records import Entry
+from zlmreport.fleet.trend import MOST_YEARS_AHEAD, Calibration, Series
 from zlmreport.language import Language, Words
 from zlmreport.plugin.protocols import Standard
 from zlmreport.quantities.formatting import fixed_number, general_number, p_value, plain, rounded_pair
@@ -278,7 +278,9 @@ class Cells:
     def value(self, trend: Trend) -> OverviewCellContext:
         """Return the latest value with its expanded uncertainty."""
         latest = trend.series.latest
-        return OverviewCellContext(self._value_text(latest), style="number")
+        if latest.expanded_uncertainty is None:
+            return OverviewCellContext(self._number(latest.value, _DECIMALS, latest.unit), style="number")
+        return self.mean(latest.value, latest.expanded_uncertainty, latest.unit)
 
     def limit(self, trend: Trend) -> OverviewCellContext:
         """Return the limit."""
@@ -311,25 +313,23 @@ class Cells:
         dates = len({each.measured for each in series.calibrations})
         if trend.line is None:
             too_few = words.TOO_FEW.given(number=dates, least=LEAST_DATES)
-            return OverviewCellContext(self.say(too_few), style="quiet", note=self._visible(trend))
+            return self._quiet(too_few, self._visible(trend))
         if not trend.drifts:
-            return OverviewCellContext(self.say(words.STEADY), style="quiet", note=self._visible(trend))
+            return self._quiet(words.STEADY, self._visible(trend))
         chance = words.CHANCE.given(
             p=p_value(trend.line.p_value, self.language.decimal_sign, least=_LEAST_P),
             number=len(series.calibrations),
         )
-        return OverviewCellContext(
-            self.say(self._change(trend.line, series.unit)),
-            style="state drifts" if trend.line.slope > 0 else "state drifts falls",
-            note=self.say(chance),
-        )
+        slope, rises = trend.line.slope, trend.line.slope > 0
+        pair = self._pair(slope, trend.line.expanded_slope_uncertainty, series.unit, "+" if rises else "")
+        said, style = words.PER_YEAR.given(change=pair), "state drifts" if rises else "state drifts falls"
+        return OverviewCellContext(self.say(said), style=style, note=self.say(chance))
 
     def _visible(self, trend: Trend) -> str:
         """Say how large a step would have to be; nothing where that is not known, or not asked."""
         if trend.smallest is None:
             return ""
-        size = with_unit(fixed_number(trend.smallest, 1, self.language.decimal_sign), trend.series.unit)
-        return self.say(words.VISIBLE.given(size=size))
+        return self.say(words.VISIBLE.given(size=self._number(trend.smallest, 1, trend.series.unit)))
 
     def change(self, trend: Trend) -> OverviewCellContext:
         """Return by how much a parameter changed, since when, and how likely that is a step."""
@@ -338,11 +338,9 @@ class Cells:
             return OverviewCellContext(self.say(words.WILDER), style="state drifts")
         since = trend.series.calibrations[step.index].measured.isoformat()
         note = words.STEP_SINCE.given(since=since, percent=min(99, round(100 * step.probability)))
-        rises = step.change > 0
+        style = "state drifts" if step.change > 0 else "state drifts falls"
         return OverviewCellContext(
-            self._signed(step.change, trend.series.unit),
-            style="state drifts" if rises else "state drifts falls",
-            note=self.say(note),
+            self._signed(step.change, trend.series.unit), style=style, note=self.say(note)
         )
 
     def change_or_drift(self, trend: Trend) -> OverviewCellContext:
@@ -360,13 +358,21 @@ class Cells:
         return OverviewCellContext(effect or ("" if note else "–"), note=note)
 
     def mean(self, value: float, expanded_uncertainty: float, unit: str) -> OverviewCellContext:
-        """Return a mean of several machines with its uncertainty."""
-        number, stated = rounded_pair(value, expanded_uncertainty, self.language.decimal_sign)
-        return OverviewCellContext(with_unit(f"{number} ± {stated}", unit), style="number")
+        """Return a mean of several machines, or a single value, with its uncertainty."""
+        return OverviewCellContext(self._pair(value, expanded_uncertainty, unit), style="number")
 
     def _signed(self, value: float, unit: str) -> str:
-        sign = "+" if value > 0 else "−"
-        return with_unit(f"{sign} {fixed_number(abs(value), 1, self.language.decimal_sign)}", unit)
+        return f"{'+' if value > 0 else '−'} {self._number(abs(value), 1, unit)}"
+
+    def _number(self, value: float, decimals: int, unit: str) -> str:
+        return with_unit(fixed_number(value, decimals, self.language.decimal_sign), unit)
+
+    def _pair(self, value: float, expanded_uncertainty: float, unit: str, sign: str = "") -> str:
+        number, stated = rounded_pair(value, expanded_uncertainty, self.language.decimal_sign)
+        return with_unit(f"{sign}{number} ± {stated}", unit)
+
+    def _quiet(self, said: Words, note: str = "") -> OverviewCellContext:
+        return OverviewCellContext(self.say(said), style="quiet", note=note)
 
     def reached(self, trend: Trend) -> OverviewCellContext:
         """Return when the limit is met."""
@@ -380,11 +386,10 @@ class Cells:
             note = self.say(interval.given(**bounds))
             return OverviewCellContext(_month(trend.forecast.expected), style="due", note=note)
         if trend.series.latest.limit is None:
-            return OverviewCellContext(self.say(words.WITHOUT_LIMIT), style="quiet")
+            return self._quiet(words.WITHOUT_LIMIT)
         if line is not None and line.slope * line.at(last.measured) < 0:
-            return OverviewCellContext(self.say(words.GETS_SMALLER), style="quiet")
-        far_away = words.FAR_AWAY.given(years=MOST_YEARS_AHEAD)
-        return OverviewCellContext(self.say(far_away), style="quiet")
+            return self._quiet(words.GETS_SMALLER)
+        return self._quiet(words.FAR_AWAY.given(years=MOST_YEARS_AHEAD))
 
     def axis(self, trend: Trend) -> OverviewCellContext:
         """Return machine and axis."""
@@ -404,7 +409,7 @@ class Cells:
         """Return a link to each file of a certificate, by the name of its format."""
         formats = [Path(file).suffix.removeprefix(".").upper() or file for file in entry.files]
         return tuple(
-            LinkContext(text, f"{entry.number} {text}", self._address(file))
+            LinkContext(text, f"{entry.number} {text}", quote((Path(self.files) / file).as_posix()))
             for text, file in zip(formats, entry.files, strict=True)
         )
 
@@ -413,43 +418,23 @@ class Cells:
         notations = [self.names.notation(each.series.standard, each.series.symbol) for each in trends]
         return ", ".join(dict.fromkeys(map(plain, notations)))
 
-    def _address(self, file: str) -> str:
-        return quote((Path(self.files) / file).as_posix())
-
-    def _value_text(self, parameter: RecordedParameter) -> str:
-        sign, uncertainty = self.language.decimal_sign, parameter.expanded_uncertainty
-        if uncertainty is None:
-            return with_unit(fixed_number(parameter.value, _DECIMALS, sign), parameter.unit)
-        value, stated = rounded_pair(parameter.value, uncertainty, sign)
-        return with_unit(f"{value} ± {stated}", parameter.unit)
-
-    def _change(self, line: Line, unit: str) -> Words:
-        change, uncertainty = rounded_pair(
-            line.slope, line.expanded_slope_uncertainty, self.language.decimal_sign
-        )
-        rising = "+" if line.slope > 0 else ""
-        return words.PER_YEAR.given(change=with_unit(f"{rising}{change} ± {uncertainty}", unit))
-
     def _alternative(self, trend: Trend) -> str:
         series = trend.series
-        sign = self.language.decimal_sign
-
-        def written(value: float) -> str:
-            return with_unit(fixed_number(value, _DECIMALS, sign), series.unit)
-
         text = self.say(
             words.ALTERNATIVE.given(
                 number=len(series.calibrations),
                 symbol=plain(self.names.notation(series.standard, series.symbol)),
                 first=series.calibrations[0].measured.isoformat(),
                 last=series.calibrations[-1].measured.isoformat(),
-                value=written(series.latest.value),
+                value=self._number(series.latest.value, _DECIMALS, series.unit),
             )
         )
         if series.latest.limit is not None:
-            text += self.say(words.ALTERNATIVE_LIMIT.given(limit=written(series.latest.limit)))
+            limit = self._number(series.latest.limit, _DECIMALS, series.unit)
+            text += self.say(words.ALTERNATIVE_LIMIT.given(limit=limit))
         if trend.drifts and trend.line:
-            text += self.say(words.ALTERNATIVE_DRIFT.given(change=written(trend.line.slope)))
+            change = self._number(trend.line.slope, _DECIMALS, series.unit)
+            text += self.say(words.ALTERNATIVE_DRIFT.given(change=change))
         return text
 
 
