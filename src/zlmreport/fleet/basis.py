@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import hashlib
 import json
 import os
@@ -180,18 +181,16 @@ class Disk:
     def digest(self, path: str) -> str | None:
         """Return the digest of a file; None if it cannot be read."""
         if path not in self._digests:
-            try:
+            self._digests[path] = None
+            with contextlib.suppress(OSError):
                 self._digests[path] = sha256_of(self.folder / path)
-            except OSError:
-                self._digests[path] = None
         return self._digests[path]
 
     def _look(self, path: str) -> Look | None:
         if path not in self._looks:
-            try:
+            self._looks[path] = None
+            with contextlib.suppress(OSError):
                 self._looks[path] = Look.at(self.folder / path)
-            except OSError:
-                self._looks[path] = None
         return self._looks[path]
 
 
@@ -325,8 +324,11 @@ def files_behind(certificate: Certificate, job: Job, fleet: FleetFile, begun: fl
     # With defaults the first file extends them, too, and nobody wrote it.
     own = job.files[1 if fleet.defaults else 0].path
     seen: set[str] = set()
+    named = _paths(
+        [job.keys, *(each.options for each in (job.source, job.source_as_found, *job.standards) if each)]
+    )
     stated = [(each.role.key, each.file.path, each.file.sha256) for each in certificate.sources]
-    for role, path, sha256 in (*stated, *(("file", path, "") for path in _named(job))):
+    for role, path, sha256 in (*stated, *(("file", path, "") for path in named)):
         if path is None or not path.is_file() or path_in(folder, path) in seen:
             continue
         seen.add(path_in(folder, path))
@@ -337,14 +339,8 @@ def files_behind(certificate: Certificate, job: Job, fleet: FleetFile, begun: fl
         yield KnownFile("templates", path_in(folder, templates), sha256_of(templates))
 
 
-def _named(job: Job) -> Iterator[Path]:
-    """Yield every path among the values of a job."""
-    options = [each.options for each in (job.source, job.source_as_found, *job.standards) if each]
-    for group in (job.keys, *options):
-        yield from _paths(group)
-
-
 def _paths(value: object) -> Iterator[Path]:
+    """Yield every path among values."""
     if isinstance(value, Path):
         yield value
     elif isinstance(value, BaseModel):

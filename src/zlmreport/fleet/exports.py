@@ -12,20 +12,16 @@ from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from datetime import UTC, date, datetime, timedelta
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from zlmreport.files import Document
 from zlmreport.fleet.drifts import Trend, by_axis
 from zlmreport.fleet.ledger import Taught
 from zlmreport.fleet.records import About, file_name
-from zlmreport.fleet.state import FleetState, Term
+from zlmreport.fleet.state import FleetState
 from zlmreport.fleet.trend import Series
 from zlmreport.language import Language, Words
 from zlmreport.quantities.units import ANGLES, LENGTHS
 from zlmreport.version import __version__
-
-if TYPE_CHECKING:
-    from icalendar import Event
 
 _UNITS = {unit.ascii: unit for unit in (*LENGTHS, *ANGLES)}
 #: What follows the name of a metric, by the units of the ledger.
@@ -191,7 +187,7 @@ def calendar(state: FleetState, language: Language) -> bytes:
 
     The same ledger gives the same bytes; an axis keeps its entry until it has been measured.
     """
-    from icalendar import Calendar  # noqa: PLC0415 - only who asks for a calendar waits for it
+    from icalendar import Alarm, Calendar, Event  # noqa: PLC0415 - only who asks for a calendar waits for it
 
     title = _TITLE.given(fleet=state.name).in_language(language)
     days = Calendar()
@@ -204,31 +200,26 @@ def calendar(state: FleetState, language: Language) -> bytes:
         days.add(key, text)
     moment = state.night.began if state.night else datetime(2000, 1, 1, tzinfo=UTC)
     for term in state.terms:
-        days.add_component(_day(state.name, term, moment, language))
+        entry = term.entry
+        words = _SUMMARY if entry.machine else _SUMMARY_OF_AXIS
+        summary = words.given(axis=entry.axis, machine=entry.machine).in_language(language)
+        identity = hashlib.sha256(
+            repr((state.name, entry.machine, entry.axis, term.due)).encode()
+        ).hexdigest()
+        event, alarm = Event(), Alarm()
+        event.add("uid", f"{identity[:32]}@zlmreport")
+        event.add("dtstamp", moment)
+        event.add("dtstart", term.due)
+        event.add("summary", summary)
+        told = _DESCRIPTION.given(measured=entry.measured, number=entry.number)
+        event.add("description", told.in_language(language))
+        event.add("transp", "TRANSPARENT")
+        alarm.add("action", "DISPLAY")
+        alarm.add("description", summary)
+        alarm.add("trigger", -_NOTICE)
+        event.add_component(alarm)
+        days.add_component(event)
     return bytes(days.to_ical())
-
-
-def _day(fleet: str, term: Term, moment: datetime, language: Language) -> Event:
-    from icalendar import Alarm, Event  # noqa: PLC0415 - as above
-
-    entry = term.entry
-    words = _SUMMARY if entry.machine else _SUMMARY_OF_AXIS
-    summary = words.given(axis=entry.axis, machine=entry.machine).in_language(language)
-    told = _DESCRIPTION.given(measured=entry.measured, number=entry.number).in_language(language)
-    identity = hashlib.sha256(repr((fleet, entry.machine, entry.axis, term.due)).encode()).hexdigest()[:32]
-    event = Event()
-    event.add("uid", f"{identity}@zlmreport")
-    event.add("dtstamp", moment)
-    event.add("dtstart", term.due)
-    event.add("summary", summary)
-    event.add("description", told)
-    event.add("transp", "TRANSPARENT")
-    alarm = Alarm()
-    alarm.add("action", "DISPLAY")
-    alarm.add("description", summary)
-    alarm.add("trigger", -_NOTICE)
-    event.add_component(alarm)
-    return event
 
 
 def priors(taught: Iterable[Taught], folder: Path) -> Iterator[Document]:

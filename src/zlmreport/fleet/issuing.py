@@ -193,12 +193,11 @@ class Desk:
         """Note that a job came to nothing."""
         subject = replace(result.subject, number=result.subject.number or planned.number)
         message = "\n".join(map(str, result.problems))
-        if not result.is_stopped:
-            self.night.add(self._entry(planned, subject, State.FAILED, message))
-            return Happened(What.FAILED, planned.job, subject.number, planned.why, problems=result.problems)
-        before, digest = self.known.standings.get(planned.job), inputs_digest(planned.path, self.known)
-        is_again = before and before.state in {State.STOPPED, State.SET_ASIDE} and before.digest == digest
-        state, hint = (State.SET_ASIDE, _ASIDE) if is_again else (State.STOPPED, "")
+        state, hint, digest = State.FAILED, "", ""
+        if result.is_stopped:
+            before, digest = self.known.standings.get(planned.job), inputs_digest(planned.path, self.known)
+            is_again = before and before.state in {State.STOPPED, State.SET_ASIDE} and before.digest == digest
+            state, hint = (State.SET_ASIDE, _ASIDE) if is_again else (State.STOPPED, "")
         self.night.add(replace(self._entry(planned, subject, state, message + hint), digest=digest))
         problems = tuple(replace(each, message=each.message + hint) for each in result.problems)
         return Happened(What.FAILED, planned.job, subject.number, planned.why, problems=problems)

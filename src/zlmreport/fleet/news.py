@@ -167,10 +167,6 @@ PATIENCE = 60.0
 _CORE = ("plugin", "tells")
 
 
-class NotToldError(Exception):
-    """Nobody took the news; why, in words."""
-
-
 @dataclass(frozen=True, slots=True)
 class Way:
     """A way to tell people.
@@ -194,8 +190,8 @@ class Way:
         """What tells this way from others, here and in the ledger."""
         return f"{self.notifier.identifier} {self.notifier.receiver(self.options)}"
 
-    def tell(self, message: Message) -> None:
-        """Tell people; raise `NotToldError` if nobody took it in time."""
+    def tell(self, message: Message) -> str:
+        """Tell people; return why nobody took it in time, and nothing if somebody did."""
         raised: list[Exception] = []
 
         def run() -> None:
@@ -208,9 +204,8 @@ class Way:
         thread.start()
         thread.join(PATIENCE)
         if thread.is_alive():
-            raise NotToldError(f"it was not taken within {PATIENCE:g} s")
-        if raised:
-            raise NotToldError(str(raised[0])) from raised[0]
+            return f"it was not taken within {PATIENCE:g} s"
+        return str(raised[0]) or type(raised[0]).__name__ if raised else ""
 
 
 @dataclass(slots=True)
@@ -234,13 +229,11 @@ class Ways:
 
     def tell(self, way: Way, message: Message, watch: Callable[[Notice], None]) -> bool:
         """Tell people by one of them, and return whether it was taken; if not, the watch takes note."""
-        try:
-            way.tell(message)
-        except NotToldError as error:
+        reason = way.tell(message)
+        if reason:
             self.failed.add(way.name)
-            watch(Notice(About.UNTOLD, f"the news was not sent by {way.name}: {error}"))
-            return False
-        return True
+            watch(Notice(About.UNTOLD, f"the news was not sent by {way.name}: {reason}"))
+        return not reason
 
 
 def ways_of(fleet: FleetFile, plugins: tuple[Path, ...]) -> Ways:

@@ -54,7 +54,9 @@ def overview(state: FleetState, language: Language, names: Names, files: str) ->
     files
         Folder of the certificates, relative to that of the page.
     """
-    cells = Cells(language, names, _period(state), files, state.effects)
+    dates = [each.measured for trend in state.trends for each in trend.series.calibrations]
+    period = Period(min(dates, default=date.min), max(dates, default=date.min))
+    cells = Cells(language, names, period, files, state.effects)
     script = overview_script()
     printed = replace(state, trends=tuple(map(names.as_printed, state.trends)))
     return render(
@@ -72,11 +74,6 @@ def overview(state: FleetState, language: Language, names: Names, files: str) ->
             sections=tuple(map(render, _sections(printed, cells))),
         )
     )
-
-
-def _period(state: FleetState) -> Period:
-    dates = [each.measured for trend in state.trends for each in trend.series.calibrations]
-    return Period(min(dates, default=date.min), max(dates, default=date.min))
 
 
 def _facts(state: FleetState, cells: Cells) -> Iterator[tuple[str, str]]:

@@ -14,7 +14,7 @@ from typing import Any, Self
 from zlmreport.certificate.document import Certificate
 from zlmreport.job.job import Job
 from zlmreport.job.keys import JobKeys
-from zlmreport.job.measurement_keys import Instrument, Machine
+from zlmreport.job.measurement_keys import Machine
 from zlmreport.quantities.units import Unit
 
 
@@ -37,10 +37,7 @@ class State(StrEnum):
     @property
     def is_failure(self) -> bool:
         """Whether there is no certificate that should be there."""
-        return self in _FAILURES
-
-
-_FAILURES = frozenset({State.FAILED, State.STOPPED, State.SET_ASIDE, State.VANISHED})
+        return self in {State.FAILED, State.STOPPED, State.SET_ASIDE, State.VANISHED}
 
 
 #: Stands for the standard of a parameter of the error model, whose symbol is ``backlash.lost_motion``.
@@ -257,7 +254,10 @@ class Subject:
         keys = job.keys
         day = keys.measurement.date
         measured = day.isoformat() if day else ""
-        machine, instrument = designation(keys.machine), _instrument(keys.instrument)
+        machine, used = designation(keys.machine), keys.instrument
+        # Not by its certificate: a new one makes no new instrument of it.
+        stated = (used.manufacturer, used.name, used.serial) if used else ()
+        instrument = " ".join(part for part in stated if part)
         number, interval = keys.certificate.number, keys.fleet.interval
         kind = " ".join(part for part in (keys.machine.manufacturer, keys.machine.model) if part)
         return cls(number, machine, keys.axis.name, measured, interval, instrument, kind)
@@ -295,12 +295,6 @@ class Entry(Subject):
     files: tuple[str, ...] = ()
     parameters: tuple[RecordedParameter, ...] = ()
     seconds: float | None = None
-
-
-def _instrument(instrument: Instrument | None) -> str:
-    """Return what tells one instrument from another; a new certificate makes no new one of it."""
-    stated = (instrument.manufacturer, instrument.name, instrument.serial) if instrument else ()
-    return " ".join(part for part in stated if part)
 
 
 def parameters_of(certificate: Certificate) -> Iterator[RecordedParameter]:
