@@ -159,7 +159,11 @@ def _stepping(series: Sequence[Series]) -> Mapping[int, _Stepping]:
     found: dict[int, _Stepping] = {}
     for group in (True, False):  # parts of a limit, and µm or ″, have each a scatter of their own
         shares = {index: part for index, part in asked.items() if bool(series[index].latest.limit) is group}
-        values = {index: _parts(series[index]) for index in shares}
+        scales = {index: series[index].latest.limit or 1.0 for index in shares}
+        values = {
+            index: tuple(each.parameter.value / scale for each in series[index].calibrations)
+            for index, scale in scales.items()
+        }
         fleet = Scatter()
         for _ in range(2):  # what is learned with steps in it first shows these, and is learned without them
             courses = [course(values[index], fleet, part) for index, part in shares.items()]
@@ -167,16 +171,9 @@ def _stepping(series: Sequence[Series]) -> Mapping[int, _Stepping]:
             known = (squares_before_the_last(v, c.since) for v, c in samples)
             fleet = learned(each for each in known if each[1] > 0)
         for index, part in shares.items():
-            each = series[index]
-            scale = each.latest.limit or 1.0
             own = course(values[index], fleet, part)
-            found[index] = _Stepping(each, scale, values[index], fleet, own)
+            found[index] = _Stepping(series[index], scales[index], values[index], fleet, own)
     return found
-
-
-def _parts(series: Series) -> tuple[float, ...]:
-    scale = series.latest.limit or 1.0
-    return tuple(each.parameter.value / scale for each in series.calibrations)
 
 
 def _excluded(stepping: Iterable[_Stepping]) -> Mapping[tuple[str, str], frozenset[date]]:

@@ -67,7 +67,10 @@ def rebuild(fleet: FleetFile, registry: Registry, now: str) -> Rebuilt:
             message = f"the ledger knows {len(known)} certificates of this fleet; move it away first"
             raise InputError.at(Place(str(fleet.ledger)), message)
         with ledger.night(now, str(fleet.path)) as night:
-            for job, number in _jobs(fleet):
+            for job in job_files(fleet):
+                number = ""
+                with contextlib.suppress(ZlmreportError):  # the next night says what is wrong with it
+                    number, _ = number_of(job, fleet.defaults)
                 if number not in files:
                     continue
                 try:
@@ -88,12 +91,6 @@ def _by_number(folder: Path) -> Mapping[str, list[Path]]:
         if path.is_file() and not path.name.startswith(".") and not path.stem.endswith(MARK):
             found[path.stem].append(path)
     return found
-
-
-def _jobs(fleet: FleetFile) -> Iterator[tuple[Path, str]]:
-    for path in job_files(fleet):
-        with contextlib.suppress(ZlmreportError):  # the next night says what is wrong with it
-            yield path, number_of(path, fleet.defaults)[0]
 
 
 def _take(job: Path, files: list[Path], fleet: FleetFile, registry: Registry, night: Night) -> None:
