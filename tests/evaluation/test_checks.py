@@ -385,3 +385,8 @@ def test_mean_interval(number: int, met: bool) -> None:  # noqa: FBT001 - a colu
     measurements = taken_at(*np.linspace(0, 3000, number))
 
     assert mean_interval(measurements, 0.25, Basis.APPLIED).met is met
+
+
+@pytest.mark.parametrize(("length", "met"), [(0.25, True), (0.4, False)])
+def test_two_targets_have_one_interval(length: float, met: bool) -> None:  # noqa: FBT001 - a column of a table
+    assert mean_interval(taken_at(0.0, 1000 * length), 0.25, Basis.APPLIED).met is met

@@ -81,6 +81,10 @@ def test_a_guard_band_is_as_wide_as_its_factor_says() -> None:
     assert decision("guard-band", 17e-6, factor=0.5).conformity is MET
 
 
+def test_a_guard_band_is_as_wide_as_u_if_no_factor_is_stated() -> None:
+    assert decision_rule("guard-band") == decision_rule("guard-band", 1.0)
+
+
 @pytest.mark.parametrize("rule", ["guard-band", "iso14253-1", "non-binary"])
 def test_a_rule_that_needs_the_uncertainty_decides_nothing_without_it(rule: str) -> None:
     assert decision(rule, 1e-6, expanded=None) == Decision(OPEN, None, None, None)

@@ -143,6 +143,15 @@ def test_its_commands_are_listed(machine: Machine, arguments: list[str], code: i
     assert "./run COMMAND" in (done.stderr if code else done.stdout)
 
 
+def test_mutants_are_tried_by_a_command_of_its_own(machine: Machine) -> None:
+    machine.install("python3", _PYTHON.replace("echo libpango-1.0-0", ":"))
+    (machine.environment / "bin").mkdir(parents=True)
+    machine.install("python", "exit 0")
+    (machine.bin / "python").rename(machine.environment / "bin" / "python")
+    assert machine.run("mutation", "--mutants", "3").returncode == 0
+    assert machine.calls("python")[-1] == "python tests/mutation --mutants 3"
+
+
 @pytest.mark.parametrize("script", ["run", ".ci/run"])
 def test_scripts_can_be_executed(script: str) -> None:
     assert os.access(ROOT / script, os.X_OK)
