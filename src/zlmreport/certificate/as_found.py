@@ -321,8 +321,7 @@ def _verdicts(before: Parameter | None, after: Parameter | None, writer: Writer)
     return (
         Symbol(either.quantity.notation),
         limit(either, writer),
-        conformity.verdict(before, writer) if before else NOTHING,
-        conformity.verdict(after, writer) if after else NOTHING,
+        *(conformity.verdict(each, writer) if each else NOTHING for each in (before, after)),
     )
 
 

@@ -63,15 +63,7 @@ def real(
     """Return one value, with its expanded uncertainty if it has one."""
     uncertainty = None
     if expanded_uncertainty is not None and coverage_factor is not None:
-        uncertainty = si(
-            "measurementUncertaintyUnivariate",
-            si(
-                "expandedMU",
-                si("valueExpandedMU", number(expanded_uncertainty)),
-                si("coverageFactor", number(coverage_factor)),
-                si("coverageProbability", number(COVERAGE_PROBABILITY)),
-            ),
-        )
+        uncertainty = _uncertainty(number(expanded_uncertainty), coverage_factor)
     return si(
         "real",
         si("label", label) if label else None,
@@ -94,16 +86,18 @@ def real_list(
     """
     uncertainty = None
     if expanded_uncertainty:
-        uncertainty = si(
-            "measurementUncertaintyUnivariateXMLList",
-            si(
-                "expandedMUXMLList",
-                si("valueExpandedMUXMLList", _list(expanded_uncertainty)),
-                si("coverageFactorXMLList", number(coverage_factor)),
-                si("coverageProbabilityXMLList", number(COVERAGE_PROBABILITY)),
-            ),
-        )
+        uncertainty = _uncertainty(_list(expanded_uncertainty), coverage_factor, "XMLList")
     return si("realListXMLList", si("valueXMLList", _list(values)), si("unitXMLList", unit), uncertainty)
+
+
+def _uncertainty(values: str, coverage_factor: float, of: str = "") -> ET.Element:
+    expanded = si(
+        f"expandedMU{of}",
+        si(f"valueExpandedMU{of}", values),
+        si(f"coverageFactor{of}", number(coverage_factor)),
+        si(f"coverageProbability{of}", number(COVERAGE_PROBABILITY)),
+    )
+    return si(f"measurementUncertaintyUnivariate{of}", expanded)
 
 
 def _list(values: Sequence[float]) -> str:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from xml.etree import ElementTree as ET
 
 import numpy as np
@@ -162,25 +161,11 @@ def _measurement_result(  # noqa: PLR0913 - what a result is of, and how it is w
         group("influenceConditions", condition, *influences(job, writer)),
         dcc(
             "results",
-            dcc(
-                "result",
-                writer.named("name", _PARAMETERS),
-                dcc(
-                    "data",
-                    dcc("list", *(_parameter(each, evaluation, writer) for each in evaluation.parameters)),
-                ),
+            _result(
+                _PARAMETERS, (_parameter(each, evaluation, writer) for each in evaluation.parameters), writer
             ),
-            dcc(
-                "result",
-                writer.named("name", _POSITIONS),
-                dcc("data", dcc("list", *_positions(evaluation, writer))),
-            ),
-            dcc(
-                "result",
-                writer.named("name", _READINGS),
-                dcc("data", dcc("list", *_readings(evaluation.measurements, writer))),
-                refType=READINGS,
-            )
+            _result(_POSITIONS, _positions(evaluation, writer), writer),
+            _result(_READINGS, _readings(evaluation.measurements, writer), writer, refType=READINGS)
             if with_readings and not job.keys.agreement.simplified
             else None,
         ),
@@ -190,6 +175,10 @@ def _measurement_result(  # noqa: PLR0913 - what a result is of, and how it is w
             *_findings(evaluation, writer),
         ),
     )
+
+
+def _result(name: Words, of: Iterable[ET.Element], writer: Writer, **kind: str) -> ET.Element:
+    return dcc("result", writer.named("name", name), dcc("data", dcc("list", *of)), **kind)
 
 
 def _parameter(parameter: EvaluatedParameter, evaluation: Evaluation, writer: Writer) -> ET.Element:
@@ -266,44 +255,33 @@ def _positions(evaluation: Evaluation, writer: Writer) -> Iterator[ET.Element]:
         real_list(targets, unit_of(axis.position_unit)),
         kind="basic_nominalValue",
     )
-    unit = axis.deviation_unit
-    for column in _columns(evaluation):
-        if np.any(np.isfinite(column.values)):
-            uncertainty = column.uncertainty
+    unit, uncertain = axis.deviation_unit, evaluation.mean_uncertainty
+    for name, values, uncertainty in _columns(evaluation):
+        if np.any(np.isfinite(values)):
             yield quantity(
-                writer.named("name", column.name),
+                writer.named("name", name),
                 real_list(
-                    unit.from_si(column.values).tolist(),
+                    unit.from_si(values).tolist(),
                     unit_of(unit),
                     expanded_uncertainty=() if uncertainty is None else unit.from_si(uncertainty).tolist(),
-                    coverage_factor=column.coverage_factor,
+                    coverage_factor=uncertain.coverage_factor if uncertain else 0.0,
                 ),
             )
 
 
-@dataclass(frozen=True, slots=True)
-class _Column:
-    """A value at each target position, m or rad, and its expanded uncertainty where that is known."""
-
-    name: Words
-    values: FloatArray
-    uncertainty: FloatArray | None = None
-    coverage_factor: float = 0.0
-
-
-def _columns(evaluation: Evaluation) -> Iterator[_Column]:
+def _columns(evaluation: Evaluation) -> Iterator[tuple[Words, FloatArray, FloatArray | None]]:
+    """Yield each column's name, its values by target position, m or rad, and their U where that is known."""
     statistics, uncertain = evaluation.statistics, evaluation.mean_uncertainty
-    factor = uncertain.coverage_factor if uncertain else 0.0
     for key, approach in (("mean_fwd", Approach.POSITIVE), ("mean_bwd", Approach.NEGATIVE)):
         of_approach = uncertain.by_approach[approach.index] if uncertain else None
-        yield _Column(_COLUMNS[key], statistics.mean[approach.index], of_approach, factor)
+        yield _COLUMNS[key], statistics.mean[approach.index], of_approach
     of_both = uncertain.bidirectional if uncertain else None
-    yield _Column(_COLUMNS["mean"], statistics.mean_bidirectional, of_both, factor)
-    yield _Column(_COLUMNS["s_fwd"], statistics.s_positive)
-    yield _Column(_COLUMNS["s_bwd"], statistics.s_negative)
-    yield _Column(_COLUMNS["reversal"], statistics.reversal_value)
+    yield _COLUMNS["mean"], statistics.mean_bidirectional, of_both
+    yield _COLUMNS["s_fwd"], statistics.s_positive, None
+    yield _COLUMNS["s_bwd"], statistics.s_negative, None
+    yield _COLUMNS["reversal"], statistics.reversal_value, None
     for column in evaluation.columns:
-        yield _Column(column.quantity.name, column.values)
+        yield column.quantity.name, column.values, None
 
 
 def _findings(evaluation: Evaluation, writer: Writer) -> Iterator[ET.Element]:

@@ -101,16 +101,10 @@ def _uncertainty(certificate: Certificate) -> Json:
     budget, language = certificate.budget, certificate.language
     if budget is None:
         return {}
+    gaps = {"missing": list(budget.missing), "negligible": dict(budget.negligible)}
     if isinstance(budget, NoBudget):
-        return {
-            "uncertainty": {
-                "state": "incomplete",
-                "missing": list(budget.missing),
-                "negligible": dict(budget.negligible),
-                "not_evaluated": budget.reason.in_language(language),
-                "contributions": [],
-            }
-        }
+        reason = budget.reason.in_language(language)
+        return {"uncertainty": {"state": "incomplete", **gaps, "not_evaluated": reason, "contributions": []}}
     unit = certificate.measurements.axis.deviation_unit
     contributions = [
         {
@@ -124,23 +118,19 @@ def _uncertainty(certificate: Certificate) -> Json:
         }
         for each in budget.contributions
     ]
+    longer = budget.uncorrected_expansion
     return {
         "uncertainty": {
             "state": "complete" if budget.is_complete else "incomplete",
-            "missing": list(budget.missing),
-            "negligible": dict(budget.negligible),
+            **gaps,
             "unit": unit.ascii,
             "coverage_probability": COVERAGE_PROBABILITY,
             "contributions": contributions,
             "combined_standard_uncertainty": unit.from_si(budget.standard_uncertainty),
-            **_expansion(budget.uncorrected_expansion),
+            # By how much the measured length was longer than at 20 °C, micrometres; null if unknown.
+            "uncorrected_expansion": None if longer is None else MICROMETRE.from_si(longer),
         }
     }
-
-
-def _expansion(uncorrected: float | None) -> Json:
-    """Return by how much the measured length was longer than at 20 °C, micrometres; null if unknown."""
-    return {"uncorrected_expansion": None if uncorrected is None else MICROMETRE.from_si(uncorrected)}
 
 
 def _model(certificate: Certificate) -> Json:

@@ -24,6 +24,7 @@ _NO_UNIT = "1"
 #: What spreadsheets take for the beginning of a formula.
 _FORMULA = ("=", "+", "-", "@", "\t", "\r")
 _OF_PARAMETER = ("value", "expanded_uncertainty", "coverage_factor", "limit")
+_OF_ROW = ("symbol", "name", "value", "unit", "expanded_uncertainty", "coverage_factor", "limit")
 _WITHOUT_UNIT = frozenset({"coverage_factor", "risk", "chi2_per_dof"})
 
 #: A number, a text, or nothing.
@@ -194,7 +195,12 @@ class _Sheets:
 
     def _evaluations(self, found: Json, title: str) -> None:
         rows = [
-            self._parameter(evaluation, parameter)
+            [
+                self._certificate.number,
+                evaluation["standard"],
+                *map(parameter.get, _OF_ROW),
+                parameter.get("decision", {}).get("statement"),
+            ]
             for evaluation in found["evaluations"]
             for parameter in evaluation["parameters"]
         ]
@@ -217,20 +223,6 @@ class _Sheets:
         of_first = sum(row[0] == table[0][0] for row in table) if table else 0
         if drawn and of_first:
             self._chart(sheet, drawn, of_first, units)
-
-    def _parameter(self, evaluation: Json, parameter: Json) -> list[_Cell]:
-        return [
-            self._certificate.number,
-            evaluation["standard"],
-            parameter["symbol"],
-            parameter["name"],
-            parameter["value"],
-            parameter["unit"],
-            parameter.get("expanded_uncertainty"),
-            parameter.get("coverage_factor"),
-            parameter.get("limit"),
-            parameter.get("decision", {}).get("statement"),
-        ]
 
     def _readings(self) -> None:
         if self._certificate.job and self._certificate.job.keys.agreement.simplified:

@@ -142,7 +142,8 @@ def press() -> Press:
 
 def _finish(certificate: Certificate, _: Any, pdf: Any) -> None:
     """Complete a file that is ready but for its trailer."""
-    associate_once(pdf)
+    if "AF" in pdf.catalog:  # WeasyPrint 70 names each attachment twice among the associated files
+        pdf.catalog["AF"] = pydyf.Array(dict.fromkeys(pdf.catalog["AF"]))
     structure.identify(pdf, certificate)
     structure.mend(pdf, {section.key: section.title for section in certificate.sections})
 
@@ -180,12 +181,6 @@ def enclosures(certificate: Certificate) -> Iterator[Attachment]:
             modified=moment,
             relationship=attachment.relationship.value,
         )
-
-
-def associate_once(pdf: Any) -> None:
-    """Name each attachment of a pydyf PDF once among its associated files: WeasyPrint 70 does it twice."""
-    if "AF" in pdf.catalog:
-        pdf.catalog["AF"] = pydyf.Array(dict.fromkeys(pdf.catalog["AF"]))
 
 
 #: What there is to load: by address, bytes and media type.

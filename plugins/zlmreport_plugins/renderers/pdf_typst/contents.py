@@ -214,13 +214,11 @@ _LONG_CELL = 400
 
 def table_data(table: Table) -> dict[str, Any]:
     """Return the columns and rows of a table."""
-    columns_data = _columns(
-        table, [group.rows for group in table.groups], [column.align for column in table.columns]
-    )
-    rooms = columns_data.pop("rooms")
+    rows = [row for group in table.groups for row in group.rows]
+    columns, rooms = _columns(table, rows, [column.align for column in table.columns])
     padding = iter(decimal_padding(table))
     return {
-        **columns_data,
+        **columns,
         "align": [column.align.value for column in table.columns],
         "headings": [
             {"content": _cell(column.heading, room, face=FontFace.SEMIBOLD), "unit": column.unit}
@@ -240,42 +238,38 @@ def table_data(table: Table) -> dict[str, Any]:
 
 def formulas_data(formulas: Formulas) -> dict[str, Any]:
     """Return definitions, which are set as a table without headings."""
-    columns_data = _columns(formulas, [formulas.rows], [Align.LEFT] * 3)
-    rooms = columns_data.pop("rooms")
-    return {**columns_data, "rows": [_row(row, rooms) for row in formulas.rows]}
+    columns, rooms = _columns(formulas, formulas.rows, [Align.LEFT] * 3)
+    return {**columns, "rows": [_row(row, rooms) for row in formulas.rows]}
 
 
 def _columns(
-    block: Table | Formulas, groups: Sequence[Sequence[Sequence[Cell]]], alignments: Sequence[Align]
-) -> dict[str, Any]:
-    """Return how columns share the page, and `rooms`: the width that each leaves for words, in em.
+    block: Table | Formulas, rows: Iterable[Sequence[Cell]], alignments: Sequence[Align]
+) -> tuple[Data, list[float]]:
+    """Return how columns share the page, and the width that each leaves for words, in em.
 
     Columns of numbers were made wide enough for each of them, and never part one.
     """
     layout = table_layout(block)
-    return {
+    rooms = [
+        inf if align is Align.RIGHT else room - _PADDING - (_APART if apart else 0.0)
+        for room, align, apart in zip(layout.rooms, alignments, layout.apart, strict=True)
+    ]
+    shared = {
         "size": layout.size,
         "widths": layout.widths,
         "apart": layout.apart,
         "whole": layout.is_whole,
         "in-fives": layout.in_fives,
-        "breakable": any(_is_long(cell) for rows in groups for row in rows for cell in row),
-        "rooms": [
-            inf if align is Align.RIGHT else room - _PADDING - (_APART if apart else 0.0)
-            for room, align, apart in zip(layout.rooms, alignments, layout.apart, strict=True)
-        ],
+        "breakable": any(len(_words_of(cell)) > _LONG_CELL for row in rows for cell in row),
     }
+    return shared, rooms
 
 
-def _is_long(cell: Cell) -> bool:
-    """Return whether a row with this cell might fill more than a page."""
-    match cell:
-        case str():
-            return len(cell) > _LONG_CELL
-        case Explained(name, meaning):
-            return len(name) + len(meaning) > _LONG_CELL
-        case _:
-            return False
+def _words_of(cell: Cell) -> str:
+    """Return the words of a cell that may part into lines."""
+    if isinstance(cell, Explained):
+        return cell.name + cell.meaning
+    return cell if isinstance(cell, str) else ""
 
 
 def _row(row: Sequence[Cell], rooms: Sequence[float], padding: Iterable[str] = repeat("")) -> list[Any]:
