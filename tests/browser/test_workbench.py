@@ -29,7 +29,7 @@ def plots(page: Page) -> list[int]:
 def test_the_hidden_effect_is_found_by_clicks_alone(address: str, job: Path, window: Window) -> None:
     page = window(address)
     diagnosed(page, "missing")
-    expect(page.get_by_text("The model lacks something: screw-pitch explains the rest.")).to_be_visible()
+    expect(page.get_by_text("Missing effect: screw-pitch, which explains the rest.")).to_be_visible()
     picture(page, "missing")
 
     page.get_by_role("button", name="The means of the positions deviate").click()

@@ -179,7 +179,7 @@ def test_a_fit_tells_its_parameters(shop: Shop) -> None:
 @pytest.mark.usefixtures("diagnosed")
 def test_the_main_job_says_that_its_model_lacks_something(shop: Shop) -> None:
     run = shop.run("job.yaml", "--output", "out", "--format", "json")
-    assert "model  The model lacks something: screw-pitch explains the rest.\n" in run.output
+    assert "model  Missing effect: screw-pitch, which explains the rest.\n" in run.output
     assert "see: zlmreport model diagnose job.yaml\n" in run.output
 
 

@@ -17,19 +17,19 @@ def said(**changes: object) -> str:
 
 
 def test_the_missing_effect_is_named() -> None:
-    assert said() == "The model lacks something: screw-pitch explains the rest."
+    assert said() == "Missing effect: screw-pitch, which explains the rest."
 
 
 def test_effects_that_look_alike_are_named_together() -> None:
     first = replace(example_diagnosis().candidates[0], equals=("periodic", "scale-joint"))
     assert said(candidates=(first,)) == (
-        "The model lacks something: screw-pitch, periodic or scale-joint explains the rest."
+        "Missing effect: screw-pitch, periodic or scale-joint, which explains the rest."
     )
 
 
 def test_effects_that_are_found_after_one_another_are_named_together() -> None:
     assert said(further=("first-run", "abbe")) == (
-        "The model lacks something: screw-pitch, first-run and abbe together explain the rest."
+        "Missing effects: screw-pitch, first-run and abbe, which together explain the rest."
     )
 
 

@@ -320,7 +320,7 @@ class ModelTables:
         """Return what a compensation would leave of the leading parameters of each standard."""
         say, unit = self.writer.say, self.writer.deviation_unit.symbol
         caption = Words(
-            en="What a compensation would leave, predicted from the readings of this document",
+            en="Predicted errors after compensation, from the readings of this document",
             de="Was eine Kompensation übrig ließe, vorhergesagt aus den Messwerten dieses Dokuments",
         )
         columns = (

@@ -28,11 +28,11 @@ _ADEQUATE = Words(
     de="Das Modell beschreibt die Messwerte: Es bleibt nichts übrig, was ihre Streuung nicht erklärt.",
 )
 _MISSING = Words(
-    en="The model lacks something: {effects} explains the rest.",
+    en="Missing effect: {effects}, which explains the rest.",
     de="Dem Modell fehlt etwas: {effects} erklärt den Rest.",
 )
 _MISSING_IN_PART = Words(
-    en="The model lacks something: {effects}. It explains {share} % of what the repeats leave open; the rest "
+    en="Missing effect: {effects}. It explains {share} % of what the repeats leave open; the rest "
     "cannot be told from irregular scatter.",
     de="Dem Modell fehlt etwas: {effects}. Es erklärt {share} % dessen, was die Wiederholungen offen lassen; "
     "der Rest ist von unregelmäßiger Streuung nicht zu unterscheiden.",
@@ -46,7 +46,7 @@ _IMPOSSIBLE = Words(
     de="{statement} {effects} würde es nur mit physikalisch unmöglichen Werten erklären.",
 )
 _MISSING_TOGETHER = Words(
-    en="The model lacks something: {effects} together explain the rest.",
+    en="Missing effects: {effects}, which together explain the rest.",
     de="Dem Modell fehlt etwas: {effects} erklären zusammen den Rest.",
 )
 _UNEXPLAINED = Words(
