@@ -42,7 +42,7 @@ def post_office() -> Iterator[tuple[int, list[str]]]:
                     connection, _ = server.accept()
                 except OSError:
                     return
-                taken.append(_mail(connection))
+                _take(connection, taken)
 
         thread = threading.Thread(target=serve, daemon=True)
         thread.start()
@@ -51,8 +51,8 @@ def post_office() -> Iterator[tuple[int, list[str]]]:
         thread.join(10)
 
 
-def _mail(connection: socket.socket) -> str:
-    """Speak as much SMTP as a mail needs (RFC 5321), and return it as a reader sees it."""
+def _take(connection: socket.socket, taken: list[str]) -> None:
+    """Speak as much SMTP as a mail needs (RFC 5321); what is said to be taken is there by then."""
     content: list[bytes] = []
     with connection, connection.makefile("rb") as lines:
         connection.sendall(b"220 ready\r\n")
@@ -61,11 +61,17 @@ def _mail(connection: socket.socket) -> str:
             if is_content and line != b".\r\n":
                 content.append(line.removeprefix(b".") if line.startswith(b"..") else line)
                 continue
+            if is_content:
+                taken.append(_as_read(content))
             word = line[:4].upper()
             is_content = word == b"DATA"
             connection.sendall({b"DATA": b"354 go on\r\n", b"QUIT": b"221 bye\r\n"}.get(word, b"250 yes\r\n"))
             if word == b"QUIT":
                 break
+
+
+def _as_read(content: list[bytes]) -> str:
+    """Return a mail as a reader sees it."""
     mail = email.message_from_bytes(b"".join(content), policy=email.policy.default)
     body = mail.get_body()
     assert body is not None
