@@ -177,3 +177,18 @@ def test_the_graph_that_is_kept_shows_the_single_readings(seven_in_full: Certifi
     main, *_ = in_less_room(figures)
     assert main.panels[0].brackets
     assert main.panels[0].readings
+
+
+def test_what_is_said_of_a_standard_stands_below_its_own_definitions(seven: Certificate) -> None:
+    (section,) = (each for each in seven.sections if each.key == "definitions")
+    under = ""
+    said: dict[str, str] = {}
+    for block in section.blocks:
+        if isinstance(block, Formulas):
+            under = block.caption
+        elif isinstance(block, Paragraph):
+            said[under] = said.get(under, "") + str(block)
+    (of_1988,) = (words for caption, words in said.items() if "ISO 230-2:1988" in caption)
+    (of_2014,) = (words for caption, words in said.items() if "ISO 230-2:2014" in caption)
+    assert "The limits lie 3 standard deviations" in of_1988
+    assert "The limits lie 2 standard deviations" in of_2014

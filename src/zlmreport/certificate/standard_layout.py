@@ -213,8 +213,9 @@ def in_common(pages: Sequence[Sequence[Evaluated]], writer: Writer) -> Iterator[
             defined = results.definitions(lead, writer)
             caption = _DEFINED.given(caption=defined.caption, designations=designations(page))
             blocks.append(replace(defined, caption=writer.say(caption)))
-    notes = (writer.say(note) for each in evaluations for note in each.notes)
-    blocks += map(Paragraph, dict.fromkeys(notes))
+        # Below its own definitions: of "2 standard deviations" a reader must know which standard takes them.
+        notes = (writer.say(note) for each in page for note in each.evaluation.notes)
+        blocks += map(Paragraph, dict.fromkeys(notes))
     if blocks:
         yield Section("definitions", writer.say(_DEFINITIONS), tuple(blocks))
 
