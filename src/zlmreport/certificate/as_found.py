@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, TypeAlias, cast
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
@@ -27,7 +27,7 @@ from zlmreport.certificate.document import (
     Table,
 )
 from zlmreport.certificate.values import limit, told_apart
-from zlmreport.evaluation.evaluation import Evaluation, Parameter
+from zlmreport.evaluation.evaluation import Change, Evaluation, Parameter, changes
 from zlmreport.figures.prescribed import comparison_graph
 from zlmreport.language import Words
 from zlmreport.presenting.writer import NOTHING, Writer, with_uncertainty, written
@@ -171,7 +171,7 @@ def _comparison(
         *correction_blocks(first.measurements, writer),
         *_differences(first.measurements, last.measurements, writer),
         Graph(comparison_graph(first, last, NAMES[keys.work])),
-        changes(pairs, writer),
+        changes_table(pairs, writer),
         *limits(pairs, writer),
     ]
     return Section("as-found-as-left", writer.say(_TITLE), tuple(blocks))
@@ -230,12 +230,12 @@ def _differences(before: MeasurementSet, after: MeasurementSet, writer: Writer) 
         yield Notice(writer.say(_NOT_ALIKE), tuple(map(writer.say, found)))
 
 
-def changes(pairs: Sequence[Pair], writer: Writer) -> Table:
+def changes_table(pairs: Sequence[Pair], writer: Writer) -> Table:
     """Return the table of parameters before and after, with their uncertainties where these are known."""
     unit = writer.deviation_unit.symbol
-    known = any(
-        each.expanded_uncertainty is not None for pair in pairs for one in pair for each in one.parameters
-    )
+    changed = [changes(*pair) for pair in pairs]
+    every = [each for of_pair in changed for each in of_pair]
+    known = any(one.expanded_uncertainty is not None for each in every for one in _both(each))
     uncertainty = [Column(Symbol("U"), unit, Align.RIGHT)] if known else []
     columns = (
         Column(writer.say(Words(en="Symbol", de="Zeichen"))),
@@ -248,44 +248,37 @@ def changes(pairs: Sequence[Pair], writer: Writer) -> Table:
         *uncertainty,
     )
     groups = tuple(
-        RowGroup(
-            tuple(_change(*each, writer, known=known) for each in _parameters(*pair)), pair[1].designation
-        )
-        for pair in pairs
+        RowGroup(tuple(_change(each, writer, known=known) for each in of_pair), pair[1].designation)
+        for pair, of_pair in zip(pairs, changed, strict=True)
     )
     caption = _CHANGES_WITH_U.given(changes=_CHANGES) if known else _CHANGES
-    quantities = (_either(*each).quantity for pair in pairs for each in _parameters(*pair))
+    quantities = (each.either.quantity for each in every)
     return Table(told_apart(caption, quantities, has_uncertainty=known, writer=writer), columns, groups)
 
 
-def _change(
-    before: Parameter | None, after: Parameter | None, writer: Writer, *, known: bool
-) -> tuple[Cell, ...]:
-    quantity = _either(before, after).quantity
-    parts = 2 if known else 1
+def _both(change: Change) -> Iterator[Parameter]:
+    yield from filter(None, (change.before, change.after))
+
+
+def _change(change: Change, writer: Writer, *, known: bool) -> tuple[Cell, ...]:
+    quantity, parts = change.either.quantity, 2 if known else 1
     return (
         Symbol(quantity.notation),
         writer.say(quantity.name),
-        *(written(before, writer) if before else (NOTHING, NOTHING))[:parts],
-        *(written(after, writer) if after else (NOTHING, NOTHING))[:parts],
-        *_change_with_uncertainty(before, after, writer)[:parts],
+        *(written(change.before, writer) if change.before else (NOTHING, NOTHING))[:parts],
+        *(written(change.after, writer) if change.after else (NOTHING, NOTHING))[:parts],
+        *_value_of(change, writer)[:parts],
     )
 
 
-def _change_with_uncertainty(
-    before: Parameter | None, after: Parameter | None, writer: Writer
-) -> tuple[str, str]:
-    """Write a change and its U: of errors of which nobody knows how far they are shared, their sum.
-
-    Errors that both measurements have alike leave a change where they act alike on both, and add up in one
-    where they do not, as a scale error on an axis whose slope was turned (JCGM 100, 5.2.2, note 1).
-    """
-    if before is None or after is None:
+def _value_of(change: Change, writer: Writer) -> tuple[str, str]:
+    """Write a change, with the sign that the standard's edition prints, and its U."""
+    if change.value is None:
         return NOTHING, NOTHING
-    change = after.printed_value - before.printed_value
-    if not before.expanded_uncertainty or not after.expanded_uncertainty:
-        return writer.deviation(change), NOTHING
-    return with_uncertainty(change, before.expanded_uncertainty + after.expanded_uncertainty, writer)
+    value = change.either.quantity.printed_sign * change.value
+    if change.expanded_uncertainty is None:
+        return writer.deviation(value), NOTHING
+    return with_uncertainty(value, change.expanded_uncertainty, writer)
 
 
 def limits(pairs: Sequence[Pair], writer: Writer) -> Iterator[Table]:
@@ -302,11 +295,7 @@ def limits(pairs: Sequence[Pair], writer: Writer) -> Iterator[Table]:
     )
     groups = tuple(
         RowGroup(
-            tuple(
-                _verdicts(before, after, writer)
-                for before, after in _parameters(*pair)
-                if _either(before, after).limit is not None
-            ),
+            tuple(_verdicts(each, writer) for each in changes(*pair) if each.either.limit is not None),
             pair[1].designation,
         )
         for pair in pairs
@@ -316,24 +305,9 @@ def limits(pairs: Sequence[Pair], writer: Writer) -> Iterator[Table]:
         yield Table(writer.say(_LIMITS), columns, limited)
 
 
-def _verdicts(before: Parameter | None, after: Parameter | None, writer: Writer) -> tuple[Cell, ...]:
-    either = _either(before, after)
+def _verdicts(change: Change, writer: Writer) -> tuple[Cell, ...]:
     return (
-        Symbol(either.quantity.notation),
-        limit(either, writer),
-        *(conformity.verdict(each, writer) if each else NOTHING for each in (before, after)),
+        Symbol(change.either.quantity.notation),
+        limit(change.either, writer),
+        *(conformity.verdict(each, writer) if each else NOTHING for each in (change.before, change.after)),
     )
-
-
-def _parameters(before: Evaluation, after: Evaluation) -> Iterator[tuple[Parameter | None, Parameter | None]]:
-    """Yield each parameter that either measurement defines, in the standard's order."""
-    for parameter in after.parameters:
-        yield before.parameter(parameter.quantity.symbol), parameter
-    for parameter in before.parameters:
-        if after.parameter(parameter.quantity.symbol) is None:
-            yield parameter, None
-
-
-def _either(before: Parameter | None, after: Parameter | None) -> Parameter:
-    """Return one of two parameters that are alike but for their values; one of the two is there."""
-    return cast("Parameter", after or before)

@@ -124,6 +124,7 @@ def build(  # noqa: PLR0913, PLR0917 - what a document is made of
         measurements=measurements,
         evaluations=tuple(each.evaluation for each in evaluated),
         evaluations_as_found=tuple(each.evaluation for each in as_found),
+        budget_as_found=as_found[0].budget if as_found else None,
         generator=generator,
         keywords=designations,
         plugins=plugins,

@@ -254,8 +254,8 @@ class Certificate:
         Of the uncertainties of the evaluations, or why there is none; None where nobody asked for it.
     job
         What was asked for, for renderers of data; None where the document was made of no job.
-    evaluations_as_found
-        Of the axis before it was adjusted, by the same standards; empty where it was not.
+    evaluations_as_found, budget_as_found
+        Of the axis before it was adjusted, by the same standards; empty and None where it was not.
     generator
         Name and version of this program.
     plugins
@@ -290,6 +290,7 @@ class Certificate:
     linked: Linked | None = None
     evaluations_as_found: tuple[Evaluation, ...] = ()
     budget: Budget | NoBudget | None = None
+    budget_as_found: Budget | NoBudget | None = None
     job: Job | None = None
     sources: tuple[Source, ...] = ()
     attachments: tuple[Attachment, ...] = ()

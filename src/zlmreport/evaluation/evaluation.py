@@ -222,6 +222,47 @@ class Parameter:
 
 
 @dataclass(frozen=True, slots=True)
+class Change:
+    """A parameter of one axis in two tests, as found and as left; one of the two may not define it."""
+
+    before: Parameter | None
+    after: Parameter | None
+
+    @property
+    def either(self) -> Parameter:
+        """One of the two, which are alike but for their values."""
+        parameter = self.after or self.before
+        assert parameter is not None  # noqa: S101 - a change is of a parameter that one of the tests defines
+        return parameter
+
+    @property
+    def value(self) -> float | None:
+        """As left − as found, m or rad; None where one of the two is not defined."""
+        return self.after.value - self.before.value if self.before and self.after else None
+
+    @property
+    def expanded_uncertainty(self) -> float | None:
+        """U of the change, m or rad: the sum of both U; None where one of the two is not known.
+
+        Nobody knows how far the errors of the two tests are shared. Those that both have alike leave a
+        change where they act alike on both, and add up in one where they do not, as a scale error on an
+        axis whose slope was turned (JCGM 100, 5.2.2, note 1).
+        """
+        if not (self.before and self.after):
+            return None
+        before, after = self.before.expanded_uncertainty, self.after.expanded_uncertainty
+        return before + after if before and after else None
+
+    @property
+    def coverage_factor(self) -> float | None:
+        """The factor k of U, where u is the sum of both u; None where U is not known."""
+        if self.before is None or self.after is None or self.expanded_uncertainty is None:
+            return None
+        before, after = self.before.standard_uncertainty, self.after.standard_uncertainty
+        return self.expanded_uncertainty / (before + after) if before and after else None
+
+
+@dataclass(frozen=True, slots=True)
 class PositionColumn:
     """A column of the table by position: the quantity, and its value at each target, shape (m,)."""
 
@@ -316,3 +357,12 @@ class Evaluation:
                 return column.values
         known = ", ".join(column.quantity.symbol for column in self.columns)
         raise KeyError(f"{self.standard} has no column {symbol!r} by position (it has: {known})")
+
+
+def changes(before: Evaluation, after: Evaluation) -> tuple[Change, ...]:
+    """Return each parameter that either of two tests defines by one standard, in the standard's order."""
+    only_before = (each for each in before.parameters if after.parameter(each.quantity.symbol) is None)
+    return (
+        *(Change(before.parameter(each.quantity.symbol), each) for each in after.parameters),
+        *(Change(each, None) for each in only_before),
+    )

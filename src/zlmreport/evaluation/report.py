@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from zlmreport.evaluation.evaluation import Decision, Evaluation, Parameter
+from zlmreport.evaluation.evaluation import Decision, Evaluation, Parameter, changes
 from zlmreport.language import Language
 from zlmreport.measurement.approach import Approach
 from zlmreport.quantities.arrays import FloatArray
@@ -48,6 +48,28 @@ def report_evaluation(evaluation: Evaluation, language: Language = Language.ENGL
     }
 
 
+def report_changes(before: Evaluation, after: Evaluation) -> dict[str, Any]:
+    """Return by how much each parameter changed from one test to another, with U where both are known."""
+    unit = after.measurements.axis.deviation_unit
+    return {
+        "standard": after.standard,
+        "parameters": [
+            {
+                "symbol": each.either.quantity.symbol,
+                "value": unit.from_si(each.value),
+                "unit": unit.ascii,
+                **_expanded(each.expanded_uncertainty, unit),
+            }
+            for each in changes(before, after)
+            if each.value is not None
+        ],
+    }
+
+
+def _expanded(uncertainty: float | None, unit: Unit) -> dict[str, float]:
+    return {} if uncertainty is None else {"expanded_uncertainty": unit.from_si(uncertainty)}
+
+
 def report_parameter(parameter: Parameter, unit: Unit, language: Language) -> dict[str, Any]:
     """Return a parameter with its uncertainty, its limit and what is decided on it."""
     values: dict[str, Any] = {
@@ -55,9 +77,8 @@ def report_parameter(parameter: Parameter, unit: Unit, language: Language) -> di
         "name": parameter.quantity.name.in_language(language),
         "value": unit.from_si(parameter.value),
         "unit": unit.ascii,
+        **_expanded(parameter.expanded_uncertainty, unit),
     }
-    if parameter.expanded_uncertainty is not None:
-        values["expanded_uncertainty"] = unit.from_si(parameter.expanded_uncertainty)
     if parameter.coverage_factor is not None:
         values["coverage_factor"] = parameter.coverage_factor
     if parameter.raised_to is not None:

@@ -49,10 +49,10 @@ _ROOMS = {
     "zlmreport.evaluation.decision": "decided decision_rule",
     "zlmreport.evaluation.evaluate": "evaluate",
     "zlmreport.evaluation.evaluation": (
-        "Arithmetic Basis Conformity Decision EvaluatedParameter=Parameter Evaluation Finding "
-        "PositionQuantity Quantity QuantityGroup=Group"
+        "Arithmetic Basis Change Conformity Decision EvaluatedParameter=Parameter Evaluation Finding "
+        "PositionQuantity Quantity QuantityGroup=Group changes"
     ),
-    "zlmreport.evaluation.report": "report_evaluation",
+    "zlmreport.evaluation.report": "report_changes report_evaluation",
     "zlmreport.evaluation.statistics": (
         "PositionStatistics largest_over_positions=largest mean_over_positions=average position_statistics "
         "range_over_positions=width smallest_over_positions=smallest span_over_positions=span"

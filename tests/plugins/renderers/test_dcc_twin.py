@@ -18,6 +18,7 @@ from certificate.everything import EVERYTHING, write_tables
 from plugins.renderers.test_dcc import KEYS, NAMES, ROTARY
 from zlmreport.certificate.document import Certificate, Facts, Notice, Paragraph, Table
 from zlmreport.errors import InputError, Place
+from zlmreport.evaluation.evaluation import changes
 from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.plugin.protocols import SourceContext
@@ -141,17 +142,43 @@ def test_its_dates_span_the_measurement_as_found_too(tmp_path):
 
 def test_the_contributions_stand_with_their_standard_uncertainties(both):
     made, *_ = both
-    root = ET.fromstring(DccRenderer().render(made))
-    (budget,) = [
-        each
-        for each in root.iterfind(".//dcc:measurementResult/dcc:measurementMetaData/dcc:metaData", NAMES)
-        if each.find("dcc:data", NAMES) is not None
-    ]
-    values = [float(each.text or "") for each in budget.iterfind(".//si:real/si:value", NAMES)]
     unit = made.measurements.axis.deviation_unit
+    written = [
+        [float(each.text or "") for each in budget.iterfind(".//si:real/si:value", NAMES)]
+        for budget in ET.fromstring(DccRenderer().render(made)).iterfind(
+            ".//dcc:measurementResult/dcc:measurementMetaData/dcc:metaData", NAMES
+        )
+        if budget.find("dcc:data", NAMES) is not None
+    ]
+    of_each_test = [
+        [each.standard_uncertainty for each in budget.contributions] + [budget.standard_uncertainty]
+        for budget in (made.budget_as_found, made.budget)
+    ]
 
-    assert values[:-1] == [unit.from_si(each.standard_uncertainty) for each in made.budget.contributions]
-    assert values[-1] == unit.from_si(made.budget.standard_uncertainty)
+    assert written == [[unit.from_si(each) for each in budget] for budget in of_each_test]
+
+
+def test_the_changes_from_as_found_to_as_left_stand_with_their_uncertainty(both):
+    made, *_ = both
+    unit = made.measurements.axis.deviation_unit
+    root = ET.fromstring(DccRenderer().render(made))
+    (changed,) = [
+        each
+        for each in root.iterfind(".//dcc:results/dcc:result", NAMES)
+        if "as left − as found" in "".join(each.find("dcc:name", NAMES).itertext())
+    ]
+    expected = changes(made.evaluations_as_found[0], made.evaluations[0])
+
+    for path, values in (
+        ("si:value", [each.value for each in expected]),
+        (".//si:valueExpandedMU", [each.expanded_uncertainty for each in expected]),
+    ):
+        found = [
+            float(each.text or "")
+            for real in changed.iterfind(".//si:real", NAMES)
+            for each in real.iterfind(path, NAMES)
+        ]
+        assert found == [unit.from_si(each) for each in values]
 
 
 def test_a_parameter_has_the_interval_of_the_axis(tmp_path):

@@ -44,6 +44,29 @@ def test_it_has_the_axis_as_found_by_the_same_standards(results: Any) -> None:
     assert [each["standard"] for each in results["as_found"]["evaluations"]] == after
 
 
+def test_a_change_is_what_was_left_less_what_was_found_and_its_u_is_the_sum_of_both(results: Any) -> None:
+    for found, left, changed in zip(
+        results["as_found"]["evaluations"],
+        results["evaluations"],
+        results["as_found"]["changes"],
+        strict=True,
+    ):
+        assert changed["standard"] == left["standard"]
+        for one, other, change in zip(
+            found["parameters"], left["parameters"], changed["parameters"], strict=True
+        ):
+            assert change["symbol"] == other["symbol"]
+            assert change["value"] == pytest.approx(other["value"] - one["value"], abs=1e-12)
+            both = one["expanded_uncertainty"] + other["expanded_uncertainty"]
+            assert change["expanded_uncertainty"] == pytest.approx(both, rel=1e-12)
+
+
+def test_each_measurement_has_its_own_budget(results: Any) -> None:
+    for uncertainty in (results["as_found"]["uncertainty"], results["uncertainty"]):
+        assert uncertainty["state"] == "complete"
+        assert uncertainty["contributions"]
+
+
 def test_each_measurement_has_its_own_file_of_readings(results: Any) -> None:
     assert [file["name"] for file in results["as_found"]["files"]] == ["x-as-found.csv"]
     assert [file["name"] for file in results["provenance"]["files"]] == ["x-as-left.csv"]

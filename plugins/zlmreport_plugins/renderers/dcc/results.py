@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from xml.etree import ElementTree as ET
 
 import numpy as np
@@ -21,8 +22,10 @@ from zlmreport.plugin import (
     FloatArray,
     Job,
     MeasurementSet,
+    NoBudget,
     Unit,
     Words,
+    changes,
 )
 from zlmreport_plugins.renderers.dcc.administrative import Writer, equipment, influences, software, state
 from zlmreport_plugins.renderers.dcc.elements import (
@@ -99,6 +102,12 @@ _BUDGET = Words(
     de="Messunsicherheitsbilanz: Standardunsicherheiten am Ende der Messlänge",
 )
 _COMBINED = Words(en="Combined standard uncertainty", de="Kombinierte Standardunsicherheit")
+_CHANGES = Words(
+    en="Changes of the parameters: as left − as found; U is the sum of both U and holds whatever errors the "
+    "two measurements share",
+    de="Änderungen der Kenngrößen: nachher − vorher; U ist die Summe beider U und gilt, welche Fehler den "
+    "beiden Messungen auch gemeinsam sind",
+)
 _READINGS = Words(en="Readings, in the order in which they were taken", de="Messwerte, in der Reihenfolge")
 _DIRECTION = Words(en="Direction of approach", de="Anfahrrichtung")
 _RUN = Words(en="Number of the run", de="Nummer des Durchlaufs")
@@ -113,42 +122,52 @@ _CONFORMITY = {
 }
 
 
+@dataclass(frozen=True)
+class _Test:
+    """A measurement of the axis, and as left the evaluations as found to compare it with."""
+
+    state: ET.Element | None
+    evaluations: Sequence[Evaluation]
+    budget: Budget | NoBudget | None
+    job: Job
+    earlier: Sequence[Evaluation] = ()
+
+
 def measurement_results(certificate: Certificate, job: Job) -> ET.Element:
     """Return the results by every standard of the job: as found, where there are such, and as left."""
-    writer = Writer(certificate.language)
-    found = job.as_found
-    work = job.keys.as_found.work if job.keys.as_found else None
-    tests = [
-        *([("before", certificate.evaluations_as_found, found)] if found else []),
-        ("after", certificate.evaluations, job),
-    ]
+    writer, before = Writer(certificate.language), job.as_found
+    work, found = (job.keys.as_found.work if job.keys.as_found else None), certificate.evaluations_as_found
+    tests = [_Test(state("after", work, writer), certificate.evaluations, certificate.budget, job, found)]
+    if before:
+        tests.insert(0, _Test(state("before", work, writer), found, certificate.budget_as_found, before))
     return dcc(
         "measurementResults",
         *(
-            _measurement_result(
-                each, certificate, test, state(when, work, writer), writer, with_readings=first
-            )
-            for when, evaluations, test in tests
-            for first, each in zip((True, *[False] * len(evaluations)), evaluations, strict=False)
+            _measurement_result(index, test, certificate, writer)
+            for test in tests
+            for index in range(len(test.evaluations))
         ),
     )
 
 
-def _measurement_result(  # noqa: PLR0913 - what a result is of, and how it is written
-    evaluation: Evaluation,
-    certificate: Certificate,
-    job: Job,
-    condition: ET.Element | None,
-    writer: Writer,
-    *,
-    with_readings: bool,
-) -> ET.Element:
+def _measurement_result(index: int, test: _Test, certificate: Certificate, writer: Writer) -> ET.Element:
     """Return the results by one standard; the first of a test has its readings, too.
 
     Readings stay out where the customer agreed to a document without them.
     """
+    evaluation, job = test.evaluations[index], test.job
     by, kind = (_RESULTS_BY_METHOD, "reference") if evaluation.is_method else (_RESULTS, "norm")
     name = by.given(axis=job.axis.name, designation=evaluation.designation)
+    parameters = (_parameter(each, evaluation, writer) for each in evaluation.parameters)
+    results = [
+        _result(_PARAMETERS, parameters, writer),
+        _result(_POSITIONS, _positions(evaluation, writer), writer),
+    ]
+    if test.earlier:
+        results.insert(1, _result(_CHANGES, _changes(test.earlier[index], evaluation, writer), writer))
+    if index == 0 and not job.keys.agreement.simplified:
+        readings = _readings(evaluation.measurements, writer)
+        results.append(_result(_READINGS, readings, writer, refType=READINGS))
     return dcc(
         "measurementResult",
         writer.named("name", name),
@@ -158,22 +177,9 @@ def _measurement_result(  # noqa: PLR0913 - what a result is of, and how it is w
         ),
         dcc("usedSoftware", software(certificate, writer)),
         group("measuringEquipments", equipment(job, writer)),
-        group("influenceConditions", condition, *influences(job, writer)),
-        dcc(
-            "results",
-            _result(
-                _PARAMETERS, (_parameter(each, evaluation, writer) for each in evaluation.parameters), writer
-            ),
-            _result(_POSITIONS, _positions(evaluation, writer), writer),
-            _result(_READINGS, _readings(evaluation.measurements, writer), writer, refType=READINGS)
-            if with_readings and not job.keys.agreement.simplified
-            else None,
-        ),
-        group(
-            "measurementMetaData",
-            *_budget(evaluation, certificate, writer),
-            *_findings(evaluation, writer),
-        ),
+        group("influenceConditions", test.state, *influences(job, writer)),
+        dcc("results", *results),
+        group("measurementMetaData", *_budget(test, writer), *_findings(evaluation, writer)),
     )
 
 
@@ -200,6 +206,24 @@ def _parameter(parameter: EvaluatedParameter, evaluation: Evaluation, writer: Wr
             _interval(parameter, axis_unit, writer),
         ),
     )
+
+
+def _changes(before: Evaluation, after: Evaluation, writer: Writer) -> Iterator[ET.Element]:
+    """Yield by how much each parameter changed, with its U where both are known."""
+    unit = after.measurements.axis.deviation_unit
+    for each in changes(before, after):
+        if each.value is not None:
+            uncertainty = each.expanded_uncertainty
+            yield quantity(
+                writer.named("name", each.either.quantity.name),
+                real(
+                    unit.from_si(each.value),
+                    unit_of(unit),
+                    label=each.either.quantity.symbol,
+                    expanded_uncertainty=None if uncertainty is None else unit.from_si(uncertainty),
+                    coverage_factor=each.coverage_factor,
+                ),
+            )
 
 
 def _interval(parameter: EvaluatedParameter, axis_unit: Unit, writer: Writer) -> ET.Element | None:
@@ -295,16 +319,12 @@ def _findings(evaluation: Evaluation, writer: Writer) -> Iterator[ET.Element]:
         )
 
 
-def _budget(evaluation: Evaluation, certificate: Certificate, writer: Writer) -> Iterator[ET.Element]:
-    """Yield the contributions to the uncertainty of what is certified: the axis as left.
-
-    What they leave out is among the statements.
-    """
-    budget = certificate.budget
-    is_certified = any(evaluation is each for each in certificate.evaluations)
-    if not is_certified or not isinstance(budget, Budget):
+def _budget(test: _Test, writer: Writer) -> Iterator[ET.Element]:
+    """Yield the contributions to the uncertainty of a test; what they leave out is among the statements."""
+    budget = test.budget
+    if not isinstance(budget, Budget):
         return
-    unit = certificate.measurements.axis.deviation_unit
+    unit = test.job.axis.deviation_unit
     contributions = (
         quantity(
             writer.named("name", each.name),

@@ -16,6 +16,7 @@ from zlmreport.plugin import (
     COVERAGE_PROBABILITY,
     MICROMETRE,
     Approach,
+    Budget,
     Certificate,
     CertificateSource,
     MeasurementSet,
@@ -23,6 +24,7 @@ from zlmreport.plugin import (
     Relationship,
     SourceFile,
     Words,
+    report_changes,
     report_evaluation,
 )
 
@@ -58,7 +60,7 @@ def results(certificate: Certificate) -> Json:
             report_evaluation(evaluation, certificate.language) for evaluation in certificate.evaluations
         ],
         **_as_found(certificate),
-        **_uncertainty(certificate),
+        **_uncertainty(certificate.budget, certificate),
         "model": _model(certificate),
         "measurements": _measurements(measurements),
         "provenance": _provenance(certificate),
@@ -89,6 +91,8 @@ def _as_found(certificate: Certificate) -> Json:
     return {
         "as_found": {
             "evaluations": [report_evaluation(evaluation, certificate.language) for evaluation in found],
+            "changes": [report_changes(*pair) for pair in zip(found, certificate.evaluations, strict=True)],
+            **_uncertainty(certificate.budget_as_found, certificate),
             "measurements": _measurements(measurements),
             "source": provenance.source,
             "files": [_file(file) for file in provenance.files],
@@ -96,9 +100,9 @@ def _as_found(certificate: Certificate) -> Json:
     }
 
 
-def _uncertainty(certificate: Certificate) -> Json:
-    """Return the uncertainty budget, or why there is none; nothing where nobody asked for one."""
-    budget, language = certificate.budget, certificate.language
+def _uncertainty(budget: Budget | NoBudget | None, certificate: Certificate) -> Json:
+    """Return an uncertainty budget, or why there is none; nothing where nobody asked for one."""
+    language = certificate.language
     if budget is None:
         return {}
     gaps = {"missing": list(budget.missing), "negligible": dict(budget.negligible)}
