@@ -14,7 +14,8 @@ import pytest
 
 from typesetting import samples
 from zlmreport.certificate.document import Certificate
-from zlmreport.language import Language
+from zlmreport.language import Language, Words
+from zlmreport.uncertainty.budget import NoBudget
 from zlmreport_plugins.renderers.json_results.document import JsonResultsRenderer
 from zlmreport_plugins.renderers.json_results.tables import CsvRenderer, XlsxRenderer, harmless
 
@@ -78,6 +79,23 @@ def test_positions_of_the_table_are_those_of_the_results_file() -> None:
         if key != "target"
     }
     assert printed == stated
+
+
+def test_what_u_does_not_consider_stands_beside_it_in_the_table_and_in_the_workbook() -> None:
+    reason = Words(en="no number", de="keine Zahl")
+    incomplete = replace(certificate(), budget=NoBudget(reason, missing=("misalignment", "instrument")))
+    printed = csv.DictReader(io.StringIO(CsvRenderer().render(incomplete).decode()))
+    assert [row["symbol"] for row in printed if row["quantity"] == "uncertainty.missing"] == [
+        "misalignment",
+        "instrument",
+    ]
+    column = [row["U incomplete, not considered"] for row in table(book(incomplete)["Parameters"])]
+    assert set(column) == {"misalignment, instrument"}
+
+
+def test_a_complete_u_has_no_such_rows_and_no_such_column() -> None:
+    assert not [row for row in rows() if "missing" in row["quantity"]]
+    assert "U incomplete, not considered" not in table(book(certificate())["Parameters"])[0]
 
 
 @pytest.mark.parametrize("text", [FORMULA, "+1", "-1", "@x", "\t=1"])

@@ -48,6 +48,7 @@ _PARAMETER_HEADINGS = (
     Words(en="Limit", de="Grenzwert"),
     Words(en="Decision", de="Entscheidung"),
 )
+_INCOMPLETE = Words(en="U incomplete, not considered", de="U unvollständig, nicht berücksichtigt")
 _READING_HEADINGS = (
     Words(en="Run", de="Durchlauf"),
     Words(en="Direction", de="Richtung"),
@@ -110,13 +111,20 @@ class CsvRenderer:
 def values(certificate: Certificate) -> Iterator[Value]:
     """Yield every number of the evaluations and of the error model."""
     found = results(certificate)
-    for evaluation in found["evaluations"]:
-        yield from _of_evaluation(evaluation, found["measurements"]["units"]["deviation"])
-    before = found.get("as_found", {})
-    for evaluation in before.get("evaluations", ()):
-        unit = before["measurements"]["units"]["deviation"]
-        yield from _of_evaluation(evaluation, unit, prefix="as_found.")
+    for test, prefix in ((found, ""), (found.get("as_found"), "as_found.")):
+        if test:
+            unit = test["measurements"]["units"]["deviation"]
+            for evaluation in test["evaluations"]:
+                yield from _of_evaluation(evaluation, unit, prefix)
+            for contributor in _missing(test):
+                yield Value("", contributor, None, f"{prefix}uncertainty.missing", 1.0, _NO_UNIT)
     yield from _of_model(found["model"])
+
+
+def _missing(test: Json) -> Sequence[str]:
+    """Return the contributors that U does not consider, by their keys."""
+    missing: Sequence[str] = test.get("uncertainty", {}).get("missing", ())
+    return missing
 
 
 def harmless(text: str) -> str:
@@ -124,7 +132,7 @@ def harmless(text: str) -> str:
     return f"'{text}" if text.startswith(_FORMULA) else text
 
 
-def _of_evaluation(evaluation: Json, unit: str, prefix: str = "") -> Iterator[Value]:
+def _of_evaluation(evaluation: Json, unit: str, prefix: str) -> Iterator[Value]:
     standard = evaluation["standard"]
     for parameter in evaluation["parameters"]:
         numbers = {key: parameter[key] for key in _OF_PARAMETER if key in parameter}
@@ -194,17 +202,20 @@ class _Sheets:
             self._model(found["model"])
 
     def _evaluations(self, found: Json, title: str) -> None:
+        missing = ", ".join(_missing(found))
         rows = [
             [
                 self._certificate.number,
                 evaluation["standard"],
                 *map(parameter.get, _OF_ROW),
                 parameter.get("decision", {}).get("statement"),
+                *([missing] if missing else ()),
             ]
             for evaluation in found["evaluations"]
             for parameter in evaluation["parameters"]
         ]
-        self._sheet(title.format(sheet=self._say(_PARAMETERS)), map(self._say, _PARAMETER_HEADINGS), rows)
+        headings = map(self._say, (*_PARAMETER_HEADINGS, *([_INCOMPLETE] if missing else ())))
+        self._sheet(title.format(sheet=self._say(_PARAMETERS)), headings, rows)
         units = found["measurements"]["units"]
         positions = [
             (evaluation["standard"], position)
@@ -212,13 +223,13 @@ class _Sheets:
             for position in evaluation["positions"]
         ]
         keys = list(dict.fromkeys(key for _, position in positions for key in position if key != "target"))
-        headings = [
+        columns = [
             self._say(_STANDARD),
             f"{self._say(_TARGET)} / {units['position']}",
             *(key if key.startswith("n_") else f"{key} / {units['deviation']}" for key in keys),
         ]
         table = [[standard, row["target"], *map(row.get, keys)] for standard, row in positions]
-        sheet = self._sheet(title.format(sheet=self._say(_POSITIONS)), headings, table)
+        sheet = self._sheet(title.format(sheet=self._say(_POSITIONS)), columns, table)
         drawn = [(2 + index, key) for index, key in enumerate(["target", *keys]) if key in _MEANS]
         of_first = sum(row[0] == table[0][0] for row in table) if table else 0
         if drawn and of_first:
