@@ -113,6 +113,33 @@ def test_a_certificate_is_made_again_when_only_its_look_changes(fleet: Fleet, na
     assert fleet.foretold()["x"].why.partition(" since")[0] == why
 
 
+@pytest.mark.parametrize(
+    ("name", "why"),
+    [
+        ("x.yaml", "job jobs/x.yaml changed"),
+        ("x.txt", "readings jobs/x.txt changed"),
+        ("DejaVuSerif.ttf", "file jobs/DejaVuSerif.ttf changed"),
+        ("look/style.css", "templates jobs/look changed"),
+    ],
+)
+def test_what_is_written_while_its_certificate_is_made_makes_it_due_again(
+    fleet: Fleet, name: str, why: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    _look(fleet)
+    run = making.pipeline.run
+
+    def run_and_write(*given: object) -> object:
+        outcome = run(*given)  # type: ignore[arg-type]  # as it was called
+        with (fleet.folder / "jobs" / name).open("ab") as file:
+            file.write(b" ")
+        return outcome
+
+    with monkeypatch.context() as patched:
+        patched.setattr(making.pipeline, "run", run_and_write)
+        fleet.spend()
+    assert fleet.foretold()["x"].why.partition(" since")[0] == why
+
+
 def test_a_draft_says_what_changed_since_when(fleet: Fleet) -> None:
     fleet.spend()
     fleet.readings("x", OTHER_READINGS)

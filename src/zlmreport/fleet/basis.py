@@ -306,17 +306,31 @@ def _digest(files: Iterable[Path]) -> str:
     return digest.hexdigest()[:16]
 
 
-def files_behind(certificate: Certificate, job: Job, fleet: FleetFile, begun: float) -> Iterator[KnownFile]:
+def named_files(job: Job) -> dict[Path, str]:
+    """Return the digests of the files and the folder of templates that a job names, as they are now.
+
+    Whoever reads one may not say what it read. Taken before the work begins, a digest is at worst that of an
+    older content than the one that was read: then the certificate is due again.
+    """
+    templates = job.keys.certificate.style.templates
+    options = [each.options for each in (job.source, job.source_as_found, *job.standards) if each]
+    named = [path for path in _paths([job.keys, *options]) if path.is_file()]
+    return {path: sha256_of(path) for path in (*named, *([templates] if templates else ()))}
+
+
+def files_behind(
+    certificate: Certificate, named: Mapping[Path, str], job: Job, fleet: FleetFile, begun: float
+) -> Iterator[KnownFile]:
     """Yield every file that a certificate was made from, once; those that nobody wrote are none.
 
     Parameters
     ----------
     certificate
         It names what its readers say that they read.
-    job
-        It names files, too, whose reader may not say that it read them.
-    fleet
-        The fleet file.
+    named
+        Of `named_files`, before the work on it began.
+    job, fleet
+        The checked job and the fleet file.
     begun
         When the work on it began, s: a file written after that may be another than the one that was read.
     """
@@ -324,19 +338,17 @@ def files_behind(certificate: Certificate, job: Job, fleet: FleetFile, begun: fl
     # With defaults the first file extends them, too, and nobody wrote it.
     own = job.files[1 if fleet.defaults else 0].path
     seen: set[str] = set()
-    named = _paths(
-        [job.keys, *(each.options for each in (job.source, job.source_as_found, *job.standards) if each)]
-    )
+    templates = job.keys.certificate.style.templates
     stated = [(each.role.key, each.file.path, each.file.sha256) for each in certificate.sources]
-    for role, path, sha256 in (*stated, *(("file", path, "") for path in named)):
+    for role, path, sha256 in (*stated, *(("file", *each) for each in named.items())):
         if path is None or not path.is_file() or path_in(folder, path) in seen:
             continue
         seen.add(path_in(folder, path))
         look = Look.at(path)
         kind, settled = "job" if path == own else role, look if look.is_settled(begun) else None
-        yield KnownFile(kind, path_in(folder, path), sha256 or sha256_of(path), settled)
-    if templates := job.keys.certificate.style.templates:
-        yield KnownFile("templates", path_in(folder, templates), sha256_of(templates))
+        yield KnownFile(kind, path_in(folder, path), sha256, settled)
+    if templates:
+        yield KnownFile("templates", path_in(folder, templates), named[templates])
 
 
 def _paths(value: object) -> Iterator[Path]:

@@ -18,7 +18,7 @@ from zlmreport import pipeline
 from zlmreport.certificate.document import Certificate
 from zlmreport.errors import InputError, Place, Problem, as_problems
 from zlmreport.files import confined
-from zlmreport.fleet.basis import Basis, files_behind, program_versions, programs_of, release
+from zlmreport.fleet.basis import Basis, files_behind, named_files, program_versions, programs_of, release
 from zlmreport.fleet.records import RecordedParameter, Subject, folder_of, parameters_of
 from zlmreport.job.fleet import FleetFile, load_fleet
 from zlmreport.job.job import Job
@@ -196,6 +196,7 @@ def warm(plugins: tuple[Path, ...]) -> None:
 def _made(task: Task, job: Job, fleet: FleetFile, begun: float) -> Made:
     registry = _registry(task.plugins)
     programs = _programs(task, job, registry)
+    named = named_files(job)
     outcome = pipeline.run(job, registry)
     certificate = outcome.certificate
     renderers = [registry.renderer(identifier) for identifier in job.formats]
@@ -219,7 +220,7 @@ def _made(task: Task, job: Job, fleet: FleetFile, begun: float) -> Made:
         rendered = pipeline.render(drafted(certificate), renderers, registry)
         contents = [rendered[each.identifier] for each in renderers]
     stem = certificate.number + (MARK if is_draft else "")
-    files = tuple(files_behind(certificate, job, fleet, begun))
+    files = tuple(files_behind(certificate, named, job, fleet, begun))
     return Made(
         subject=Subject.of(job),
         basis=Basis(files, programs, job.formats, defaults_digest(fleet)),
