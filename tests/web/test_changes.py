@@ -10,6 +10,7 @@ from starlette.testclient import TestClient
 
 from web.jobs import registry
 from zlmreport.job.loading import load
+from zlmreport.web.app import Workbench
 
 
 @pytest.fixture
@@ -77,6 +78,31 @@ def test_a_parameter_is_fixed_and_freed(job: Path, browser: TestClient, before: 
     assert found["parameters"][0] | {"given": True, "fixed": True} == found["parameters"][0]
     click(browser, after, action="free", effect="backlash", parameter="lost_motion")
     assert job.read_text(encoding="utf-8") == text
+
+
+@pytest.mark.parametrize(
+    "effects_of_job",
+    [
+        ("- backlash", "- backlash: {lost_motion: {min: -2, max: 2}}"),
+        (
+            "- {name: wave, formula: a*sin(2*pi*P/L), parameters: {a: {unit: um}, L: {unit: mm, value: 10}}}",
+            "- {name: wave, formula: a*sin(2*pi*P/L), parameters: {a: {unit: um}, L: {unit: mm, value: 7}}}",
+        ),
+    ],
+    ids=["a bound", "a formula"],
+)
+def test_what_an_editor_says_of_an_effect_is_fitted_anew_and_known_when_it_is_said_again(
+    job: Path, workbench: Workbench, browser: TestClient, effects_of_job: tuple[str, str]
+) -> None:
+    text = job.read_text(encoding="utf-8")
+    shown = []
+    for each in (*effects_of_job, *effects_of_job):
+        job.write_text(text.replace("- backlash", each), encoding="utf-8")
+        shown.append((browser.get("/api/job").json()["error"], workbench.bench.whole(workbench.bench.loaded())))
+    (first, fit), (second, other), (again, fit_again), (_, other_again) = shown
+    assert first == again != second
+    assert fit_again is fit
+    assert other_again is other is not fit
 
 
 def test_a_parameter_that_there_is_not_is_refused(browser: TestClient, before: dict[str, Any]) -> None:

@@ -134,6 +134,7 @@ def test_an_effect_has_its_page(browser: TestClient) -> None:
     found = browser.get("/api/effects/screw-pitch?lang=de").json()
     assert found["title"] == "Periodischer Steigungsfehler der Spindel"
     assert found["confusions"][0]["effect"] == "periodic"
+    assert "keine Norm nennt sie" in found["rangesFrom"]
     assert browser.get("/api/effects/none-such").status_code == 422
 
 

@@ -24,6 +24,7 @@ export async function showEffect(texts, effect) {
         plot && [plot.element, h("p", { class: "hint" }, found.sketch.words)]),
       h("div", {},
         h("section", { class: "panel" }, h("h2", {}, texts.equation), h("p", { class: "equation" }, symbol(found.equation)), table(texts, found),
+          found.parameters.some((each) => each.low !== null || each.high !== null) && h("p", { class: "quiet" }, said(texts.rangesFrom, { source: found.rangesFrom })),
           found.contains.length > 0 && h("p", {}, said(texts.contains, { effects: found.contains.join(", ") }))),
         found.estimates.length > 0 && h("section", { class: "panel" }, h("h2", {}, texts.estimated),
           h("ul", { class: "parameters" }, found.estimates.map((each) => h("li", {}, symbol(each.symbol), ` = ${each.value}${each.uncertainty && ` ± ${each.uncertainty}`} ${each.unit}`)))),

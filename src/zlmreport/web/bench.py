@@ -206,7 +206,10 @@ class Bench:
             basis,
             *(each.sha256 for each in _files(*study.sessions)),
             len(study.model.terms),
-            *((each.identifier, each.settings, tuple(sorted(each.values.items()))) for each in effects),
+            *(
+                (each.identifier, each.settings, *sorted(each.values.items()), *sorted(each.limits.items()))
+                for each in effects
+            ),
         )
         found = self._fits.get(key)
         if found is None:

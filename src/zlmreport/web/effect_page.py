@@ -60,6 +60,7 @@ def effect_page(bench: Bench, loaded: Loaded, identifier: str, language: Languag
         "parameters": [
             _described(each, loaded.job.axis, language) for each in (*effect.linear, *effect.searched)
         ],
+        "rangesFrom": effect.ranges_from.in_language(language),
         "keys": [
             {"name": name, "description": field.description}
             for name, field in keys_in(effect.options).items()

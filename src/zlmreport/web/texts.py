@@ -192,6 +192,7 @@ TEXTS: Mapping[str, Words] = MappingProxyType(
         "look": Words(en="Its look in the residuals", de="Sein Bild in den Residuen"),
         "parameters": Words(en="Parameters", de="Parameter"),
         "range": Words(en="Plausible", de="Plausibel"),
+        "rangesFrom": Words(en="Plausible ranges: {source}.", de="Plausible Bereiche: {source}."),
         "estimated": Words(en="In this model", de="In diesem Modell"),
         "keys": Words(en="Keys in a job", de="Schlüssel im Auftrag"),
         "confusions": Words(en="What it is taken for", de="Womit er verwechselt wird"),
