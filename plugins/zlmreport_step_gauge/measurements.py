@@ -84,17 +84,17 @@ _SIGNIFICANT = Words(
 )
 _INSIGNIFICANT = Words(en="the scatter of the points explains it", de="die Streuung der Punkte erklärt das")
 _DETERMINED = Words(
-    en="Effective radius of the probe R_eff = {radius} mm, the mean of {number} blocks (Pahk and Kim, "
+    en="Effective radius of the probe: {radius} mm, the mean of {number} blocks (Pahk and Kim, "
     "Eq. 1), which scatter by {scatter} µm; standard uncertainty of the mean {uncertainty} µm. It holds the "
     "mean error of the machine within a block and its mean reversal: reversal values are relative to it.",
-    de="Wirksamer Tastkugelradius R_eff = {radius} mm, Mittel über {number} Blöcke (Pahk und Kim, Gl. 1), "
+    de="Wirksamer Tastkugelradius: {radius} mm, Mittel über {number} Blöcke (Pahk und Kim, Gl. 1), "
     "die um {scatter} µm streuen; Standardunsicherheit des Mittels {uncertainty} µm. Er enthält die mittlere "
     "Abweichung der Maschine innerhalb eines Blocks und ihre mittlere Umkehrspanne: Umkehrspannen sind "
     "relativ dazu.",
 )
 _STATED = Words(
-    en="Effective radius of the probe R_eff = {radius} mm, as stated; standard uncertainty {uncertainty} µm.",
-    de="Wirksamer Tastkugelradius R_eff = {radius} mm wie angegeben; Standardunsicherheit {uncertainty} µm.",
+    en="Effective radius of the probe: {radius} mm, as stated; standard uncertainty {uncertainty} µm.",
+    de="Wirksamer Tastkugelradius: {radius} mm, wie angegeben; Standardunsicherheit {uncertainty} µm.",
 )
 _OF_MACHINE = Words(
     en="Radius of the probe: corrected by the machine.",

@@ -27,7 +27,7 @@ def embarrassments(certificate: Certificate, pdf: bytes) -> list[str]:
     ]
     return [
         *(f"page {number} is filled to {fill:.2f}" for number, fill in _emptiness(pages)),
-        *(f"page {number} ends with {line!r}" for number, line in _left_alone(certificate, bodies)),
+        *(f"page {number} leaves alone {line!r}" for number, line in _left_alone(certificate, bodies)),
         *(f"page {number} parts a paragraph: {line!r}" for number, line in _widows(certificate, bodies)),
         *(f"page {number} parts the table {caption!r}" for number, caption in _parted(certificate, bodies)),
         *(
@@ -53,18 +53,31 @@ def _emptiness(pages: list[pypdfium2.PdfPage]) -> Iterator[tuple[int, float]]:
 
 
 def _left_alone(certificate: Certificate, bodies: list[list[str]]) -> Iterator[tuple[int, str]]:
-    """Yield pages that end with a heading or a caption, or consist of a note alone."""
+    """Yield pages that end with a heading, begin with the last line of a part, or consist of notes alone."""
     notes = [each for each in _blocks(certificate) if isinstance(each, Paragraph | Notice)]
     headings = {f"{number} {section.title}" for number, section in enumerate(certificate.sections, 1)}
     headings |= {each.heading for each in notes if isinstance(each, Notice)}
     table = f"{certificate.page_words.table} "
+    said = " ".join((*headings, *(text for each in notes for text in _texts(each))))
     for number, body in enumerate(bodies, 1):
         last = body[-1].lstrip("! ")
         if last in headings or last.startswith(table):
             yield number, last
+        if (
+            number > 1
+            and len(body) > 1
+            and body[0] in said
+            and body[0] not in headings
+            and body[1] in headings
+        ):
+            yield number, body[0]
     *_, end = bodies
-    if len(bodies) > 1 and len(end) < 4:
+    if len(bodies) > 1 and all(line.lstrip("! –") in said for line in end[:-1]):
         yield len(bodies), " / ".join(end)
+
+
+def _texts(note: Paragraph | Notice) -> tuple[str, ...]:
+    return (note.text,) if isinstance(note, Paragraph) else (note.heading, *note.items)
 
 
 def _widows(certificate: Certificate, bodies: list[list[str]]) -> Iterator[tuple[int, str]]:

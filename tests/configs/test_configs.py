@@ -125,7 +125,7 @@ def test_an_embarrassing_page_is_found() -> None:
     pages = len(pypdfium2.PdfDocument(pdf))
     assert embarrassments(certificate, pdf) == [
         f"page {pages - 1} is filled to 0.10",
-        f"page {pages} ends with '2 Last / The end. / — End of the calibration certificate —'",
+        f"page {pages} leaves alone '2 Last / The end. / — End of the calibration certificate —'",
     ]
 
 

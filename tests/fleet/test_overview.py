@@ -17,7 +17,7 @@ import pytest
 
 from fleet.histories import entry, history, parameter, quarters
 from zlmreport.fleet.overview import overview
-from zlmreport.fleet.overview_cells import Names, with_unit
+from zlmreport.fleet.overview_cells import Names
 from zlmreport.fleet.records import MODEL, About, Entry, Notice, PastNight, State
 from zlmreport.fleet.state import state_of
 from zlmreport.language import Language
@@ -278,11 +278,3 @@ def test_the_headline_tells_the_last_run() -> None:
     html = page(*CALM, FAILURE)
     assert "2026-11-21 02:00 UTC, 1 min 34 s" in html
     assert "6: 0 made, 5 unchanged, 0 as drafts, 1 failed" in html
-
-
-@pytest.mark.parametrize(
-    ("number", "unit", "expected"),
-    [("4.2", "um", "4.2 µm"), ("20", "arcsec", "20″"), ("4.2 ± 0.3", "arcsec", "(4.2 ± 0.3)″")],
-)
-def test_a_unit_stands_as_it_is_printed(number: str, unit: str, expected: str) -> None:
-    assert with_unit(number, unit) == expected

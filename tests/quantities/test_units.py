@@ -15,6 +15,7 @@ from zlmreport.quantities.units import (
     TEMPERATURE_UNITS,
     TIME_UNITS,
     unit_named,
+    with_unit,
 )
 
 
@@ -79,3 +80,11 @@ def test_a_rotary_axis_has_no_lengths() -> None:
         ValueError, match=r"^'mm' is no unit of this quantity; .*known: mrad, rad, °, µrad, ″"
     ):
         unit_named("mm", position_units(AxisKind.ROTARY))
+
+
+@pytest.mark.parametrize(
+    ("number", "unit", "expected"),
+    [("4.2", "µm", "4.2 µm"), ("20", "″", "20″"), ("4.2 ± 0.3", "″", "(4.2 ± 0.3)″")],
+)
+def test_a_unit_stands_as_it_is_printed(number: str, unit: str, expected: str) -> None:
+    assert with_unit(number, unit) == expected

@@ -10,6 +10,7 @@ import numpy as np
 
 from zlmreport.language import Words
 from zlmreport.measurement.measurement_set import CONDITION_NAMES, CONDITIONS, MeasurementSet
+from zlmreport.quantities import units
 
 if TYPE_CHECKING:
     from zlmreport.job.measurement_keys import Environment, Measurement
@@ -129,18 +130,15 @@ def with_unit(value: str | float | None, unit: str, writer: Writer) -> str | Non
     """Write a number with its unit; what the job states in words stays as it is."""
     if value is None or isinstance(value, str):
         return value
-    return f"{writer.number(value)} {unit}"
+    return units.with_unit(writer.number(value), unit)
 
 
 def _targets(measurements: MeasurementSet, writer: Writer) -> Words:
     first, last = measurements.target_positions[0], measurements.target_positions[-1]
-    return Words(
-        en="{count}, from {first} to {last} {unit}", de="{count}, von {first} bis {last} {unit}"
-    ).given(
+    return Words(en="{count}, from {first} to {last}", de="{count}, von {first} bis {last}").given(
         count=len(measurements.target_positions),
         first=writer.position(float(first)),
-        last=writer.position(float(last)),
-        unit=writer.position_unit.symbol,
+        last=units.with_unit(writer.position(float(last)), writer.position_unit.symbol),
     )
 
 

@@ -392,8 +392,8 @@ _PAGE_EM = 57.0
 _NOTICE_EM = 52.0
 #: What the mark of a verdict adds to its row.
 _MARK = 1.3
-#: What parts five rows from the next.
-_FIVE = 4.6
+#: What parts five rows from the next, in dense tables and in the finest.
+_FIVE, _FIVE_FINEST = 1.0, 4.6
 _SECTION_HEADING = 14.0 + 2.5 + 5.0
 _LOGO = 31.0
 #: Em of the names and values of facts in one of two columns.
@@ -447,7 +447,7 @@ def _table_height(table: Table) -> float:
     head_lines = 2 if any(column.unit for column in table.columns) else 1
     head = _lines_of(table.caption, _PAGE_EM) * _SMALL_TYPE * _LINE + 3.0 + head_lines * 1.25 * em + 5.0
     between = len(rows) * (3.0 if layout.size == "regular" else 1.4)
-    between += len(rows) // 5 * _FIVE if layout.in_fives else 0.0
+    between += len(rows) // 5 * (_FIVE_FINEST if layout.size == "finest" else _FIVE) * layout.in_fives
     between += _MARK * sum(any(isinstance(cell, Verdict) for cell in row) for row in rows)
     return head + layout.lines * 1.3 * em + between + 8.0
 

@@ -28,6 +28,7 @@ from zlmreport.certificate.document import (
 )
 from zlmreport.language import Words
 from zlmreport.measurement.axis import AxisKind
+from zlmreport.quantities import units
 
 if TYPE_CHECKING:
     from zlmreport.job.job import Job
@@ -143,7 +144,7 @@ def _axis(job: Job, writer: Writer) -> Iterator[Fact]:
     yield Fact(Words(en="Axis", de="Achse"), axis_in_words(job, writer), ("axis.name", "axis.kind"))
     if axis.travel is not None:
         first, last = (writer.number(writer.position_unit.from_si(end)) for end in axis.travel)
-        travel = f"{first} … {last} {writer.position_unit.symbol}"
+        travel = f"{first} … {units.with_unit(last, writer.position_unit.symbol)}"
         yield Fact(Words(en="Travel", de="Verfahrweg"), travel, ("axis.travel",))
     for name, length, key in (
         (

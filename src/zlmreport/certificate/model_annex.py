@@ -148,6 +148,7 @@ def section(modelled: Modelled, writer: Writer) -> Section:
         _error(whole, writer),
         tables.equations(whole),
         Paragraph(writer.say(_SYMBOLS)),
+        *([Notice(writer.say(_ASSUMED), rows.remarks)] if rows.remarks else []),
         tables.parameters(whole),
         Graph(over_position(diagram)),
         Graph(estimate(diagram)),
@@ -159,12 +160,11 @@ def section(modelled: Modelled, writer: Writer) -> Section:
     ]
     if diagnosis.verdict is not Verdict.ADEQUATE and diagnosis.candidates:
         blocks += [tables.candidates(rows.candidates), *_what_to_do(rows, modelled, writer)]
-    blocks.append(tables.visibility(diagnosis.visibility))
     if rows.not_tested:
         not_tried = (f"{', '.join(each.effects)}: {each.reason}" for each in rows.not_tested)
         blocks.append(Notice(writer.say(_NOT_TRIED), tuple(not_tried)))
-    if rows.remarks:
-        blocks.append(Notice(writer.say(_ASSUMED), rows.remarks))
+    # A table at the end: no page holds notes alone.
+    blocks.append(tables.visibility(diagnosis.visibility))
     return Section(_KEY, writer.say(_TITLE), tuple(blocks))
 
 

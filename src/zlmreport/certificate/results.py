@@ -119,11 +119,19 @@ def section(evaluated: Evaluated, writer: Writer) -> Section:
     )
 
 
+_UNMET = {
+    Basis.PUBLISHED: Words(en="{requirement}; found: {found}", de="{requirement}; vorgefunden: {found}"),
+    Basis.APPLIED: Words(
+        en="{requirement} (as applied); found: {found}",
+        de="{requirement} (wie angewandt); vorgefunden: {found}",
+    ),
+}
+
+
 def unmet(evaluation: Evaluation, writer: Writer) -> tuple[str, ...]:
     """Return the requirements that the test does not meet, each with what was found."""
-    statement = Words(en="{requirement}: {found}", de="{requirement}: {found}")
     return tuple(
-        writer.say(statement.given(requirement=_requirement(finding, writer), found=finding.found))
+        writer.say(_UNMET[finding.basis].given(requirement=finding.requirement, found=finding.found))
         for finding in evaluation.findings
         if finding.met is False
     )
@@ -264,7 +272,7 @@ def requirements(evaluations: Sequence[Evaluation], writer: Writer) -> Table:
 
 def _requirement(finding: Finding, writer: Writer) -> str:
     words = writer.say(finding.requirement)
-    return words if finding.basis is Basis.PUBLISHED else f"{words} *"
+    return words if finding.basis is Basis.PUBLISHED else f"{words}\N{NO-BREAK SPACE}*"
 
 
 def _mark(finding: Finding, writer: Writer) -> Verdict:

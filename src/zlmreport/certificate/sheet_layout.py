@@ -183,16 +183,13 @@ def _after_graph(of: Material, page: Sequence[Evaluated]) -> tuple[_Item, ...]:
         _Item(
             "the uncertainty, traceability, and what the results relate to",
             "7.8.4.1 a, 7.8.4.1 c, 7.8.2.1 l",
-            tuple(_in_a_paragraph((*of_uncertainty, *no_influence, *statements.paragraphs(keys, writer)))),
+            tuple(
+                statements.in_a_paragraph(
+                    (*of_uncertainty, *no_influence, *statements.paragraphs(keys, writer))
+                )
+            ),
         ),
     )
-
-
-def _in_a_paragraph(blocks: Iterable[Block]) -> Iterator[Block]:
-    """Yield what is said in sentences as one paragraph, below what is not."""
-    said = list(blocks)
-    yield from (each for each in said if not isinstance(each, Paragraph))
-    yield Paragraph(" ".join(each.text for each in said if isinstance(each, Paragraph)))
 
 
 def _conditions(of: Material) -> Iterator[Block]:
@@ -216,6 +213,6 @@ def _facts(of: Material, page: Sequence[Evaluated]) -> Iterator[Block]:
     axis = conditions.axis_in_words(job, writer)
     for group in _conditions(of):
         if isinstance(group, Facts):
-            stated = [" ".join(pair) for pair in group.pairs if pair[1] != axis]
+            stated = [": ".join(pair) for pair in group.pairs if pair[1] != axis]
             if stated:
-                yield Paragraph(f"{group.heading}: {'; '.join(stated)}")
+                yield Paragraph(f"{group.heading} – {'; '.join(stated)}")

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
-from typing import TypeAlias
+from typing import TypeAlias, TypeGuard
 
 from zlmreport.certificate import columns, conditions, conformity, cover, results, statements
 from zlmreport.certificate.document import (
@@ -36,10 +36,12 @@ from zlmreport.figures.figure import Figure, Panel
 from zlmreport.language import Words
 from zlmreport.presenting.writer import Writer
 
-#: Heights of graphs, mm: of the main one, of panels beside each other, of any other panel.
-_MAIN, _BESIDE, _OTHER = 57.0, 43.0, 54.0
+#: Heights of graphs, mm: of the main one, of panels beside each other, of any other, of what is no result.
+_MAIN, _BESIDE, _OTHER, _ASIDE = 57.0, 43.0, 54.0, 46.0
 #: The part of its height that a graph keeps at least where a page is short of room.
 _LEAST_DRAWN = 0.75
+#: Points that are none.
+_ROUNDED = 1e-6
 #: The part of the first page that must be taken for the next part to begin a page.
 _FULL_ENOUGH = 0.38
 #: Panels that have room beside each other.
@@ -75,7 +77,7 @@ def lay_out(of: Material) -> LaidOut:
     breaks = 0 <= free <= (1 - _FULL_ENOUGH) * page
     *others, last = map(_without_graphs, uncertainty_sections(of))
     if is_said_at_end:
-        last = replace(last, blocks=(*last.blocks, *said))
+        last = replace(last, blocks=(*last.blocks, *statements.in_a_paragraph(said)))
     return LaidOut(
         on_cover if is_said_at_end else (*on_cover, *said),
         (
@@ -131,26 +133,34 @@ def _in_less_room(section: Section) -> Section:
 
 
 def _on_a_page(section: Section, page: float) -> Section:
-    """Return a section with its graphs somewhat lower, if that makes it fit on a page."""
-    graphs = [each.figure for each in section.blocks if isinstance(each, Graph)]
+    """Return a section with its graphs somewhat lower, if that makes it fit on a page.
+
+    Panels beside each other are low already: they give way last.
+    """
     excess = columns.heading_height(section.title) + columns.height(section.blocks) - page
-    drawn = sum(each.height or 0.0 for each in graphs) * columns.MILLIMETRE
-    if excess <= 0 or drawn - excess < _LEAST_DRAWN * drawn:
-        return section
-    part = 1 - excess / drawn
+    blocks = section.blocks
+    for is_wide in (False, True):
+        heights = [each.figure.height or 0.0 for each in blocks if _is_drawn(each, is_wide=is_wide)]
+        drawn = sum(heights) * columns.MILLIMETRE
+        part = min(1.0, max(_LEAST_DRAWN, 1 - excess / drawn)) if drawn else 1.0
+        blocks = tuple(_lower(each, part) if _is_drawn(each, is_wide=is_wide) else each for each in blocks)
+        excess -= (1 - part) * drawn
+    return section if excess > _ROUNDED else replace(section, blocks=blocks)
 
-    def lower(block: Block) -> Block:
-        if not isinstance(block, Graph) or block.figure.height is None:
-            return block
-        return Graph(replace(block.figure, height=round(block.figure.height * part, 1)))
 
-    return replace(section, blocks=tuple(map(lower, section.blocks)))
+def _is_drawn(block: Block, *, is_wide: bool) -> TypeGuard[Graph]:
+    return isinstance(block, Graph) and block.figure.is_wide is is_wide
+
+
+def _lower(graph: Graph, part: float) -> Graph:
+    height = graph.figure.height
+    return Graph(replace(graph.figure, height=height and round(height * part, 1)))
 
 
 def _smaller(block: Block) -> Block:
     match block:
         case Graph(figure):
-            return Graph(replace(figure, height=_OTHER * len(figure.panels)))
+            return Graph(replace(figure, height=_ASIDE * len(figure.panels)))
         case Table():
             return replace(block, dense=True)
         case _:

@@ -12,7 +12,7 @@ from zlmreport.language import Words
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.measurement.measurement_set import MeasurementSet
-from zlmreport.quantities.units import Unit
+from zlmreport.quantities.units import Unit, with_unit
 
 #: Positions come as decimal numbers of mm or °: what differs less than this is the same.
 _ROUNDING = 1e-9
@@ -66,8 +66,8 @@ def runs_in_words(number: int) -> Words:
 
 
 def _with_unit(unit: Unit, value: float) -> Words:
-    phrase = "{value}{unit}" if unit.symbol in "°″" else "{value} {unit}"
-    return Words(phrase, phrase).given(value=float(unit.from_si(value)), unit=unit.symbol)
+    phrase = with_unit("{value}", unit.symbol)
+    return Words(phrase, phrase).given(value=float(unit.from_si(value)))
 
 
 def measured_length(measurements: MeasurementSet) -> float:

@@ -29,6 +29,8 @@ _GRAPH = Words(
     en="Bar chart of the parameters of axis {axis} that have a limit.",
     de="Balkendiagramm der Kenngrößen der Achse {axis}, die einen Grenzwert haben.",
 )
+#: One by itself compares nothing.
+_FEWEST_BARS = 2
 _X_TITLE = Words(en="Parameters with a limit", de="Kenngrößen mit Grenzwert")
 _Y_TITLE = Words(en="Amount over limit", de="Betrag über Grenzwert")
 _BAR = Words(en="{symbol}: {percent} % of its limit", de="{symbol}: {percent} % des Grenzwerts")
@@ -38,9 +40,9 @@ _SENTENCE = Words(en="{bar}.", de="{bar}.")
 
 
 def conformity_graph(evaluation: Evaluation) -> Figure | None:
-    """Return the graph; None where no parameter has a limit."""
+    """Return the graph; None of a single bar, which the table says better."""
     limited = [each for each in evaluation.parameters if each.limit]
-    if not limited:
+    if len(limited) < _FEWEST_BARS:
         return None
     bars = tuple(map(_bar, limited))
     graph = _GRAPH.given(axis=evaluation.measurements.axis.name)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from math import floor, log10
 
 import numpy as np
@@ -153,7 +154,8 @@ def over_condition(diagram: ModelDiagram, condition: str) -> Figure:
     if condition in CONDITIONS:
         scale = CONDITIONS[condition].unit
         log, unit = scale.from_si(log), scale.symbol
-    return _residuals(diagram, condition.replace("_", "-"), (name, name), unit, _panel(diagram, log))
+    in_sentence = replace(name, en=name.en[:1].lower() + name.en[1:])
+    return _residuals(diagram, condition.replace("_", "-"), (name, in_sentence), unit, _panel(diagram, log))
 
 
 def _residuals(

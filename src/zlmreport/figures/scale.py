@@ -137,7 +137,8 @@ def position_scale(
 ) -> Scale:
     """Return the axis of positions.
 
-    Labels stand at the targets where they fit, else at round positions, and small ticks at the targets.
+    Labels stand at the targets where they fit and are written whole, else at round positions, and small
+    ticks at the targets.
 
     Parameters
     ----------
@@ -162,7 +163,8 @@ def position_scale(
     if len(positions) <= _MOST_LABELLED_TARGETS:
         decimals = decimals_of(positions)
         labels = tuple(fixed_number(position, decimals, sign) for position in positions)
-        if positions and fit(positions, labels):
+        whole = np.allclose(positions, np.round(positions, decimals), rtol=1e-9, atol=1e-9)
+        if positions and whole and fit(positions, labels):
             return Scale(lower, upper, positions, labels)
     most = int(width / _LEAST_ROUND_DISTANCE)
     ticks, labels = _labelled_ticks(lower, upper, most, sign)

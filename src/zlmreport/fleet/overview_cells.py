@@ -21,12 +21,9 @@ from zlmreport.fleet.trend import MOST_YEARS_AHEAD, Calibration, Series
 from zlmreport.language import Language, Words
 from zlmreport.plugin.protocols import Standard
 from zlmreport.quantities.formatting import fixed_number, general_number, p_value, plain, rounded_pair
-from zlmreport.quantities.units import printed_symbol
+from zlmreport.quantities.units import printed_symbol, with_unit
 from zlmreport.typesetting.overview import LinkContext, OverviewCellContext, drawing
 from zlmreport.typesetting.templates import symbol
-
-#: Units that stand at the number without a blank.
-_TOUCHING = "°″"
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,14 +62,6 @@ class Names:
         found = self._standard(standard)
         quantities = found.quantities if found else ()
         return next((each for each in quantities if each.symbol == symbol), None)
-
-
-def with_unit(number: str, ascii_name: str) -> str:
-    """Return a number with its unit as printed: ``4.2 ± 0.3 µm``, ``(4.2 ± 0.3)″``, ``20″``."""
-    symbol = printed_symbol(ascii_name)
-    if symbol not in _TOUCHING:
-        return f"{number} {symbol}"
-    return f"({number}){symbol}" if "±" in number else f"{number}{symbol}"
 
 
 #: In points.
@@ -287,7 +276,9 @@ class Cells:
         latest = trend.series.latest
         if latest.limit is None:
             return OverviewCellContext("–", style="number")
-        text = with_unit(general_number(latest.limit, self.language.decimal_sign), latest.unit)
+        text = with_unit(
+            general_number(latest.limit, self.language.decimal_sign), printed_symbol(latest.unit)
+        )
         return OverviewCellContext(text, style="number")
 
     def state(self, trend: Trend) -> OverviewCellContext:
@@ -365,11 +356,11 @@ class Cells:
         return f"{'+' if value > 0 else '−'} {self._number(abs(value), 1, unit)}"
 
     def _number(self, value: float, decimals: int, unit: str) -> str:
-        return with_unit(fixed_number(value, decimals, self.language.decimal_sign), unit)
+        return with_unit(fixed_number(value, decimals, self.language.decimal_sign), printed_symbol(unit))
 
     def _pair(self, value: float, expanded_uncertainty: float, unit: str, sign: str = "") -> str:
         number, stated = rounded_pair(value, expanded_uncertainty, self.language.decimal_sign)
-        return with_unit(f"{sign}{number} ± {stated}", unit)
+        return with_unit(f"{sign}{number} ± {stated}", printed_symbol(unit))
 
     def _quiet(self, said: Words, note: str = "") -> OverviewCellContext:
         return OverviewCellContext(self.say(said), style="quiet", note=note)

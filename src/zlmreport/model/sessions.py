@@ -45,13 +45,15 @@ class SessionZeros(Effect):
 
     identifier = "session-zero"
     title = Words(en="Zero of each session", de="Nullpunkt jeder Messung")
-    equation = "O_s"
+    equation = "O_{s}"
     shape = Shape.POSITION  # alike in all readings of the test that a table is made from
     look = Words(en="Each session is displaced as a whole.", de="Jede Messung ist als Ganzes verschoben.")
 
     def __init__(self, sessions: int) -> None:
         self.linear = tuple(
-            Parameter(f"session_{number}", f"O_{number}", Dimension.DEVIATION, _MEANING.given(number=number))
+            Parameter(
+                f"session_{number}", f"O_{{{number}}}", Dimension.DEVIATION, _MEANING.given(number=number)
+            )
             for number in range(2, sessions + 1)
         )
 

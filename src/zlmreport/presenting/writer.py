@@ -16,7 +16,7 @@ from zlmreport.language import Language, Words
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.quantities.arrays import FloatArray, decimals_of
 from zlmreport.quantities.formatting import fixed_number, general_number, rounded_pair
-from zlmreport.quantities.units import CELSIUS, Scale, Unit
+from zlmreport.quantities.units import CELSIUS, Scale, Unit, with_unit
 
 if TYPE_CHECKING:
     from zlmreport.evaluation.evaluation import Parameter
@@ -147,7 +147,7 @@ class Writer:
     def length(self, value: float) -> str:
         """Write a length or an angle along the axis with its unit and no needless digits."""
         number = general_number(self.position_unit.from_si(value), self.language.decimal_sign)
-        return f"{number} {self.position_unit.symbol}"
+        return with_unit(number, self.position_unit.symbol)
 
     def number(self, value: float) -> str:
         """Write a number with no needless digits."""

@@ -19,6 +19,17 @@ REFERENCE_TEMPERATURE = 293.15
 _Value = TypeVar("_Value", float, FloatArray)
 
 
+#: Signs of angles, which follow a number without a space (SI brochure, 5.4.3).
+_TOUCHING = ("°", "″")
+
+
+def with_unit(number: str, symbol: str) -> str:
+    """Return a number with its unit as printed: ``20 µm``, ``20″``, ``4.2 ± 0.3 µm``, ``(4.2 ± 0.3)″``."""
+    if symbol not in _TOUCHING:
+        return f"{number} {symbol}"
+    return f"({number}){symbol}" if "±" in number else f"{number}{symbol}"
+
+
 @dataclass(frozen=True, slots=True)
 class Unit:
     """A unit of length or angle, or of what is made of them.
