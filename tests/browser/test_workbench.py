@@ -95,8 +95,9 @@ def test_from_a_job_without_pitch_to_table_and_certificate_by_clicks_alone(
     page.get_by_role("button", name="Make the certificate").click()
     expect(page.locator(".preview img")).to_have_js_property("complete", value=True)
     assert page.locator(".preview img").evaluate("picture => picture.naturalWidth") > 500
+    expect(page.get_by_text("Sheet: page 1 of 1")).to_be_visible()
     page.get_by_role("button", name="The next page").click()
-    expect(page.get_by_text("Page 2 of")).to_be_visible()
+    expect(page.get_by_text("Page 1 of")).to_be_visible()
     picture(page, "table")
 
 

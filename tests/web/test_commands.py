@@ -48,11 +48,14 @@ def test_documents_are_made_in_the_chosen_formats_and_shown_page_by_page(browser
     state = made(browser, "certificate", formats=["pdf", "csv"])
     name = "EXAMPLE-2026-0007.pdf"
     assert state["files"] == ["EXAMPLE-2026-0007.csv", name]
+    assert list(state["pages"]) == ["sheet", name]
+    assert state["pages"]["sheet"] == 1
     pages = state["pages"][name]
     assert browser.get(f"/documents/{name}").content.startswith(b"%PDF")
-    for page in (1, pages):
-        assert browser.get(f"/documents/{name}/{page}.png").content.startswith(b"\x89PNG")
+    for shown in ("sheet/1", f"{name}/1", f"{name}/{pages}"):
+        assert browser.get(f"/documents/{shown}.png").content.startswith(b"\x89PNG")
     for wrong in (
+        "sheet/2.png",
         f"{name}/0.png",
         f"{name}/{pages + 1}.png",
         "other.pdf/1.png",

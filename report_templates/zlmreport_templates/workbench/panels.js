@@ -242,7 +242,7 @@ export function certificate(texts, job, made, wanted, number, actions) {
         h("input", { type: "checkbox", name: "format", value: each.format, checked: chosen(each) }), ` ${each.format}`))),
       h("button", { type: "submit", "data-key": "certificate", disabled: made?.state === "making" }, texts.makeCertificate)),
     ...progress(texts, made, number, texts.making),
-    made?.state === "made" && Object.entries(made.pages).slice(0, 1).map(([name, pages]) => preview(texts, name, pages, made.stamp)),
+    made?.state === "made" && Object.keys(made.pages).length > 0 && preview(texts, made),
   ];
 }
 
@@ -258,17 +258,20 @@ function progress(texts, made, number, words) {
   ];
 }
 
-function preview(texts, name, pages, stamp) {
+/** The pages as pictures, one at a time: those of the sheet first, then those of the certificate. */
+function preview(texts, made) {
+  const all = Object.entries(made.pages).flatMap(([name, pages]) => Array.from({ length: pages }, (_, index) => ({ name, page: index + 1, pages })));
   const picture = h("img", { class: "page", alt: "" });
   const place = h("span", { role: "status" });
   let shown = 0;
   const turn = (to) => {
-    shown = Math.max(1, Math.min(pages, to));
-    picture.src = `/documents/${name}/${shown}.png?of=${stamp}`;
-    picture.alt = said(texts.page, { page: shown, pages });
-    place.textContent = said(texts.page, { page: shown, pages });
+    shown = Math.max(0, Math.min(all.length - 1, to));
+    const { name, page, pages } = all[shown];
+    picture.src = `/documents/${name}/${page}.png?of=${made.stamp}`;
+    picture.alt = said(name === "sheet" ? texts.sheetPage : texts.page, { page, pages });
+    place.textContent = picture.alt;
   };
-  turn(1);
+  turn(0);
   return h("div", { class: "preview" },
     h("p", {}, button("←", texts.pageBefore, "page-before", () => turn(shown - 1)), " ", place, " ", button("→", texts.pageAfter, "page-after", () => turn(shown + 1))),
     picture);

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Annotated, Any
 
 from pydantic import BaseModel, ConfigDict, Field, StringConstraints
 
 from zlmreport.errors import InputError
+from zlmreport.files import Document, write
+from zlmreport.job.job import Job
 from zlmreport.language import Language
 from zlmreport.web.bench import PLACE, Bench, Loaded
 from zlmreport.web.making import Making, documents, values
@@ -60,10 +64,15 @@ class Commands:
         The job.
     making
         What is under way or done, by its name: ``certificate``, ``table``, ``confirmation``, ``experiment``.
+    aside
+        A folder for what is only looked at.
     """
 
     bench: Bench
     making: Mapping[str, Making]
+    aside: TemporaryDirectory[str] = field(
+        default_factory=lambda: TemporaryDirectory(prefix="zlmreport-workbench-", ignore_cleanup_errors=True)
+    )
 
     @classmethod
     def of(cls, bench: Bench, plugins: Sequence[Path]) -> Commands:
@@ -81,7 +90,7 @@ class Commands:
         """
         loaded, path = self.bench.loaded(), self.bench.path
         if name == "certificate":
-            arguments = [str(path.resolve()), *self._formats(wanted)]
+            arguments = [str(path.resolve()), *self._sheet(loaded.job, wanted), *self._formats(wanted)]
         elif name == "table":
             folder = str(loaded.job.directory.resolve())
             arguments = ["compensate", str(path.resolve()), *self._control(wanted), "--output", folder]
@@ -111,6 +120,22 @@ class Commands:
         """End all that is under way."""
         for each in self.making.values():
             each.end()
+        self.aside.cleanup()
+
+    def _sheet(self, job: Job, wanted: Wanted) -> list[str]:
+        """Return the job of the sheet that is looked at before a PDF; none if that is one itself."""
+        printed = {each.identifier for each in self.bench.registry.renderers if each.suffix == ".pdf"}
+        if job.keys.certificate.layout == "sheet" or printed.isdisjoint(wanted.formats or job.formats):
+            return []
+        unsigned = ", signature: null" if job.keys.certificate.signature else ""
+        lines = (
+            f"extends: {json.dumps(str(self.bench.path.resolve()))}",
+            f"certificate: {{layout: sheet{unsigned}}}",
+            f"output: {{directory: {json.dumps(self.aside.name)}}}",
+        )
+        path = Path(self.aside.name, "sheet.yaml")
+        write([Document(path, "\n".join(lines).encode())])
+        return [str(path)]
 
     def _formats(self, wanted: Wanted) -> list[str]:
         for each in wanted.formats:

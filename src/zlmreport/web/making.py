@@ -24,6 +24,9 @@ import pypdfium2
 _SCALE = 1.5
 #: The library behind is not made for several threads.
 _ONE_AT_A_TIME = Lock()
+_PDF = ".pdf"
+#: Under which name a sheet is asked for: no file has it, for files have suffixes.
+_SHEET = "sheet"
 _ENDED = "zlmreport ended unexpectedly"
 
 
@@ -39,21 +42,33 @@ class Made:
         What stood against it, each with its place.
     values
         What else it says, as its JSON has it.
+    sheet
+        The sheet beside a certificate, to be looked at first; None where there is none.
     """
 
     files: tuple[Path, ...] = ()
     problems: tuple[str, ...] = ()
     values: dict[str, Any] = field(default_factory=dict)
+    sheet: Path | None = None
+
+    def pages(self) -> dict[str, Path]:
+        """Return what can be looked at page by page, in this order: the sheet first."""
+        sheet = {_SHEET: self.sheet} if self.sheet else {}
+        return sheet | {each.name: each for each in self.files if each.suffix == _PDF}
 
 
 def documents(output: str, complaints: str) -> Made:
-    """Return what ``zlmreport JOB.yaml --json`` came to, by what it printed."""
+    """Return what ``zlmreport JOB.yaml [SHEET.yaml] --json`` came to, by what it printed.
+
+    A sheet that does not hold the certificate is none.
+    """
     try:
-        (job,) = json.loads(output)["jobs"]
+        job, *sheets = json.loads(output)["jobs"]
     except (ValueError, KeyError, TypeError):
         return Made(problems=_lines(complaints))
     problems = (f"{each['file']}:{each['line']}: {each['message']}" for each in job["problems"])
-    return Made(tuple(map(Path, job["files"])), tuple(problems))
+    sheet = next((Path(name) for each in sheets for name in each["files"] if name.endswith(_PDF)), None)
+    return Made(tuple(map(Path, job["files"])), tuple(problems), sheet=sheet)
 
 
 def values(output: str, complaints: str) -> Made:
@@ -125,7 +140,7 @@ class Making:
             return {
                 "state": "failed" if made.problems else "made",
                 "files": sorted(each.name for each in made.files),
-                "pages": {each.name: page_count(each) for each in made.files if each.suffix == ".pdf"},
+                "pages": {name: page_count(path) for name, path in made.pages().items()},
                 "problems": list(made.problems),
                 "values": made.values,
                 "stamp": self._stamp,
@@ -134,7 +149,8 @@ class Making:
     def file(self, name: str) -> Path | None:
         """Return where a file lies that the command wrote; None for any other name."""
         with self._lock:
-            return next((each for each in (self._made or Made()).files if each.name == name), None)
+            made = self._made or Made()
+            return (made.pages() | {each.name: each for each in made.files}).get(name)
 
     def end(self) -> None:
         """End the process, if there is one."""

@@ -33,6 +33,7 @@ TEXTS: Mapping[str, Words] = MappingProxyType(
         "atLaboratory": Words(en="at the laboratory", de="beim Laboratorium"),
         "atCustomer": Words(en="at the customer's", de="beim Auftraggeber"),
         "page": Words(en="Page {page} of {pages}", de="Seite {page} von {pages}"),
+        "sheetPage": Words(en="Sheet: page {page} of {pages}", de="Blatt: Seite {page} von {pages}"),
         "pageBefore": Words(en="The page before", de="Die Seite davor"),
         "pageAfter": Words(en="The next page", de="Die nächste Seite"),
         "compensation": Words(en="Compensation table", de="Kompensationstabelle"),
