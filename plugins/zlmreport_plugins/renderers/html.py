@@ -67,7 +67,7 @@ def _style(paper: str, accent: str, *, with_linked: bool) -> str:
     )
 
     faces = font_face_rules(lambda face: _data_address(font_file(f"{face.stem}.woff2"), "font/woff2"))
-    sheets = f"{faces}\n{style_sheet('certificate', 'screen', paper, accent=accent)}"
+    sheets = f"{faces}\n{style_sheet('tokens', 'certificate', 'screen', paper, accent=accent)}"
     return f"{sheets}\n{linked_style()}" if with_linked else sheets
 
 
