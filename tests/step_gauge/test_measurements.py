@@ -121,7 +121,7 @@ def test_a_machine_that_reads_too_much_stands_too_near() -> None:
 
 def test_the_remarks_say_what_the_direction_of_probing_means_and_where_the_radius_is_from() -> None:
     assert "not that in which the axis came to the position" in said(measured())
-    assert "R_eff = 1.9985 mm, as stated" in said(measured())
+    assert ": 1.9985 mm, as stated" in said(measured())
     assert "mean of 5 blocks" in said(measured(of=set_up(GAUGE)))
 
 
