@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import gc
 import socket
 import sys
+import warnings
 from pathlib import Path
 
 import pytest
@@ -34,6 +36,16 @@ def test_a_port_that_is_taken_is_said(capsys: pytest.CaptureFixture[str]) -> Non
         port = taken.getsockname()[1]
         assert main(["workbench", str(EXAMPLE), "--no-browser", "--port", str(port)]) == 3
     assert f"port {port} cannot be used: address already in use" in capsys.readouterr().err
+
+
+def test_a_workbench_that_cannot_begin_leaves_nothing_behind() -> None:
+    pytest.importorskip("uvicorn", reason="the workbench's extra is not installed")
+    gc.collect()
+    with warnings.catch_warnings(record=True) as left, socket.create_server(("127.0.0.1", 0)) as taken:
+        warnings.simplefilter("always", ResourceWarning)
+        main(["workbench", str(EXAMPLE), "--no-browser", "--port", str(taken.getsockname()[1])])
+        gc.collect()
+    assert [str(each.message) for each in left] == []
 
 
 def test_a_job_that_is_wrong_is_said_before_any_page_opens(

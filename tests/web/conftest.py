@@ -40,8 +40,7 @@ def job(tmp_path: Path) -> Path:
 def workbench(job: Path) -> Iterator[Workbench]:
     made = Workbench.of([job], registry())
     yield made
-    made.diagnoses.end()
-    made.commands.end()
+    made.end()
 
 
 @pytest.fixture

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+import tempfile
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +13,7 @@ from starlette.testclient import TestClient
 from processes import awaited
 from web.jobs import registry
 from zlmreport.job.loading import load
+from zlmreport.web.app import Workbench
 
 _DEMANDED = "which table was active during this test"
 
@@ -62,6 +64,19 @@ def test_documents_are_made_in_the_chosen_formats_and_shown_page_by_page(browser
         "EXAMPLE-2026-0007.csv/1.png",
     ):
         assert browser.get(f"/documents/{wrong}").status_code == 404
+
+
+def test_a_sheet_that_is_looked_at_lies_in_a_folder_of_its_own_until_the_workbench_ends(
+    browser: TestClient, workbench: Workbench, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (temporary := tmp_path / "temporary").mkdir()
+    monkeypatch.setattr(tempfile, "tempdir", str(temporary))
+    for _ in range(2):
+        made(browser, "certificate", formats=["pdf-typst"])
+        (folder,) = temporary.iterdir()
+        assert list(folder.glob("*.pdf"))
+    workbench.end()
+    assert not list(temporary.iterdir())
 
 
 def test_a_table_is_refused_in_the_words_of_the_command_until_the_job_says_what_was_active(

@@ -172,7 +172,7 @@ def test_a_diagnosis_that_was_made_is_there_at_once_also_for_a_copy_and_after_a_
     assert again.diagnoses.of(again.bench.loaded().content).keys() == {"diagnosis"}
     (copy / "x-axis.csv").write_text((copy / "x-axis.csv").read_text("utf-8") + "# later\n", "utf-8")
     assert again.diagnoses.of(again.bench.loaded().content).keys() == {"seconds", "share"}
-    again.diagnoses.end()
+    again.end()
 
 
 @pytest.mark.parametrize("step", ["3", "screw-pitch"])

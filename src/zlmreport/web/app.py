@@ -77,6 +77,11 @@ class Workbench:
         diagnoses = Diagnoses(job, Answers.of_user(registry.effects), plugins)
         return cls(bench, comparison, diagnoses, Commands.of(bench, plugins))
 
+    def end(self) -> None:
+        """End what is under way beside, and take its files away."""
+        self.diagnoses.end()
+        self.commands.end()
+
     def app(self, door: Door) -> Guard:
         """Return the application behind its guard."""
         routes = [
@@ -261,7 +266,7 @@ class Workbench:
 
 
 def serve(workbench: Workbench, port: int, ready: Callable[[str], None], *, open_browser: bool) -> None:
-    """Listen on the loopback address until the user ends it.
+    """Listen on the loopback address until the user ends it; the workbench ends then, or if it cannot begin.
 
     Parameters
     ----------
@@ -274,18 +279,19 @@ def serve(workbench: Workbench, port: int, ready: Callable[[str], None], *, open
     open_browser
         Whether to open it at once.
     """
-    with _listening(port) as listener:
-        door = Door.at(listener.getsockname()[1])
-        server = uvicorn.Server(uvicorn.Config(workbench.app(door), log_level="warning", access_log=False))
-        workbench.diagnoses.warm_up()
-        ready(door.address)  # the socket listens already: who comes early waits
-        if open_browser:
-            webbrowser.open(door.address)
-        try:
+    try:
+        with _listening(port) as listener:
+            door = Door.at(listener.getsockname()[1])
+            server = uvicorn.Server(
+                uvicorn.Config(workbench.app(door), log_level="warning", access_log=False)
+            )
+            workbench.diagnoses.warm_up()
+            ready(door.address)  # the socket listens already: who comes early waits
+            if open_browser:
+                webbrowser.open(door.address)
             server.run(sockets=[listener])
-        finally:
-            workbench.diagnoses.end()
-            workbench.commands.end()
+    finally:
+        workbench.end()
 
 
 def _listening(port: int) -> socket.socket:

@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from threading import Lock
 from typing import Annotated, Any
 
 from pydantic import BaseModel, ConfigDict, Field, StringConstraints
@@ -54,7 +55,7 @@ class Wanted(BaseModel):
     after: ShortText = ""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)
 class Commands:
     """The commands of a page, each in a process of its own.
 
@@ -64,15 +65,12 @@ class Commands:
         The job.
     making
         What is under way or done, by its name: ``certificate``, ``table``, ``confirmation``, ``experiment``.
-    aside
-        A folder for what is only looked at.
     """
 
     bench: Bench
     making: Mapping[str, Making]
-    aside: TemporaryDirectory[str] = field(
-        default_factory=lambda: TemporaryDirectory(prefix="zlmreport-workbench-", ignore_cleanup_errors=True)
-    )
+    _aside: TemporaryDirectory[str] | None = None
+    _lock: Lock = field(default_factory=Lock)
 
     @classmethod
     def of(cls, bench: Bench, plugins: Sequence[Path]) -> Commands:
@@ -117,25 +115,36 @@ class Commands:
         return next((path for path in found if path is not None and path.is_file()), None)
 
     def end(self) -> None:
-        """End all that is under way."""
+        """End all that is under way, and take away what was only looked at."""
         for each in self.making.values():
             each.end()
-        self.aside.cleanup()
+        with self._lock:
+            aside, self._aside = self._aside, None
+        if aside is not None:
+            aside.cleanup()
 
     def _sheet(self, job: Job, wanted: Wanted) -> list[str]:
         """Return the job of the sheet that is looked at before a PDF; none if that is one itself."""
         printed = {each.identifier for each in self.bench.registry.renderers if each.suffix == ".pdf"}
         if job.keys.certificate.layout == "sheet" or printed.isdisjoint(wanted.formats or job.formats):
             return []
+        folder = self._folder()
         unsigned = ", signature: null" if job.keys.certificate.signature else ""
         lines = (
             f"extends: {json.dumps(str(self.bench.path.resolve()))}",
             f"certificate: {{layout: sheet{unsigned}}}",
-            f"output: {{directory: {json.dumps(self.aside.name)}}}",
+            f"output: {{directory: {json.dumps(folder)}}}",
         )
-        path = Path(self.aside.name, "sheet.yaml")
+        path = Path(folder, "sheet.yaml")
         write([Document(path, "\n".join(lines).encode())])
         return [str(path)]
+
+    def _folder(self) -> str:
+        """Return the folder of what is only looked at: it is there from the first time on, until the end."""
+        with self._lock:
+            if self._aside is None:
+                self._aside = TemporaryDirectory(prefix="zlmreport-workbench-", ignore_cleanup_errors=True)
+            return self._aside.name
 
     def _formats(self, wanted: Wanted) -> list[str]:
         for each in wanted.formats:
