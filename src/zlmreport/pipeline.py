@@ -7,7 +7,8 @@ from __future__ import annotations
 
 import contextlib
 import gc
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING, Any, TypeAlias
@@ -49,6 +50,8 @@ if TYPE_CHECKING:
 
 #: This program, and each plugin by its identifier, with their releases.
 Programs: TypeAlias = tuple[str, Mapping[str, str]]
+#: Shows some work by its name, while it is told the share that is done.
+Showing: TypeAlias = Callable[[str], AbstractContextManager[Callable[[float], object]]]
 #: The format that every document with attachments carries.
 RESULTS = "json"
 
@@ -71,6 +74,10 @@ class Outcome:
 
     certificate: Certificate
     documents: tuple[Document, ...]
+
+
+def _unseen(_doing: str) -> AbstractContextManager[Callable[[float], object]]:
+    return nullcontext(lambda _share: None)
 
 
 def read(job: Job, registry: Registry) -> MeasurementSet:
@@ -98,7 +105,9 @@ def read_sessions(job: Job, registry: Registry) -> tuple[MeasurementSet, ...]:
     return tuple(read(each, registry) for each in job.sessions)
 
 
-def compose(job: Job, registry: Registry, made_by: Programs | None = None) -> Certificate:
+def compose(
+    job: Job, registry: Registry, made_by: Programs | None = None, showing: Showing = _unseen
+) -> Certificate:
     """Read, evaluate by every standard that the job names, and compose the document; nothing is rendered.
 
     `made_by` are the programs that the document names; those that make it if they are left out.
@@ -114,7 +123,7 @@ def compose(job: Job, registry: Registry, made_by: Programs | None = None) -> Ce
     if missing:
         raise InputError(missing)
     evaluations = evaluated(job, measurements, registry)
-    studied = modelled(job, measurements, registry) if job.effects else None
+    studied = modelled(job, measurements, registry, showing) if job.effects else None
     found = job.as_found
     as_found = evaluated(found, read(found, registry), registry) if found else ()
 
@@ -173,7 +182,9 @@ def evaluated(job: Job, measurements: MeasurementSet, registry: Registry) -> tup
     return tuple(complete)
 
 
-def modelled(job: Job, measurements: MeasurementSet, registry: Registry) -> Modelled:
+def modelled(
+    job: Job, measurements: MeasurementSet, registry: Registry, showing: Showing = _unseen
+) -> Modelled:
     """Hold the job's error model against the readings, and ask its standards about a corrected axis."""
     from zlmreport.certificate.forecast import forecasts  # noqa: PLC0415 - only for a job with a model
     from zlmreport.certificate.model_annex import Modelled  # noqa: PLC0415
@@ -181,7 +192,10 @@ def modelled(job: Job, measurements: MeasurementSet, registry: Registry) -> Mode
     from zlmreport.planning.deciding import experiment_of_tie  # noqa: PLC0415
 
     study = Study.of(job, measurements, registry.effects, read_sessions(job, registry))
-    diagnosis = study.diagnosis(registry.effects)
+    with showing("diagnosing") as told:
+        diagnosis = study.diagnosis(registry.effects, told)
+    with showing("simulating plans") as told:
+        experiment = experiment_of_tie(study, diagnosis, registry.effects, told)
     history = study.history(Fitted(diagnosis.fit, diagnosis.error))
     return Modelled(
         history,
@@ -189,7 +203,7 @@ def modelled(job: Job, measurements: MeasurementSet, registry: Registry) -> Mode
         forecasts(standards(job, registry), study, history),
         study.titles(registry.effects),
         study,
-        experiment_of_tie(study, diagnosis, registry.effects),
+        experiment,
     )
 
 
@@ -198,7 +212,7 @@ def standards(job: Job, registry: Registry) -> list[tuple[Standard, Any]]:
     return [(registry.standard(choice.identifier), choice.options) for choice in job.standards]
 
 
-def run(job: Job, registry: Registry, signer: Signer | None = None) -> Outcome:
+def run(job: Job, registry: Registry, signer: Signer | None = None, showing: Showing = _unseen) -> Outcome:
     """Make every file of a job, in memory: a failure at any step leaves nothing behind.
 
     Parameters
@@ -209,10 +223,12 @@ def run(job: Job, registry: Registry, signer: Signer | None = None) -> Outcome:
         The plugins.
     signer
         Signs each PDF when it is finished; without one, the same job gives the same bytes.
+    showing
+        Shows how far a diagnosis is.
     """
     renderers = [registry.renderer(identifier) for identifier in job.formats]
     with _garbage_collected_once():
-        certificate = compose(job, registry)
+        certificate = compose(job, registry, showing=showing)
         contents = render(certificate, renderers, registry)
         if signer:
             signature, called = job.keys.certificate.signature, _SIGNATURE.in_language(certificate.language)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import re
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -181,6 +182,15 @@ def test_the_main_job_says_that_its_model_lacks_something(shop: Shop) -> None:
     run = shop.run("job.yaml", "--output", "out", "--format", "json")
     assert "model  Missing effect: screw-pitch, which explains the rest.\n" in run.output
     assert "see: zlmreport model diagnose job.yaml\n" in run.output
+
+
+def test_the_main_job_shows_the_share_that_is_done(shop: Shop, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(type(sys.stderr), "isatty", lambda _: True, raising=False)
+    keep(shop, readings=2 * 21)
+    shares = re.findall(r"diagnosing +(\d+)%", shop.run("job.yaml", "--format", "json").messages)
+    assert len(set(shares)) > 2
+    assert list(map(int, shares)) == sorted(map(int, shares))
+    assert not shop.run("job.yaml", "--format", "json", "--quiet").messages
 
 
 def test_a_check_says_that_an_adequate_model_is_one(shop: Shop) -> None:

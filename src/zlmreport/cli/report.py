@@ -8,11 +8,13 @@ from argparse import Namespace
 from collections.abc import Iterator
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING
 
 from zlmreport import pipeline
 from zlmreport.cli.arguments.documents import SIGN_PASSWORD
 from zlmreport.cli.jobs import Result, do_all, findings, load_all, report
+from zlmreport.cli.terminal import progress
 from zlmreport.errors import InputError, Place
 from zlmreport.files import write
 from zlmreport.job.loading import chosen_formats
@@ -43,7 +45,7 @@ def _make(options: Namespace, registry: Registry, formats: tuple[str, ...], sign
             from zlmreport.cli.capture import capture_if_watched  # noqa: PLC0415 - only for live readings
 
             capture_if_watched(job, registry, result.path)
-        outcome = pipeline.run(job, registry, signer)
+        outcome = pipeline.run(job, registry, signer, _showing(options))
         files = write(outcome.documents)
         made = outcome.certificate
         return replace(
@@ -62,6 +64,11 @@ def _make(options: Namespace, registry: Registry, formats: tuple[str, ...], sign
         for result in load_all(options.jobs, registry, formats)
     ]
     return do_all(loaded, made, report, options, fail_on_nonconformity=options.fail_on_nonconformity)
+
+
+def _showing(options: Namespace) -> pipeline.Showing:
+    """Return what shows how far a diagnosis is: nothing where nothing is to be printed."""
+    return partial(progress, is_wanted=not options.quiet)
 
 
 def _formats(named: str | None, registry: Registry) -> tuple[str, ...]:
@@ -117,7 +124,7 @@ def check(options: Namespace) -> int:
             if awaits_capture(job):
                 demand_capturable(job, registry)
                 return result
-        certificate = pipeline.compose(job, registry)
+        certificate = pipeline.compose(job, registry, showing=_showing(options))
         return replace(
             result,
             evaluations=certificate.evaluations,

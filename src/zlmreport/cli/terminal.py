@@ -84,9 +84,9 @@ def shown_path(path: Path) -> str:
 
 
 @contextmanager
-def progress(doing: str) -> Iterator[Callable[[float], None]]:
+def progress(doing: str, *, is_wanted: bool = True) -> Iterator[Callable[[float], None]]:
     """Give what is told the share of some work that is done; a line on a terminal shows it until the end."""
-    shown = sys.stderr.isatty()
+    shown = is_wanted and sys.stderr.isatty()
 
     def tell(share: float) -> None:
         if shown:
