@@ -24,24 +24,17 @@ from zlmreport_step_gauge.initial_points import BLOCKS, InitialPoints
 
 @dataclass(frozen=True, slots=True)
 class Block:
-    """A block in the coordinates of the machine, or a stack of blocks.
+    """A block in the coordinates of the machine, or a stack of blocks."""
 
-    Attributes
-    ----------
-    normal : (..., 3) array
-        N, the outward normal of the front face: P1P2 x P1P3, pointing away from P8.
-    sideward, upward : (..., 3) arrays
-        Unit vectors from one side to the other and out of the top; with the normal a frame.
-    centre : (..., 3) array
-        C, m.
-    length, width, height : (...) arrays
-        Between front and back, between the sides, from the foot to the top, m.
-    """
-
+    #: (..., 3): N, the outward normal of the front face: P1P2 x P1P3, pointing away from P8.
     normal: FloatArray
+    #: sideward and upward: (..., 3): Unit vectors from one side to the other and out of the top; with the
+    #: normal a frame.
     sideward: FloatArray
     upward: FloatArray
-    centre: FloatArray
+    centre: FloatArray  #: (..., 3): C, m.
+    #: length, width and height: (...): Between front and back, between the sides, from the foot to the top,
+    #: m.
     length: FloatArray
     width: FloatArray
     height: FloatArray

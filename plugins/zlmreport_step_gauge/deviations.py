@@ -32,24 +32,13 @@ _FEWEST_FACES = 8
 
 @dataclass(frozen=True, slots=True)
 class Deviations:
-    """What a test comes to.
+    """What a test comes to."""
 
-    Attributes
-    ----------
-    values : (face, cycle) array
-        XF and XB, m; NaN where a point is missing.
-    direction
-        Unit vector along which points were projected; None for distances.
-    radius
-        What was taken off.
-    compensated : (face,) array
-        What the compensation of temperatures changed, m.
-    """
-
-    values: FloatArray
+    values: FloatArray  #: (face, cycle): XF and XB, m; NaN where a point is missing.
+    #: Unit vector along which points were projected; None for distances.
     direction: tuple[float, float, float] | None
-    radius: EffectiveRadius
-    compensated: FloatArray
+    radius: EffectiveRadius  #: What was taken off.
+    compensated: FloatArray  #: (face,): What the compensation of temperatures changed, m.
 
 
 def deviations_of(probed: Probed, set_up: GaugeSetUp, place: Place, *, is_corrected: bool) -> Deviations:
@@ -208,27 +197,15 @@ class RadiusSource(Enum):
 
 @dataclass(frozen=True, slots=True)
 class EffectiveRadius:
-    """The radius that was taken off, and how well it is known.
+    """The radius that was taken off, and how well it is known."""
 
-    Attributes
-    ----------
-    source
-        Where it is from.
-    radius
-        R_eff, m; 0 where nothing is taken off.
-    by_block : (block,) array
-        R_eff of each block by itself, m; empty where it was not determined from the gauge.
-    scatter
-        Standard deviation of these, m; NaN of fewer than two blocks.
-    uncertainty
-        Standard uncertainty of R_eff, m: as stated, or `radius_uncertainty`. What the machine's reversal, or
-        its error within a block, adds is not in it.
-    """
-
-    source: RadiusSource
-    radius: float = 0.0
+    source: RadiusSource  #: Where it is from.
+    radius: float = 0.0  #: R_eff, m; 0 where nothing is taken off.
+    #: (block,): R_eff of each block by itself, m; empty where it was not determined from the gauge.
     by_block: FloatArray = field(default_factory=lambda: read_only_floats([]))
-    scatter: float = math.nan
+    scatter: float = math.nan  #: Standard deviation of these, m; NaN of fewer than two blocks.
+    #: Standard uncertainty of R_eff, m: as stated, or `radius_uncertainty`. What the machine's reversal, or
+    #: its error within a block, adds is not in it.
     uncertainty: float = 0.0
 
 

@@ -23,27 +23,14 @@ class Side(IntEnum):
 
 @dataclass(frozen=True, slots=True)
 class Face:
-    """A calibrated face.
+    """A calibrated face."""
 
-    Attributes
-    ----------
-    number
-        From 1 at the beginning of the gauge: block b has the front face 2b − 1 and the back face 2b.
-    side
-        Front or back.
-    nominal
-        Nominal distance of its centre from the reference face, m.
-    distance
-        Calibrated distance S from the reference face at the reference temperature, m.
-    expanded_uncertainty
-        U of the calibrated distance (k = 2), m.
-    """
-
+    #: From 1 at the beginning of the gauge: block b has the front face 2b − 1 and the back face 2b.
     number: int
-    side: Side
-    nominal: float
-    distance: float
-    expanded_uncertainty: float
+    side: Side  #: Front or back.
+    nominal: float  #: Nominal distance of its centre from the reference face, m.
+    distance: float  #: Calibrated distance S from the reference face at the reference temperature, m.
+    expanded_uncertainty: float  #: U of the calibrated distance (k = 2), m.
 
     @property
     def block(self) -> int:
@@ -53,37 +40,22 @@ class Face:
 
 @dataclass(frozen=True, slots=True)
 class StepGauge:
-    """A calibrated step gauge, or the section of it that is used.
+    """A calibrated step gauge, or the section of it that is used."""
 
-    Attributes
-    ----------
-    name, serial, certificate
-        What identifies it, and its calibration; empty where the file does not say.
-    faces
-        In the order along the gauge: front and back of each block.
-    expansion_coefficient
-        α, 1/K; None where the calibration does not state it.
-    expansion_uncertainty
-        Standard uncertainty of α, 1/K; None where it is not stated.
-    reference_temperature
-        At which the distances hold, K.
-    block_width, block_height
-        Across the gauge, m: for the clearance of a probing path. None where not stated; the initial points
-        tell them too (`zlmreport_step_gauge.location.Located`).
-    place
-        Where the calibration stands: for messages.
-    """
-
+    #: name, serial and certificate: What identifies it, and its calibration; empty where the file does not
+    #: say.
     name: str
     serial: str
     certificate: str
-    faces: tuple[Face, ...]
-    expansion_coefficient: float | None
-    expansion_uncertainty: float | None
-    reference_temperature: float
+    faces: tuple[Face, ...]  #: In the order along the gauge: front and back of each block.
+    expansion_coefficient: float | None  #: α, 1/K; None where the calibration does not state it.
+    expansion_uncertainty: float | None  #: Standard uncertainty of α, 1/K; None where it is not stated.
+    reference_temperature: float  #: At which the distances hold, K.
+    #: block_width and block_height: Across the gauge, m: for the clearance of a probing path. None where not
+    #: stated; the initial points tell them too (`zlmreport_step_gauge.location.Located`).
     block_width: float | None
     block_height: float | None
-    place: Place
+    place: Place  #: Where the calibration stands: for messages.
 
     @property
     def blocks(self) -> tuple[int, ...]:
@@ -97,26 +69,15 @@ class StepGauge:
 
 @dataclass(frozen=True, slots=True)
 class Location:
-    """Where a step gauge lies in the coordinates of the machine.
+    """Where a step gauge lies in the coordinates of the machine."""
 
-    Attributes
-    ----------
-    begin, end
-        C1 and C2: centres of the first and the last block of the section, m.
-    direction
-        Unit vector from C1 to C2.
-    upward
-        Unit vector out of the top of the blocks, at right angles to `direction`: the way over them.
-    begin_normal, end_normal
-        Outward normals N1 and N2 of the faces that were probed, unit vectors.
-    direction_uncertainty
-        Standard uncertainty of the direction at right angles to it, rad.
-    """
-
+    #: begin and end: C1 and C2: centres of the first and the last block of the section, m.
     begin: tuple[float, float, float]
     end: tuple[float, float, float]
-    direction: tuple[float, float, float]
+    direction: tuple[float, float, float]  #: Unit vector from C1 to C2.
+    #: Unit vector out of the top of the blocks, at right angles to `direction`: the way over them.
     upward: tuple[float, float, float]
+    #: begin_normal and end_normal: Outward normals N1 and N2 of the faces that were probed, unit vectors.
     begin_normal: tuple[float, float, float]
     end_normal: tuple[float, float, float]
-    direction_uncertainty: float
+    direction_uncertainty: float  #: Standard uncertainty of the direction at right angles to it, rad.

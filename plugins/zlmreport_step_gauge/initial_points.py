@@ -43,22 +43,13 @@ _COLUMNS = ("block", "point", "x", "y", "z")
 
 @dataclass(frozen=True, slots=True)
 class InitialPoints:
-    """The initial points.
+    """The initial points."""
 
-    Attributes
-    ----------
-    coordinates : (block, point, 3) array
-        Centres of the tip, or points of the surface where the machine corrects the radius, m; the beginning
-        first, P1 to P8.
-    place
-        The file.
-    source
-        Its name, digest and bytes; None for points made in memory.
-    """
-
+    #: (block, point, 3): Centres of the tip, or points of the surface where the machine corrects the radius,
+    #: m; the beginning first, P1 to P8.
     coordinates: FloatArray
-    place: Place
-    source: SourceFile | None = None
+    place: Place  #: The file.
+    source: SourceFile | None = None  #: Its name, digest and bytes; None for points made in memory.
 
 
 def read_initial_points(path: Path) -> InitialPoints:

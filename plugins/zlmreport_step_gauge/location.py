@@ -34,18 +34,10 @@ _MOVED = 1e-6
 
 @dataclass(frozen=True, slots=True)
 class Misalignment:
-    """The angle between a face's normal and the direction C1C2.
+    """The angle between a face's normal and the direction C1C2."""
 
-    Attributes
-    ----------
-    angle
-        rad.
-    uncertainty
-        Standard uncertainty of the angle, rad, from that of the points.
-    """
-
-    angle: float
-    uncertainty: float
+    angle: float  #: rad.
+    uncertainty: float  #: Standard uncertainty of the angle, rad, from that of the points.
 
     @property
     def is_significant(self) -> bool:
@@ -55,25 +47,16 @@ class Misalignment:
 
 @dataclass(frozen=True, slots=True)
 class Located:
-    """A located gauge.
+    """A located gauge."""
 
-    Attributes
-    ----------
-    location
-        Where it lies.
-    begin, end
-        The blocks that were touched.
-    point_uncertainty
-        Standard uncertainty of a coordinate that was taken, m: the stated one, or the scatter of the
-        blocks' sizes where that is larger.
-    begin_misalignment, end_misalignment
-        Of N1 and N2.
-    """
-
-    location: Location
+    location: Location  #: Where it lies.
+    #: begin and end: The blocks that were touched.
     begin: Block
     end: Block
+    #: Standard uncertainty of a coordinate that was taken, m: the stated one, or the scatter of the blocks'
+    #: sizes where that is larger.
     point_uncertainty: float
+    #: begin_misalignment and end_misalignment: Of N1 and N2.
     begin_misalignment: Misalignment
     end_misalignment: Misalignment
 

@@ -27,47 +27,26 @@ _MOST_NAMED = 20
 
 @dataclass(frozen=True, slots=True)
 class ProbedPoint:
-    """A face that was touched once.
+    """A face that was touched once."""
 
-    Attributes
-    ----------
-    place
-        Where it stands in its file.
-    face
-        Number of the face on the gauge.
-    cycle
-        From 1.
-    coordinates
-        x, y, z of the tip's centre or of the surface, m; of a file that gives distances from the reference
-        face only, the distance alone; NaN where the point is named and missing.
-    """
-
-    place: Place
-    face: int
-    cycle: int
+    place: Place  #: Where it stands in its file.
+    face: int  #: Number of the face on the gauge.
+    cycle: int  #: From 1.
+    #: x, y, z of the tip's centre or of the surface, m; of a file that gives distances from the reference
+    #: face only, the distance alone; NaN where the point is named and missing.
     coordinates: tuple[float, ...]
 
 
 @dataclass(frozen=True, slots=True)
 class Probed:
-    """All points of a test.
+    """All points of a test."""
 
-    Attributes
-    ----------
-    faces
-        Of the section, those that were probed, in their order.
-    cycles
-        Their numbers, rising.
-    coordinates : (face, cycle, dimension) array
-        m; NaN where a point is missing. One dimension for distances, three for points.
-    points
-        As they were taken.
-    """
-
-    faces: tuple[Face, ...]
-    cycles: tuple[int, ...]
+    faces: tuple[Face, ...]  #: Of the section, those that were probed, in their order.
+    cycles: tuple[int, ...]  #: Their numbers, rising.
+    #: (face, cycle, dimension): m; NaN where a point is missing. One dimension for distances, three for
+    #: points.
     coordinates: FloatArray
-    points: tuple[ProbedPoint, ...]
+    points: tuple[ProbedPoint, ...]  #: As they were taken.
 
     @property
     def is_front(self) -> BoolArray:
@@ -201,27 +180,13 @@ _OF_A_STEP = 0.25
 
 @dataclass(frozen=True, slots=True)
 class Points:
-    """What a layout's reader hands on.
+    """What a layout's reader hands on."""
 
-    Attributes
-    ----------
-    points
-        As they were taken.
-    source
-        The file.
-    place
-        Its name, for messages.
-    problems
-        What is wrong with it.
-    is_corrected
-        Whether the layout has points of the surface in any case.
-    """
-
-    points: tuple[ProbedPoint, ...]
-    source: SourceFile
-    place: Place
-    problems: tuple[Problem, ...] = ()
-    is_corrected: bool = False
+    points: tuple[ProbedPoint, ...]  #: As they were taken.
+    source: SourceFile  #: The file.
+    place: Place  #: Its name, for messages.
+    problems: tuple[Problem, ...] = ()  #: What is wrong with it.
+    is_corrected: bool = False  #: Whether the layout has points of the surface in any case.
 
 
 @dataclass(frozen=True, slots=True)

@@ -24,18 +24,10 @@ from zlmreport_step_gauge.location import Located, locate
 
 @dataclass(frozen=True, slots=True)
 class Expansion:
-    """The expansion of the gauge or of the machine's scale, α·ΔT.
+    """The expansion of the gauge or of the machine's scale, α·ΔT."""
 
-    Attributes
-    ----------
-    coefficient
-        α, 1/K.
-    difference
-        ΔT, its temperature above that at which its lengths hold, K.
-    """
-
-    coefficient: float
-    difference: float
+    coefficient: float  #: α, 1/K.
+    difference: float  #: ΔT, its temperature above that at which its lengths hold, K.
 
     @property
     def factor(self) -> float:
@@ -53,40 +45,19 @@ class StatedRadius:
 
 @dataclass(frozen=True, slots=True)
 class GaugeSetUp:
-    """The gauge, where it lies, and what is known of the probe and of the temperatures.
+    """The gauge, where it lies, and what is known of the probe and of the temperatures."""
 
-    Attributes
-    ----------
-    gauge
-        The section that is used.
-    located
-        Where it lies; None where the job names no initial points.
-    tip_radius
-        Nominal, m; None where it is not stated.
-    radius_is_corrected
-        Whether coordinates are those of the surface.
-    effective_radius
-        As stated; None where it is to be determined from the gauge.
-    probing_uncertainty
-        Standard uncertainty of a single touch, m.
-    gauge_expansion, scale_expansion
-        What is compensated here; None where nothing is.
-    files
-        That all this was read from.
-    place
-        Where the job describes it.
-    """
-
-    gauge: StepGauge
-    located: Located | None
-    tip_radius: float | None
-    radius_is_corrected: bool
-    effective_radius: StatedRadius | None
-    probing_uncertainty: float
+    gauge: StepGauge  #: The section that is used.
+    located: Located | None  #: Where it lies; None where the job names no initial points.
+    tip_radius: float | None  #: Nominal, m; None where it is not stated.
+    radius_is_corrected: bool  #: Whether coordinates are those of the surface.
+    effective_radius: StatedRadius | None  #: As stated; None where it is to be determined from the gauge.
+    probing_uncertainty: float  #: Standard uncertainty of a single touch, m.
+    #: gauge_expansion and scale_expansion: What is compensated here; None where nothing is.
     gauge_expansion: Expansion | None
     scale_expansion: Expansion | None
-    files: tuple[SourceFile, ...]
-    place: Place
+    files: tuple[SourceFile, ...]  #: That all this was read from.
+    place: Place  #: Where the job describes it.
 
 
 def gauge_set_up(job: Job, keys: StepGaugeKeys) -> GaugeSetUp:

@@ -76,21 +76,11 @@ class Row:
 
 @dataclass(frozen=True, slots=True)
 class NamedColumns:
-    """A table that was read.
+    """A table that was read."""
 
-    Attributes
-    ----------
-    text
-        The file.
-    rows
-        Those with as many cells as the header.
-    problems
-        What is wrong with the others.
-    """
-
-    text: TextFile
-    rows: tuple[Row, ...]
-    problems: list[Problem] = field(default_factory=list)
+    text: TextFile  #: The file.
+    rows: tuple[Row, ...]  #: Those with as many cells as the header.
+    problems: list[Problem] = field(default_factory=list)  #: What is wrong with the others.
 
     @property
     def source(self) -> SourceFile:

@@ -38,20 +38,11 @@ _HOSTILE = ("X'\nGOTO/9,9,9\n", "A ;\nMV 9 9 9 ;\n", 'T")\r\n00001 Home()\r\n', 
 
 @dataclass(frozen=True, slots=True)
 class Stated:
-    """A move as a program states it.
+    """A move as a program states it."""
 
-    Attributes
-    ----------
-    is_measuring
-        Whether it measures.
-    point
-        Where it leads, mm.
-    normal
-        The outward normal of the face, where the language states it.
-    """
-
-    is_measuring: bool
-    point: tuple[float, float, float]
+    is_measuring: bool  #: Whether it measures.
+    point: tuple[float, float, float]  #: Where it leads, mm.
+    #: The outward normal of the face, where the language states it.
     normal: tuple[float, float, float] | None = None
 
 

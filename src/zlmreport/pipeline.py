@@ -62,18 +62,10 @@ _SIGNATURE = Words(en="Electronic signature", de="Elektronische Signatur")
 
 @dataclass(frozen=True, slots=True)
 class Outcome:
-    """What a job came to.
+    """What a job came to."""
 
-    Attributes
-    ----------
-    certificate
-        The document without a layout, with its evaluations.
-    documents
-        The files, one for each output format.
-    """
-
-    certificate: Certificate
-    documents: tuple[Document, ...]
+    certificate: Certificate  #: The document without a layout, with its evaluations.
+    documents: tuple[Document, ...]  #: The files, one for each output format.
 
 
 def _unseen(_doing: str) -> AbstractContextManager[Callable[[float], object]]:

@@ -132,27 +132,13 @@ _METHOD_NOT_FOUND = -32_601
 
 @dataclass(frozen=True, slots=True)
 class Answer:
-    """What an IDS answers.
+    """What an IDS answers."""
 
-    Attributes
-    ----------
-    number
-        Of the question.
-    warning
-        Of the device; 0 for none.
-    values
-        What was asked for.
-    error
-        Text of an error; empty if there is none.
-    is_unknown
-        Whether the error is that there is no such method.
-    """
-
-    number: int
-    warning: int = 0
-    values: tuple[Any, ...] = ()
-    error: str = ""
-    is_unknown: bool = False
+    number: int  #: Of the question.
+    warning: int = 0  #: Of the device; 0 for none.
+    values: tuple[Any, ...] = ()  #: What was asked for.
+    error: str = ""  #: Text of an error; empty if there is none.
+    is_unknown: bool = False  #: Whether the error is that there is no such method.
 
 
 def question(number: int, method: str, *parameters: int) -> bytes:

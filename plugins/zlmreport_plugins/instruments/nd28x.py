@@ -56,18 +56,11 @@ class PrintedUnit(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Printed:
-    """A printed value.
+    """A printed value."""
 
-    Attributes
-    ----------
-    value
-        As displayed, in the display's unit; a display may show a distance to go in place of a position.
-    unit
-        Its unit, or that it is no value.
-    """
-
+    #: As displayed, in the display's unit; a display may show a distance to go in place of a position.
     value: float
-    unit: PrintedUnit
+    unit: PrintedUnit  #: Its unit, or that it is no value.
 
 
 #: STX, sign, 9 digits without a point, CR LF.

@@ -60,24 +60,12 @@ class Taken:
 
 @dataclass(frozen=True, slots=True)
 class Part:
-    """A part of the test, which shares one datum.
+    """A part of the test, which shares one datum."""
 
-    Attributes
-    ----------
-    number
-        Of the part, from 1.
-    attempt
-        The attempt that counts, from 1.
-    attempts
-        How many there were.
-    left_out
-        How many readings the others have.
-    """
-
-    number: int
-    attempt: int
-    attempts: int
-    left_out: int
+    number: int  #: Of the part, from 1.
+    attempt: int  #: The attempt that counts, from 1.
+    attempts: int  #: How many there were.
+    left_out: int  #: How many readings the others have.
 
 
 def counted(history: JournalHistory) -> tuple[Mapping[int, Taken], tuple[Part, ...]]:

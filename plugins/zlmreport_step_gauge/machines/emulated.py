@@ -60,20 +60,11 @@ def errors_along(
 
 @dataclass(frozen=True, slots=True)
 class Boxes:
-    """Boxes that stand alike.
+    """Boxes that stand alike."""
 
-    Attributes
-    ----------
-    origin : (3,) array
-        Of their own coordinates, m.
-    axes : (3, 3) array
-        Rows: the unit vectors of their own coordinates.
-    lower, upper : (b, 3) arrays
-        Corners in their own coordinates, m.
-    """
-
-    origin: FloatArray
-    axes: FloatArray
+    origin: FloatArray  #: (3,): Of their own coordinates, m.
+    axes: FloatArray  #: (3, 3): Rows: the unit vectors of their own coordinates.
+    #: lower and upper: (b, 3): Corners in their own coordinates, m.
     lower: FloatArray
     upper: FloatArray
 
@@ -86,29 +77,15 @@ class Boxes:
 
 @dataclass(slots=True)
 class CoordinateMachine:
-    """The machine.
+    """The machine."""
 
-    Attributes
-    ----------
-    boxes
-        What stands on it.
-    errors
-        Of the machine.
-    effective_radius
-        Of the tip when it touches, m.
-    noise
-        Standard deviation of a coordinate at a touch, m.
-    volume
-        First and last position in x, y and z, m.
-    position : (3,) array
-        Of the tip's centre, as the machine shows it, m.
-    """
-
-    boxes: Boxes
-    errors: Errors = no_errors
-    effective_radius: float = 2e-3
-    noise: float = 0.0
+    boxes: Boxes  #: What stands on it.
+    errors: Errors = no_errors  #: Of the machine.
+    effective_radius: float = 2e-3  #: Of the tip when it touches, m.
+    noise: float = 0.0  #: Standard deviation of a coordinate at a touch, m.
+    #: First and last position in x, y and z, m.
     volume: tuple[tuple[float, float], ...] = ((-10.0, 10.0),) * 3
+    #: (3,): Of the tip's centre, as the machine shows it, m.
     position: FloatArray = field(default_factory=lambda: np.zeros(3))
     seed: int = 1
     _random: Random = field(init=False)

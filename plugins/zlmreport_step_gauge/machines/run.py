@@ -180,21 +180,11 @@ class Watcher(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class LiveProbing:
-    """What a job asks for that is to be probed live.
+    """What a job asks for that is to be probed live."""
 
-    Attributes
-    ----------
-    planned
-        The path.
-    machine
-        The machine.
-    result
-        Where the table of points goes, which the job's data source reads.
-    """
-
-    planned: PlannedPath
+    planned: PlannedPath  #: The path.
     machine: MachineKeys
-    result: Path
+    result: Path  #: Where the table of points goes, which the job's data source reads.
 
 
 def live_probing(job: Job, keys: StepGaugeKeys) -> LiveProbing | None:

@@ -53,24 +53,12 @@ class Answer:
 
 @dataclass(frozen=True, slots=True)
 class MachineError:
-    """An error of the server.
+    """An error of the server."""
 
-    Attributes
-    ----------
-    severity
-        From 2 on the server takes no other command before ``ClearAllErrors``.
-    number
-        By the specification: 1006 is a surface that was not found.
-    method
-        The command, as the server calls it.
-    text
-        In its own words.
-    """
-
-    severity: int
-    number: int
-    method: str
-    text: str
+    severity: int  #: From 2 on the server takes no other command before ``ClearAllErrors``.
+    number: int  #: By the specification: 1006 is a surface that was not found.
+    method: str  #: The command, as the server calls it.
+    text: str  #: In its own words.
 
     @property
     def is_in_the_way(self) -> bool:
@@ -181,17 +169,9 @@ _ACKNOWLEDGED_WITHIN = 10.0
 
 @dataclass(slots=True)
 class Outcome:
-    """How a command ended.
+    """How a command ended."""
 
-    Attributes
-    ----------
-    data
-        The texts of its data lines.
-    errors
-        Its errors.
-    """
-
-    data: list[str] = field(default_factory=list)
+    data: list[str] = field(default_factory=list)  #: The texts of its data lines.
     errors: list[MachineError] = field(default_factory=list)
 
 

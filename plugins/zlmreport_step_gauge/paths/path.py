@@ -19,43 +19,22 @@ Point: TypeAlias = tuple[float, float, float]
 
 @dataclass(frozen=True, slots=True)
 class Travel:
-    """A straight move of the tip's centre, nothing being measured.
+    """A straight move of the tip's centre, nothing being measured."""
 
-    Attributes
-    ----------
-    to
-        Where it ends, m.
-    face
-        Number of the face that it leads to or away from; 0 for the beginning and the end of the path.
-    cycle
-        Number of the cycle, from 1; 0 for the beginning and the end of the path.
-    """
-
-    to: Point
+    to: Point  #: Where it ends, m.
+    #: Number of the face that it leads to or away from; 0 for the beginning and the end of the path.
     face: int = 0
-    cycle: int = 0
+    cycle: int = 0  #: Number of the cycle, from 1; 0 for the beginning and the end of the path.
 
 
 @dataclass(frozen=True, slots=True)
 class Probing:
-    """A measuring move towards a face, against its outward normal.
+    """A measuring move towards a face, against its outward normal."""
 
-    Attributes
-    ----------
-    face
-        Number of the face, from 1 at the beginning of the gauge.
-    cycle
-        Number of the cycle, from 1.
-    target
-        Where the face should be: the point on its surface, m.
-    normal
-        Outward unit normal of the face.
-    """
-
-    face: int
-    cycle: int
-    target: Point
-    normal: Point
+    face: int  #: Number of the face, from 1 at the beginning of the gauge.
+    cycle: int  #: Number of the cycle, from 1.
+    target: Point  #: Where the face should be: the point on its surface, m.
+    normal: Point  #: Outward unit normal of the face.
 
     def away(self, distance: float) -> Point:
         """Return the point in front of the face at a distance from it, m."""
@@ -67,40 +46,23 @@ Move: TypeAlias = Travel | Probing
 
 @dataclass(frozen=True, slots=True)
 class ProbingPath:
-    """The path of a probe over a step gauge.
+    """The path of a probe over a step gauge."""
 
-    Attributes
-    ----------
-    number
-        Of the job.
-    gauge
-        Name and serial number of the gauge.
-    moves
-        In the order in which they are made; the first leads to the safe position.
-    tip_radius
-        Nominal, m.
-    approach, search, retract
-        Distances of the tip's surface from the face, m: at which a measuring move begins, how far behind the
-        face it gives up, and how far the tip draws back when it has touched.
-    speed, measuring_speed
-        Of moves and of measuring moves, m/s.
-    radius_correction
-        Whether the machine is to report points of the surface and not centres of the tip.
-    place
-        Where the path is asked for: for messages about what cannot be programmed.
-    """
-
-    number: str
-    gauge: str
-    moves: tuple[Move, ...]
-    tip_radius: float
+    number: str  #: Of the job.
+    gauge: str  #: Name and serial number of the gauge.
+    moves: tuple[Move, ...]  #: In the order in which they are made; the first leads to the safe position.
+    tip_radius: float  #: Nominal, m.
+    #: approach, search and retract: Distances of the tip's surface from the face, m: at which a measuring
+    #: move begins, how far behind the face it gives up, and how far the tip draws back when it has touched.
     approach: float
     search: float
     retract: float
+    #: speed and measuring_speed: Of moves and of measuring moves, m/s.
     speed: float
     measuring_speed: float
+    #: Whether the machine is to report points of the surface and not centres of the tip.
     radius_correction: bool
-    place: Place
+    place: Place  #: Where the path is asked for: for messages about what cannot be programmed.
 
     @property
     def probings(self) -> tuple[Probing, ...]:
@@ -151,49 +113,27 @@ class PathKind(Enum):
 
 @dataclass(frozen=True, slots=True)
 class PathSettings:
-    """How faces are probed. Lengths in m; distances are of the tip's surface.
+    """How faces are probed. Lengths in m; distances are of the tip's surface."""
 
-    Attributes
-    ----------
-    kind
-        Over the top, or round the side (the right one of who looks along the gauge).
-    clearance
-        Distance from the blocks while the tip passes them.
-    approach, search, retract
-        As those of `ProbingPath`.
-    depth
-        How far below the top of the blocks their faces are probed; None for half their height.
-    lead_in
-        How far before the first face a path round the side comes into the line of the gauge; 0 if it comes
-        from the side.
-    cycles
-        How often each face is probed.
-    tip_radius
-        Nominal.
-    stylus_allowance
-        What must stay free between the tip and everything that it does not measure.
-    speed, measuring_speed
-        m/s.
-    radius_correction
-        As that of `ProbingPath`.
-    safe_position
-        Where the path begins and ends; None for over the first face and over the last one that is probed.
-    working_volume
-        What the tip's centre can reach: first and last position in x, y and z; None for anywhere.
-    """
-
-    kind: PathKind
-    clearance: float
+    kind: PathKind  #: Over the top, or round the side (the right one of who looks along the gauge).
+    clearance: float  #: Distance from the blocks while the tip passes them.
+    #: approach, search and retract: As those of `ProbingPath`.
     approach: float
     search: float
     retract: float
+    #: How far below the top of the blocks their faces are probed; None for half their height.
     depth: float | None
+    #: How far before the first face a path round the side comes into the line of the gauge; 0 if it comes
+    #: from the side.
     lead_in: float
-    cycles: int
-    tip_radius: float
-    stylus_allowance: float
+    cycles: int  #: How often each face is probed.
+    tip_radius: float  #: Nominal.
+    stylus_allowance: float  #: What must stay free between the tip and everything that it does not measure.
+    #: speed and measuring_speed: m/s.
     speed: float
     measuring_speed: float
-    radius_correction: bool
+    radius_correction: bool  #: As that of `ProbingPath`.
+    #: Where the path begins and ends; None for over the first face and over the last one that is probed.
     safe_position: Point | None = None
+    #: What the tip's centre can reach: first and last position in x, y and z; None for anywhere.
     working_volume: tuple[tuple[float, float], tuple[float, float], tuple[float, float]] | None = None

@@ -37,24 +37,12 @@ from zlmreport_step_gauge.paths.room import (
 
 @dataclass(frozen=True, slots=True)
 class PlannedPath:
-    """A path that is free, with what it leads round.
-
-    Attributes
-    ----------
-    path
-        The path.
-    settings
-        How it was planned.
-    frame
-        The gauge's own coordinates.
-    room
-        The room that the tip has between its blocks and its base.
-    """
+    """A path that is free, with what it leads round."""
 
     path: ProbingPath
-    settings: PathSettings
-    frame: GaugeFrame
-    room: Room
+    settings: PathSettings  #: How it was planned.
+    frame: GaugeFrame  #: The gauge's own coordinates.
+    room: Room  #: The room that the tip has between its blocks and its base.
 
     @property
     def obstacles(self) -> Obstacles:
@@ -64,24 +52,12 @@ class PlannedPath:
 
 @dataclass(frozen=True, slots=True)
 class _Stations:
-    """Where the tip's centre goes for a face; in the gauge's own coordinates, m.
+    """Where the tip's centre goes for a face; in the gauge's own coordinates, m."""
 
-    Attributes
-    ----------
-    frame
-        These coordinates.
-    level
-        Height at which faces are probed.
-    aside
-        Across and upward: where the tip passes the blocks.
-    reach
-        Distance of the tip's centre from the face at the start of a measuring move.
-    """
-
-    frame: GaugeFrame
-    level: float
-    aside: tuple[float, float]
-    reach: float
+    frame: GaugeFrame  #: These coordinates.
+    level: float  #: Height at which faces are probed.
+    aside: tuple[float, float]  #: Across and upward: where the tip passes the blocks.
+    reach: float  #: Distance of the tip's centre from the face at the start of a measuring move.
 
     def before(self, face: Face, origin: float) -> float:
         """Return where along the gauge the measuring move to a face begins."""

@@ -27,26 +27,13 @@ _ROUNDING = 1e-9
 
 @dataclass(frozen=True, slots=True)
 class Room:
-    """The room that a tip has.
+    """The room that a tip has."""
 
-    Attributes
-    ----------
-    frame
-        The gauge's own coordinates.
-    obstacles
-        What it must not touch.
-    tip_radius
-        m.
-    allowance
-        What must stay free beside the tip, m.
-    volume
-        First and last position in x, y and z that its centre can reach, m; None for anywhere.
-    """
-
-    frame: GaugeFrame
-    obstacles: Obstacles
-    tip_radius: float
-    allowance: float
+    frame: GaugeFrame  #: The gauge's own coordinates.
+    obstacles: Obstacles  #: What it must not touch.
+    tip_radius: float  #: m.
+    allowance: float  #: What must stay free beside the tip, m.
+    #: First and last position in x, y and z that its centre can reach, m; None for anywhere.
     volume: tuple[tuple[float, float], tuple[float, float], tuple[float, float]] | None
 
 
@@ -140,17 +127,11 @@ def _gaps(room: Room, starts: FloatArray, ends: FloatArray) -> FloatArray:
 
 @dataclass(frozen=True, slots=True)
 class GaugeFrame:
-    """Where a gauge lies, as a change of coordinates.
+    """Where a gauge lies, as a change of coordinates."""
 
-    Attributes
-    ----------
-    origin : (3,) array
-        Centre of the first block of the section, m.
-    axes : (3, 3) array
-        Rows: unit vectors along the gauge, across it to the right of who looks along it, and out of its top.
-    """
-
-    origin: FloatArray
+    origin: FloatArray  #: (3,): Centre of the first block of the section, m.
+    #: (3, 3): Rows: unit vectors along the gauge, across it to the right of who looks along it, and out of
+    #: its top.
     axes: FloatArray
 
     @classmethod
@@ -186,17 +167,11 @@ _STEPS = 60
 
 @dataclass(frozen=True, slots=True)
 class Obstacles:
-    """Boxes in the gauge's own coordinates.
+    """Boxes in the gauge's own coordinates."""
 
-    Attributes
-    ----------
-    blocks
-        Numbers of the blocks, in their order; the last box of all is the base.
-    lower, upper : (b + 1, 3) arrays
-        Corners: along, across and upward, m from the centre of the first block of the section.
-    """
-
-    blocks: tuple[int, ...]
+    blocks: tuple[int, ...]  #: Numbers of the blocks, in their order; the last box of all is the base.
+    #: lower and upper: (b + 1, 3): Corners: along, across and upward, m from the centre of the first block of
+    #: the section.
     lower: FloatArray
     upper: FloatArray
 

@@ -64,34 +64,17 @@ class Note:
 
 @dataclass(frozen=True, slots=True)
 class View:
-    """One view of a path; coordinates are mm, to the right and upwards.
+    """One view of a path; coordinates are mm, to the right and upwards."""
 
-    Attributes
-    ----------
-    heading
-        From where one looks.
-    base, blocks : (s, 4, 2) arrays
-        The sides that are seen, from back to front; the blocks stand on the base.
-    edges : (e, 2, 2) array
-        Of the working volume.
-    way : (n, 2) array
-        Where the moves end.
-    touches
-        The measuring moves.
-    arrows : (k, 2, 2) array
-        The machine's axes.
-    notes
-        Numbers of faces, names of axes.
-    """
-
-    heading: Words
+    heading: Words  #: From where one looks.
+    #: base and blocks: (s, 4, 2): The sides that are seen, from back to front; the blocks stand on the base.
     base: FloatArray
     blocks: FloatArray
-    edges: FloatArray
-    way: FloatArray
-    touches: tuple[Touch, ...]
-    arrows: FloatArray
-    notes: tuple[Note, ...]
+    edges: FloatArray  #: (e, 2, 2): Of the working volume.
+    way: FloatArray  #: (n, 2): Where the moves end.
+    touches: tuple[Touch, ...]  #: The measuring moves.
+    arrows: FloatArray  #: (k, 2, 2): The machine's axes.
+    notes: tuple[Note, ...]  #: Numbers of faces, names of axes.
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,32 +12,15 @@ from zlmreport.measurement.approach import Approach
 
 @dataclass(frozen=True, slots=True)
 class Mean:
-    """The mean of the readings over the later half of the dwell.
+    """The mean of the readings over the later half of the dwell."""
 
-    Attributes
-    ----------
-    value
-        By the instrument's own zero, m or rad.
-    range
-        Largest − smallest over the whole dwell, m or rad.
-    count
-        How many readings were averaged.
-    skipped
-        How many among them did not arrive or were not understood.
-    time
-        Of the last, s, by the clock of the readings.
-    duration
-        From the first to the last, s.
-    conditions
-        Beside the last, SI, under the names of `zlmreport.measurement.measurement_set`.
-    """
-
-    value: float
-    range: float
-    count: int
-    skipped: int
-    time: float
-    duration: float
+    value: float  #: By the instrument's own zero, m or rad.
+    range: float  #: Largest − smallest over the whole dwell, m or rad.
+    count: int  #: How many readings were averaged.
+    skipped: int  #: How many among them did not arrive or were not understood.
+    time: float  #: Of the last, s, by the clock of the readings.
+    duration: float  #: From the first to the last, s.
+    #: Beside the last, SI, under the names of `zlmreport.measurement.measurement_set`.
     conditions: Mapping[str, float]
 
 
@@ -51,15 +34,9 @@ class DatumTaken:
 
 @dataclass(frozen=True, slots=True)
 class MovedBeforeDatum:
-    """The axis moved before the reading at the datum was taken: nobody knows where it stands now.
+    """The axis moved before the reading at the datum was taken: nobody knows where it stands now."""
 
-    Attributes
-    ----------
-    position
-        Where the axis is to stand for the datum, m or rad.
-    """
-
-    position: float
+    position: float  #: Where the axis is to stand for the datum, m or rad.
 
 
 @dataclass(frozen=True, slots=True)
@@ -151,20 +128,11 @@ class Recorded:
 
 @dataclass(frozen=True, slots=True)
 class Passed:
-    """The axis was at a target and left again, and nothing was taken; it may still come back.
-
-    Attributes
-    ----------
-    visit
-        The visit.
-    seconds
-        How long it was inside the tolerance.
-    drift
-        How fast what was shown went on there, m/s or rad/s, too slow for a motion; None if it did not.
-    """
+    """The axis was at a target and left again, and nothing was taken; it may still come back."""
 
     visit: ListedVisit
-    seconds: float
+    seconds: float  #: How long it was inside the tolerance.
+    #: How fast what was shown went on there, m/s or rad/s, too slow for a motion; None if it did not.
     drift: float | None = None
 
 
@@ -178,84 +146,43 @@ class Missed:
 
 @dataclass(frozen=True, slots=True)
 class Repeated:
-    """The axis stands still at a visit that was read before, and its reading stays as it is.
-
-    Attributes
-    ----------
-    visit
-        The visit.
-    position
-        Where it stands now, m or rad; None in journals of older versions, as the mean.
-    mean
-        The reading that is not taken.
-    """
+    """The axis stands still at a visit that was read before, and its reading stays as it is."""
 
     visit: ListedVisit
+    #: Where it stands now, m or rad; None in journals of older versions, as the mean.
     position: float | None = None
-    mean: Mean | None = None
+    mean: Mean | None = None  #: The reading that is not taken.
 
 
 @dataclass(frozen=True, slots=True)
 class WrongDirection:
-    """The axis came to the target that is next from the other side.
-
-    Attributes
-    ----------
-    visit
-        The visit.
-    approach
-        How it came; None if it is not known, because no motion was seen.
-    """
+    """The axis came to the target that is next from the other side."""
 
     visit: ListedVisit
-    approach: Approach | None
+    approach: Approach | None  #: How it came; None if it is not known, because no motion was seen.
 
 
 @dataclass(frozen=True, slots=True)
 class NotNext:
-    """The axis stands still at a target, having come from a side, where nothing is to be read now.
+    """The axis stands still at a target, having come from a side, where nothing is to be read now."""
 
-    Attributes
-    ----------
-    target
-        Its number, from 1.
-    approach
-        How the axis came there.
-    visit
-        The visit that is next.
-    """
-
-    target: int
-    approach: Approach
-    visit: ListedVisit
+    target: int  #: Its number, from 1.
+    approach: Approach  #: How the axis came there.
+    visit: ListedVisit  #: The visit that is next.
 
 
 @dataclass(frozen=True, slots=True)
 class Unclear:
-    """The axis stands still at a target, and what went before does not say which visit it is.
+    """The axis stands still at a target, and what went before does not say which visit it is."""
 
-    Attributes
-    ----------
-    target
-        Its number, from 1.
-    approach
-        How the axis came there.
-    candidates
-        What it may be, with the probability of each, most probable first; None for no visit at all.
-    position
-        Actual position, m or rad: the mean, seen from the datum.
-    mean
-        The reading, to be filed when somebody says where.
-    expected
-        Where it should stand by what was read before, m or rad, if the visit is clear and its reading is not
-        plausible; else None.
-    """
-
-    target: int
-    approach: Approach
+    target: int  #: Its number, from 1.
+    approach: Approach  #: How the axis came there.
+    #: What it may be, with the probability of each, most probable first; None for no visit at all.
     candidates: tuple[tuple[ListedVisit | None, float], ...]
-    position: float
-    mean: Mean
+    position: float  #: Actual position, m or rad: the mean, seen from the datum.
+    mean: Mean  #: The reading, to be filed when somebody says where.
+    #: Where it should stand by what was read before, m or rad, if the visit is clear and its reading is not
+    #: plausible; else None.
     expected: float | None = None
 
 
@@ -268,18 +195,11 @@ class Placed:
 
 @dataclass(frozen=True, slots=True)
 class Elsewhere:
-    """The axis stands still at a position that is no target: a pause, a wrong datum, or a wrong display.
+    """The axis stands still at a position that is no target: a pause, a wrong datum, or a wrong display."""
 
-    Attributes
-    ----------
-    position
-        Where it seems to stand, m or rad.
-    factor
-        By which what the display shows must be multiplied, so that the axis stands at a visit that is next;
-        None if there is no such one.
-    """
-
-    position: float
+    position: float  #: Where it seems to stand, m or rad.
+    #: By which what the display shows must be multiplied, so that the axis stands at a visit that is next;
+    #: None if there is no such one.
     factor: float | None = None
 
 
@@ -315,18 +235,10 @@ class TrackLost:
 
 @dataclass(frozen=True, slots=True)
 class TooSlow:
-    """Readings come so seldom that the axis could turn round, or move and stand again, between two.
+    """Readings come so seldom that the axis could turn round, or move and stand again, between two."""
 
-    Attributes
-    ----------
-    spacing
-        Between readings, s.
-    largest
-        What it may be, s.
-    """
-
-    spacing: float
-    largest: float
+    spacing: float  #: Between readings, s.
+    largest: float  #: What it may be, s.
 
 
 @dataclass(frozen=True, slots=True)

@@ -50,21 +50,11 @@ _RAPID = 1.0
 
 @dataclass(frozen=True, slots=True)
 class Status:
-    """What a display shows of the present moment.
+    """What a display shows of the present moment."""
 
-    Attributes
-    ----------
-    position
-        Of the axis, m or rad; None as long as it is not known.
-    range
-        Of the readings that keep within the stability range, m or rad.
-    still
-        How long they have, s.
-    """
-
-    position: float | None
-    range: float
-    still: float
+    position: float | None  #: Of the axis, m or rad; None as long as it is not known.
+    range: float  #: Of the readings that keep within the stability range, m or rad.
+    still: float  #: How long they have, s.
 
 
 class Follower:

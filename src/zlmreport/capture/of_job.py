@@ -76,26 +76,13 @@ _USUAL_TOLERANCE = 1.0
 
 @dataclass(frozen=True, slots=True)
 class Assignment:
-    """What a job asks to be captured.
+    """What a job asks to be captured."""
 
-    Attributes
-    ----------
-    options
-        The keys of its data source.
-    settings
-        When a reading is taken.
-    datum
-        Where the axis stands when the datum is taken, m or rad; None for the instrument's own zero.
-    plan
-        Of the test.
-    visits
-        Its visits.
-    """
-
-    options: CaptureOptions
-    settings: Settings
+    options: CaptureOptions  #: The keys of its data source.
+    settings: Settings  #: When a reading is taken.
+    #: Where the axis stands when the datum is taken, m or rad; None for the instrument's own zero.
     datum: float | None
-    plan: Plan
+    plan: Plan  #: Of the test.
     visits: tuple[ListedVisit, ...]
 
     def remaining_time(self, taken: int) -> float:

@@ -58,58 +58,31 @@ _STEPS = 15
 
 @dataclass(frozen=True, slots=True)
 class Stop:
-    """A standstill at a target.
+    """A standstill at a target."""
 
-    Attributes
-    ----------
-    target
-        Its number, from 1.
-    heading
-        How the axis came from afar, by which the program is followed; None if nobody saw.
-    approach
-        How it came at last, which a reading needs: an overshoot turns it round. None if nobody saw.
-    position
-        Where it stands, seen from the datum, m or rad.
-    mean
-        The reading.
-    """
-
-    target: int
+    target: int  #: Its number, from 1.
+    #: How the axis came from afar, by which the program is followed; None if nobody saw.
     heading: Approach | None
+    #: How it came at last, which a reading needs: an overshoot turns it round. None if nobody saw.
     approach: Approach | None
-    position: float
-    mean: Mean
+    position: float  #: Where it stands, seen from the datum, m or rad.
+    mean: Mean  #: The reading.
 
 
 @dataclass(frozen=True, slots=True)
 class _Guess:
-    """One explanation of all that was seen.
+    """One explanation of all that was seen."""
 
-    Attributes
-    ----------
-    place
-        Index of the visit that the program made last; −1 before its first.
-    weight
-        Logarithm of its probability.
-    time
-        When it was there, s; None if that is not known.
-    turns, breaks
-        How many turning points and breaks had been seen then.
-    is_heading_known
-        Whether it was seen how the axis came there.
-    is_told
-        Whether the operator begins the program after `place`, from wherever the axis is.
-    files
-        Which visit each of the stops is that are not decided yet; None for none. At last the stop before.
-    """
-
-    place: int
-    weight: float
-    time: float | None
+    place: int  #: Index of the visit that the program made last; −1 before its first.
+    weight: float  #: Logarithm of its probability.
+    time: float | None  #: When it was there, s; None if that is not known.
+    #: turns and breaks: How many turning points and breaks had been seen then.
     turns: int
     breaks: int
-    is_heading_known: bool = True
+    is_heading_known: bool = True  #: Whether it was seen how the axis came there.
+    #: Whether the operator begins the program after `place`, from wherever the axis is.
     is_told: bool = False
+    #: Which visit each of the stops is that are not decided yet; None for none. At last the stop before.
     files: tuple[int | None, ...] = (None,)
 
 

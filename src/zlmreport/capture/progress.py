@@ -30,50 +30,29 @@ from zlmreport.measurement.approach import Approach
 
 @dataclass(frozen=True, slots=True)
 class Progress:
-    """How far a capture has come.
+    """How far a capture has come."""
 
-    Attributes
-    ----------
-    visits
-        All that are to be.
-    datum
-        Where the axis stands when the datum is taken, m or rad; None where the instrument's own zero counts.
-    taken
-        How many visits, from the first, are taken or missed for good: the index of the next.
-    attempts
-        How often a part of the test was begun, where that is more than once.
-    zero
-        The position at which the instrument reads 0, m or rad; None as long as the datum is not taken.
-    read
-        What was read under this datum: the latest reading of each target from each side.
-    must_check
-        Whether the datum may have moved: it is held against an earlier reading before anything is taken.
-    filed
-        The numbers of the visits that have a reading: of the attempt that goes on, and of earlier parts.
-    question
-        A stop of which the operator is to say which visit it is; None for none.
-    is_over
-        Whether the test is over.
-    again
-        Where visits are taken again: the index after the last of them, and what is `taken` after that.
-    skipped
-        The numbers of the visits that the operator leaves out.
-    before_datum
-        The numbers of the visits that were read under an earlier datum.
-    """
-
-    visits: tuple[ListedVisit, ...]
+    visits: tuple[ListedVisit, ...]  #: All that are to be.
+    #: Where the axis stands when the datum is taken, m or rad; None where the instrument's own zero counts.
     datum: float | None = None
-    taken: int = 0
+    taken: int = 0  #: How many visits, from the first, are taken or missed for good: the index of the next.
+    #: How often a part of the test was begun, where that is more than once.
     attempts: Mapping[int, int] = field(default_factory=lambda: MappingProxyType({}))
+    #: The position at which the instrument reads 0, m or rad; None as long as the datum is not taken.
     zero: float | None = None
+    #: What was read under this datum: the latest reading of each target from each side.
     read: Mapping[tuple[int, Approach], Recorded] = field(default_factory=lambda: MappingProxyType({}))
+    #: Whether the datum may have moved: it is held against an earlier reading before anything is taken.
     must_check: bool = False
+    #: The numbers of the visits that have a reading: of the attempt that goes on, and of earlier parts.
     filed: frozenset[int] = frozenset()
+    #: A stop of which the operator is to say which visit it is; None for none.
     question: Unclear | None = None
-    is_over: bool = False
+    is_over: bool = False  #: Whether the test is over.
+    #: Where visits are taken again: the index after the last of them, and what is `taken` after that.
     again: tuple[int, int] | None = None
-    skipped: frozenset[int] = frozenset()
+    skipped: frozenset[int] = frozenset()  #: The numbers of the visits that the operator leaves out.
+    #: The numbers of the visits that were read under an earlier datum.
     before_datum: frozenset[int] = frozenset()
 
     @classmethod

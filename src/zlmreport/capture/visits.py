@@ -14,34 +14,17 @@ _RUN_BY_RUN = frozenset({Method.LINEAR, Method.UNIDIRECTIONAL})
 
 @dataclass(frozen=True, slots=True)
 class ListedVisit:
-    """A reading that is to be taken.
+    """A reading that is to be taken."""
 
-    Attributes
-    ----------
-    number
-        In the order of the test, from 1.
-    target
-        Number of the target, from 1.
-    position
-        Of the target, m or rad.
-    approach
-        The direction in which the axis must come there.
-    run
-        Number of the run, from 1.
-    part
-        The part of the test that shares one datum, from 1: the run; the whole test for methods that read a
-        target in all runs before the next, where a new datum would be a step along the axis.
-    travelled
-        The way of the axis since the visit before, m or rad.
-    """
-
-    number: int
-    target: int
-    position: float
-    approach: Approach
-    run: int
+    number: int  #: In the order of the test, from 1.
+    target: int  #: Number of the target, from 1.
+    position: float  #: Of the target, m or rad.
+    approach: Approach  #: The direction in which the axis must come there.
+    run: int  #: Number of the run, from 1.
+    #: The part of the test that shares one datum, from 1: the run; the whole test for methods that read a
+    #: target in all runs before the next, where a new datum would be a step along the axis.
     part: int
-    travelled: float
+    travelled: float  #: The way of the axis since the visit before, m or rad.
 
 
 def visit_list(plan: Plan) -> tuple[ListedVisit, ...]:
@@ -80,31 +63,18 @@ SHARE_OF_INTERVAL, SHARE_OF_OVERRUN = 0.4, 1 / 3
 
 @dataclass(frozen=True, slots=True)
 class Settings:
-    """The limits that a stop at a target must keep.
+    """The limits that a stop at a target must keep."""
 
-    Attributes
-    ----------
-    tolerance
-        How far from a target a reading may be, m or rad.
-    stability
-        The range, largest − smallest reading, within which the axis stands still, m or rad.
-    dwell
-        How long it must stand still, s; the reading that is taken is the mean over the later half of it.
-    turn
-        The shortest time in which the axis can go over a target, turn round at the overrun and come back, s:
-        readings that are further apart may have missed it.
-    stay
-        How long the axis rests at a target, s: in a shorter silence no visit can have gone unseen.
-    feed
-        Of the program, m/s or rad/s; 0 if it is not known.
-    """
-
-    tolerance: float
-    stability: float
+    tolerance: float  #: How far from a target a reading may be, m or rad.
+    stability: float  #: The range, largest − smallest reading, within which the axis stands still, m or rad.
+    #: How long it must stand still, s; the reading that is taken is the mean over the later half of it.
     dwell: float
+    #: The shortest time in which the axis can go over a target, turn round at the overrun and come back, s:
+    #: readings that are further apart may have missed it.
     turn: float
+    #: How long the axis rests at a target, s: in a shorter silence no visit can have gone unseen.
     stay: float
-    feed: float = 0.0
+    feed: float = 0.0  #: Of the program, m/s or rad/s; 0 if it is not known.
 
     @property
     def motion(self) -> float:

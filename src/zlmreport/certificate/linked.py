@@ -86,7 +86,7 @@ _IN_TIME = {ResidualTest.TIME_ORDER, ResidualTest.PERIOD_IN_TIME}
 
 @dataclass(frozen=True, slots=True)
 class Linked:
-    """Two graphs of the same readings, and the failures of the model that point at them; plain values only.
+    """Two graphs of the same readings, and the model's failures that point at them; plain values only.
 
     Attributes
     ----------

@@ -44,18 +44,10 @@ _RETAKE = Place("--retake")
 
 @dataclass(frozen=True, slots=True)
 class Answers:
-    """What the operator says beforehand, empty for nothing.
+    """What the operator says beforehand, empty for nothing."""
 
-    Attributes
-    ----------
-    answer
-        To the question that the last sitting ended with: the number of a visit, or ``none``.
-    retake
-        What is taken again: the number of a visit, or ``run`` and that of a run.
-    """
-
-    answer: str = ""
-    retake: str = ""
+    answer: str = ""  #: To the question that the last sitting ended with: the number of a visit, or ``none``.
+    retake: str = ""  #: What is taken again: the number of a visit, or ``run`` and that of a run.
 
 
 def run(options: Namespace) -> int:

@@ -73,21 +73,11 @@ def _job(looked: Looked, file: Path, directory: Path) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Looked:
-    """A file that could be read.
+    """A file that could be read."""
 
-    Attributes
-    ----------
-    source
-        By which data source.
-    proposal
-        With which keys, and what is to be asked.
-    read
-        What it holds.
-    """
-
-    source: DataSource
-    proposal: SourceProposal
-    read: MeasurementSet
+    source: DataSource  #: By which data source.
+    proposal: SourceProposal  #: With which keys, and what is to be asked.
+    read: MeasurementSet  #: What it holds.
 
     def block(self, file: str, indent: str = "") -> Iterator[str]:
         """Yield the lines of the ``source:`` block of a job that names the file so."""

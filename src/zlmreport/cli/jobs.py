@@ -92,36 +92,16 @@ def do_all(
 
 @dataclass(frozen=True, slots=True)
 class Result:
-    """What became of a job.
+    """What became of a job."""
 
-    Attributes
-    ----------
-    path
-        The job file, as the user named it.
-    job
-        The checked job; None if it is wrong.
-    evaluations
-        By each of its standards.
-    diagnosis
-        Of its error model; None where the job names none.
-    doubts
-        Values that seem to be in another unit, in sentences.
-    budget
-        Of the uncertainty; None where nothing was evaluated.
-    files
-        That were written.
-    error
-        What ended the work; None if nothing did.
-    """
-
-    path: Path
-    job: Job | None = None
-    evaluations: tuple[Evaluation, ...] = ()
-    diagnosis: Diagnosis | None = None
-    doubts: tuple[Words, ...] = ()
-    budget: Budget | NoBudget | None = None
-    files: tuple[Path, ...] = ()
-    error: ZlmreportError | None = None
+    path: Path  #: The job file, as the user named it.
+    job: Job | None = None  #: The checked job; None if it is wrong.
+    evaluations: tuple[Evaluation, ...] = ()  #: By each of its standards.
+    diagnosis: Diagnosis | None = None  #: Of its error model; None where the job names none.
+    doubts: tuple[Words, ...] = ()  #: Values that seem to be in another unit, in sentences.
+    budget: Budget | NoBudget | None = None  #: Of the uncertainty; None where nothing was evaluated.
+    files: tuple[Path, ...] = ()  #: That were written.
+    error: ZlmreportError | None = None  #: What ended the work; None if nothing did.
 
     @property
     def conforms(self) -> bool | None:

@@ -35,48 +35,23 @@ CHANGE = "zlmreport/model-change/1"
 
 @dataclass(frozen=True, slots=True)
 class Change:
-    """A change of a model that makes sense.
+    """A change of a model that makes sense."""
 
-    Attributes
-    ----------
-    edit
-        Of the job file.
-    added
-        The effect that comes in; empty if none does.
-    removed
-        The effects that go out.
-    before
-        The model as it was.
-    history
-        The model as it is then, effect by effect.
-    forecasts
-        What standards would say of an axis corrected by it.
-    """
-
-    edit: Edit
-    added: str
-    removed: tuple[str, ...]
-    before: Fitted
-    history: tuple[Fitted, ...]
-    forecasts: tuple[Forecast, ...]
+    edit: Edit  #: Of the job file.
+    added: str  #: The effect that comes in; empty if none does.
+    removed: tuple[str, ...]  #: The effects that go out.
+    before: Fitted  #: The model as it was.
+    history: tuple[Fitted, ...]  #: The model as it is then, effect by effect.
+    forecasts: tuple[Forecast, ...]  #: What standards would say of an axis corrected by it.
 
 
 @dataclass(frozen=True, slots=True)
 class Points:
-    """What a model gives at positions that were asked for.
+    """What a model gives at positions that were asked for."""
 
-    Attributes
-    ----------
-    positions : (M,) array
-        m or rad.
-    predictions
-        By direction of approach.
-    moves
-        Whether the model changes with time or run: then the predictions are those of the mean of the test.
-    """
-
-    positions: FloatArray
-    predictions: dict[Approach, Prediction]
+    positions: FloatArray  #: (M,): m or rad.
+    predictions: dict[Approach, Prediction]  #: By direction of approach.
+    #: Whether the model changes with time or run: then the predictions are those of the mean of the test.
     moves: bool
 
 

@@ -42,19 +42,12 @@ class Periodic(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Scatter:
-    """How readings scatter about what the axis does.
+    """How readings scatter about what the axis does."""
 
-    Attributes
-    ----------
-    single, run
-        Standard deviations of a single reading, and of what a run has in common, m or rad.
-    degrees
-        Of freedom of `single`.
-    """
-
+    #: single and run: Standard deviations of a single reading, and of what a run has in common, m or rad.
     single: float
     run: float
-    degrees: int
+    degrees: int  #: Of freedom of `single`.
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,51 +56,29 @@ class Part:
 
     These are (e↑ ± e↓)/√2 at each target, and scatter alike. What a model does not describe may be large in
     one and nothing in the other: geometry belongs to a position, whichever way it is approached.
-
-    Attributes
-    ----------
-    directions : (m, p) array
-        Orthonormal: what the model can imitate; the readings decide it, scatter included.
-    trust
-        How far the means are believed beyond that, from 0 to 1.
     """
 
+    #: (m, p): Orthonormal: what the model can imitate; the readings decide it, scatter included.
     directions: FloatArray
-    trust: float
+    trust: float  #: How far the means are believed beyond that, from 0 to 1.
 
 
 @dataclass(frozen=True, slots=True)
 class Basis:
-    """What a table is made from, and what it is held against.
+    """What a table is made from, and what it is held against."""
 
-    Attributes
-    ----------
-    curve
-        The means of the test.
-    known
-        What the axis does anywhere, all its waves included.
-    estimate : (2, m) array
-        What another test of this plan would show at the targets without a table, m or rad.
-    parts
-        What is behind the estimate: what both directions share, and if both were measured what parts them.
-    scatter
-        Of the readings; None where the test cannot tell.
-    without
-        What a table can take away that leaves out the waves of these names.
-    waves
-        The periodic effects of the model, each with the length of its shortest wave, m or rad.
-    periodic
-        What is to become of the waves.
-    """
-
-    curve: ErrorCurve
-    known: Function
+    curve: ErrorCurve  #: The means of the test.
+    known: Function  #: What the axis does anywhere, all its waves included.
+    #: (2, m): What another test of this plan would show at the targets without a table, m or rad.
     estimate: FloatArray
+    #: What is behind the estimate: what both directions share, and if both were measured what parts them.
     parts: tuple[Part, ...]
-    scatter: Scatter | None
+    scatter: Scatter | None  #: Of the readings; None where the test cannot tell.
+    #: What a table can take away that leaves out the waves of these names.
     without: Callable[[frozenset[str]], Function]
+    #: The periodic effects of the model, each with the length of its shortest wave, m or rad.
     waves: Mapping[str, float] = field(default_factory=dict)
-    periodic: Periodic = Periodic.FITTING
+    periodic: Periodic = Periodic.FITTING  #: What is to become of the waves.
 
     def left_out(self, rows: FloatArray) -> dict[str, float]:
         """Return the waves that a table with these rows is not to carry, by name with their lengths."""

@@ -33,24 +33,12 @@ class ConfirmationVerdict(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Confirmation:
-    """How a second test stands to the forecast.
+    """How a second test stands to the forecast."""
 
-    Attributes
-    ----------
-    verdict
-        What became of the table.
-    ratio
-        E after over E before.
-    applied
-        What part of the table the second test shows to have been applied.
-    shift
-        By how much the table seems shifted, m or rad; 0 unless that is the verdict.
-    """
-
-    verdict: ConfirmationVerdict
-    ratio: float
-    applied: float
-    shift: float = 0.0
+    verdict: ConfirmationVerdict  #: What became of the table.
+    ratio: float  #: E after over E before.
+    applied: float  #: What part of the table the second test shows to have been applied.
+    shift: float = 0.0  #: By how much the table seems shifted, m or rad; 0 unless that is the verdict.
 
 
 def confirm(basis: Basis, after: ErrorCurve, table: CompensationTable, place: Place) -> Confirmation:

@@ -18,28 +18,16 @@ from zlmreport.quantities.arrays import FloatArray, read_only_floats
 
 @dataclass(frozen=True, slots=True)
 class ErrorCurve:
-    """The deviations of an axis at its targets.
+    """The deviations of an axis at its targets."""
 
-    Attributes
-    ----------
-    positions : (m,) array
-        Targets, rising, m or rad.
-    forward, reverse : (m,) arrays
-        Mean deviations e by direction of approach, m or rad; alike where one direction was measured.
-    spread : (2, m) array
-        Standard deviations by direction, m or rad; NaN where there are none.
-    runs
-        Number of readings behind each mean.
-    is_bidirectional
-        Whether both directions were measured.
-    """
-
-    positions: FloatArray
+    positions: FloatArray  #: (m,): Targets, rising, m or rad.
+    #: forward and reverse: (m,): Mean deviations e by direction of approach, m or rad; alike where one
+    #: direction was measured.
     forward: FloatArray
     reverse: FloatArray
-    spread: FloatArray
-    runs: int
-    is_bidirectional: bool
+    spread: FloatArray  #: (2, m): Standard deviations by direction, m or rad; NaN where there are none.
+    runs: int  #: Number of readings behind each mean.
+    is_bidirectional: bool  #: Whether both directions were measured.
 
 
 @dataclass(frozen=True, slots=True)

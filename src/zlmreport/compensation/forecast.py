@@ -51,41 +51,25 @@ class Expected:
 
 @dataclass(frozen=True, slots=True)
 class Forecast:
-    """What a table is expected to leave.
+    """What a table is expected to leave."""
 
-    Attributes
-    ----------
-    before, after
-        Of the means as they are, and with the table taken away.
-    second_test
-        By symbol, what a second test will show: what the table leaves, the uncertainty of the first test,
-        and the scatter of both. Empty where the first cannot tell its scatter.
-    left : (2, m) array
-        The mean deviations after, by direction and target, m or rad.
-    between, between_at
-        Largest deviation that is left anywhere between the rows, and where it is, m or rad.
-    left_out
-        Largest deviation of the waves that no row carries, m or rad.
-    rounding
-        Largest difference between the table as it is written and as it was meant, m or rad.
-    constant
-        By how much the control's table is meant to be off all over: some begin at zero, m or rad.
-    has_set_up
-        Whether the second test has errors of a set-up: where the job gives a budget.
-    play
-        The mean lost motion that a table without directions leaves to another parameter, m or rad.
-    """
-
+    #: before and after: Of the means as they are, and with the table taken away.
     before: Figures
     after: Figures
+    #: By symbol, what a second test will show: what the table leaves, the uncertainty of the first test, and
+    #: the scatter of both. Empty where the first cannot tell its scatter.
     second_test: dict[str, Expected]
-    left: FloatArray
+    left: FloatArray  #: (2, m): The mean deviations after, by direction and target, m or rad.
+    #: between and between_at: Largest deviation that is left anywhere between the rows, and where it is, m or
+    #: rad.
     between: float
     between_at: float
-    left_out: float
-    rounding: float
+    left_out: float  #: Largest deviation of the waves that no row carries, m or rad.
+    rounding: float  #: Largest difference between the table as it is written and as it was meant, m or rad.
+    #: By how much the control's table is meant to be off all over: some begin at zero, m or rad.
     constant: float
-    has_set_up: bool
+    has_set_up: bool  #: Whether the second test has errors of a set-up: where the job gives a budget.
+    #: The mean lost motion that a table without directions leaves to another parameter, m or rad.
     play: float
 
 

@@ -43,24 +43,14 @@ class GridReason(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Grid:
-    """The rows of a table.
+    """The rows of a table."""
 
-    Attributes
-    ----------
-    rows : (g,) array
-        Rising, m or rad.
-    reason
-        Why these: as stated; the targets; the fewest that keep within the uncertainty; or fewer than that
-        needs, for the control takes no more or the targets support no more.
-    added
-        What the lines between the rows miss at most of what the table is to take away, m or rad.
-    allowed
-        U of a mean deviation by the scatter of the readings (k = 2), m or rad; 0 if the test cannot tell.
-    """
-
-    rows: FloatArray
+    rows: FloatArray  #: (g,): Rising, m or rad.
+    #: Why these: as stated; the targets; the fewest that keep within the uncertainty; or fewer than that
+    #: needs, for the control takes no more or the targets support no more.
     reason: GridReason
-    added: float
+    added: float  #: What the lines between the rows miss at most of what the table is to take away, m or rad.
+    #: U of a mean deviation by the scatter of the readings (k = 2), m or rad; 0 if the test cannot tell.
     allowed: float
 
 
@@ -142,37 +132,20 @@ class TableWriter(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class Made:
-    """A table, with all that it was made from and into.
+    """A table, with all that it was made from and into."""
 
-    Attributes
-    ----------
-    controller
-        The control.
-    basis
-        What is known of the axis.
-    grid
-        Where the table has its rows, and why.
-    left_out
-        Periodic effects that no row carries, each with the length of its shortest wave, m or rad.
-    meant, decoded
-        The table, and what the control makes of its files.
-    active
-        The table that was active during the test, and is replaced; None for none.
-    files
-        Texts by the ends of their names.
-    forecast
-        What the table leaves.
-    """
-
-    controller: TableWriter
-    basis: Basis
-    grid: Grid
+    controller: TableWriter  #: The control.
+    basis: Basis  #: What is known of the axis.
+    grid: Grid  #: Where the table has its rows, and why.
+    #: Periodic effects that no row carries, each with the length of its shortest wave, m or rad.
     left_out: tuple[tuple[str, float], ...]
+    #: meant and decoded: The table, and what the control makes of its files.
     meant: CompensationTable
     decoded: CompensationTable
+    #: The table that was active during the test, and is replaced; None for none.
     active: CompensationTable | None
-    files: Mapping[str, str]
-    forecast: Forecast
+    files: Mapping[str, str]  #: Texts by the ends of their names.
+    forecast: Forecast  #: What the table leaves.
 
 
 def make(  # noqa: PLR0913, PLR0917 - of what, on which grid, for whom

@@ -89,53 +89,29 @@ _MATERIAL_INPUTS = Words(
 
 @dataclass(frozen=True, slots=True)
 class Air:
-    """The refractive index of the air.
+    """The refractive index of the air."""
 
-    Attributes
-    ----------
-    index : (N,) array
-        n at each reading.
-    assumed_index
-        That by which the instrument turned counts into lengths.
-    """
-
-    index: FloatArray
-    assumed_index: float
+    index: FloatArray  #: (N,): n at each reading.
+    assumed_index: float  #: That by which the instrument turned counts into lengths.
 
 
 @dataclass(frozen=True, slots=True)
 class Expansion:
-    """The expansion of the material.
+    """The expansion of the material."""
 
-    Attributes
-    ----------
-    coefficient
-        α, 1/K.
-    temperature : (N,) array
-        T at each reading, K.
-    """
-
-    coefficient: float
-    temperature: FloatArray
+    coefficient: float  #: α, 1/K.
+    temperature: FloatArray  #: (N,): T at each reading, K.
 
 
 @dataclass(frozen=True, slots=True)
 class Corrections:
-    """What the readings of a test are corrected for; None for what they are not.
+    """What the readings of a test are corrected for; None for what they are not."""
 
-    Attributes
-    ----------
-    datum
-        Position at which the instrument was set to zero, m.
-    air, expansion
-        See there.
-    dead_path
-        From the interferometer to the reflector at the datum, m; negative where the measured path shrinks
-        while the position rises. It needs the index of the air.
-    """
-
-    datum: float
+    datum: float  #: Position at which the instrument was set to zero, m.
+    #: air and expansion: See there.
     air: Air | None = None
+    #: From the interferometer to the reflector at the datum, m; negative where the measured path shrinks
+    #: while the position rises. It needs the index of the air.
     dead_path: float | None = None
     expansion: Expansion | None = None
 

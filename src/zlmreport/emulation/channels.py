@@ -23,18 +23,10 @@ _CERTAIN = 3
 
 
 class Channel(Protocol):
-    """A line to whoever reads the emulated instrument.
+    """A line to whoever reads the emulated instrument."""
 
-    Attributes
-    ----------
-    address
-        As a job names it: a path, or ``socket://host:number``.
-    is_read
-        Whether a host has ever read from it, spoken on it, or called.
-    """
-
-    address: str
-    is_read: bool
+    address: str  #: As a job names it: a path, or ``socket://host:number``.
+    is_read: bool  #: Whether a host has ever read from it, spoken on it, or called.
 
     def wait(self, seconds: float) -> None:
         """Wait until something arrives, but no longer."""

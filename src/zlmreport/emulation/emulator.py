@@ -32,30 +32,14 @@ class EmulatedAxis(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class MovingAxis:
-    """An axis that goes to one position after the other, rests, and begins again.
+    """An axis that goes to one position after the other, rests, and begins again."""
 
-    Attributes
-    ----------
-    course
-        The positions, m; the axis starts at the first.
-    feed
-        m/s.
-    dwell
-        How long it rests at each, s.
-    noise
-        Standard deviation of what shakes it, m; white.
-    drift
-        By how much everything moves away, m/s.
-    seed
-        Of the noise: the same seed gives the same noise at the same time.
-    """
-
-    course: Sequence[float] = (0.0,)
-    feed: float = 0.05
-    dwell: float = 3.0
-    noise: float = 0.0
-    drift: float = 0.0
-    seed: int = 1
+    course: Sequence[float] = (0.0,)  #: The positions, m; the axis starts at the first.
+    feed: float = 0.05  #: m/s.
+    dwell: float = 3.0  #: How long it rests at each, s.
+    noise: float = 0.0  #: Standard deviation of what shakes it, m; white.
+    drift: float = 0.0  #: By how much everything moves away, m/s.
+    seed: int = 1  #: Of the noise: the same seed gives the same noise at the same time.
 
     def position(self, time: float) -> float:
         """Return where the axis is, m, with noise and drift."""
@@ -99,18 +83,10 @@ _LASTS = {
 
 @dataclass(frozen=True, slots=True)
 class Planned:
-    """A fault that will happen.
+    """A fault that will happen."""
 
-    Attributes
-    ----------
-    trouble
-        Which.
-    start
-        When, s from the start of the emulation.
-    """
-
-    trouble: Trouble
-    start: float
+    trouble: Trouble  #: Which.
+    start: float  #: When, s from the start of the emulation.
 
     def is_on(self, time: float) -> bool:
         """Return whether it is happening."""

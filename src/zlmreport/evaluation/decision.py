@@ -40,24 +40,13 @@ class Guard(Enum):
 
 @dataclass(frozen=True, slots=True)
 class DecisionRule:
-    """How values are held against their limits.
+    """How values are held against their limits."""
 
-    Attributes
-    ----------
-    identifier
-        As jobs name it.
-    factor
-        Width of the guard band, in units of `guard`; 0 for simple acceptance.
-    guard
-        In what it is counted.
-    between
-        What is stated on either side of the limit inside the guard band; None where a value beyond the
-        acceptance limit fails.
-    """
-
-    identifier: str
-    factor: float = 0.0
-    guard: Guard = Guard.EXPANDED_UNCERTAINTY
+    identifier: str  #: As jobs name it.
+    factor: float = 0.0  #: Width of the guard band, in units of `guard`; 0 for simple acceptance.
+    guard: Guard = Guard.EXPANDED_UNCERTAINTY  #: In what it is counted.
+    #: What is stated on either side of the limit inside the guard band; None where a value beyond the
+    #: acceptance limit fails.
     between: _Between | None = None
 
     def decide(self, parameter: Parameter, *, uncertainty_is_complete: bool = True) -> Decision | None:

@@ -272,21 +272,11 @@ class PositionColumn:
 
 @dataclass(frozen=True, slots=True)
 class MeanUncertainty:
-    """Expanded uncertainty U = k·u of the mean deviations, m or rad; NaN where there is no mean.
+    """Expanded uncertainty U = k·u of the mean deviations, m or rad; NaN where there is no mean."""
 
-    Attributes
-    ----------
-    coverage_factor
-        k.
-    by_approach : (approach, position) array
-        U of x̄_i↑ and x̄_i↓.
-    bidirectional : (position,) array
-        U of x̄_i.
-    """
-
-    coverage_factor: float
-    by_approach: FloatArray
-    bidirectional: FloatArray
+    coverage_factor: float  #: k.
+    by_approach: FloatArray  #: (approach, position): U of x̄_i↑ and x̄_i↓.
+    bidirectional: FloatArray  #: (position,): U of x̄_i.
 
 
 @dataclass(frozen=True, slots=True)

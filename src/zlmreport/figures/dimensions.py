@@ -42,21 +42,13 @@ _COST_OF_OVERLAP = 1000.0
 
 @dataclass(frozen=True, slots=True)
 class Span:
-    """What a dimension measures, in points.
+    """What a dimension measures, in points."""
 
-    Attributes
-    ----------
-    label
-        Its symbol.
-    low, high
-        Its ends.
-    low_from, high_from
-        Where, along the axis, the values of its ends arise.
-    """
-
-    label: Label
+    label: Label  #: Its symbol.
+    #: low and high: Its ends.
     low: float
     high: float
+    #: low_from and high_from: Where, along the axis, the values of its ends arise.
     low_from: float
     high_from: float
 

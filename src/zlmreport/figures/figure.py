@@ -120,26 +120,14 @@ class Level:
 
 @dataclass(frozen=True, slots=True)
 class Bar:
-    """A value as a bar from zero; the bars of a panel stand side by side instead of over positions.
+    """A value as a bar from zero; the bars of a panel stand side by side instead of over positions."""
 
-    Attributes
-    ----------
-    label
-        Below the bar.
-    y
-        Where it ends.
-    value
-        Written at its end.
-    uncertainty
-        Half the width of the interval about its end that is drawn as a whisker; 0 for none.
-    accepted
-        Up to where the bar may reach, marked by a line across it; None for no mark.
-    """
-
-    label: Words
-    y: float
-    value: Words
+    label: Words  #: Below the bar.
+    y: float  #: Where it ends.
+    value: Words  #: Written at its end.
+    #: Half the width of the interval about its end that is drawn as a whisker; 0 for none.
     uncertainty: float = 0.0
+    #: Up to where the bar may reach, marked by a line across it; None for no mark.
     accepted: float | None = None
 
 

@@ -41,20 +41,11 @@ _NOISE = Words(
 
 @dataclass(frozen=True, slots=True)
 class ModelDiagram:
-    """The graphs of one fitted model.
+    """The graphs of one fitted model."""
 
-    Attributes
-    ----------
-    fit
-        The model with the readings.
-    error
-        How far they are apart.
-    span
-        The part of the travel over which the model is drawn, m or rad; without it all that was measured.
-    """
-
-    fit: Fit
-    error: ErrorNumbers
+    fit: Fit  #: The model with the readings.
+    error: ErrorNumbers  #: How far they are apart.
+    #: The part of the travel over which the model is drawn, m or rad; without it all that was measured.
     span: tuple[float, float] | None = None
 
     @property

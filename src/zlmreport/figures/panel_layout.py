@@ -38,31 +38,17 @@ _SAMPLING = 2.0
 
 @dataclass(frozen=True, slots=True)
 class PanelLayout:
-    """A panel with the place of everything in it.
+    """A panel with the place of everything in it."""
 
-    Attributes
-    ----------
-    panel
-        What is drawn.
-    frame
-        The area of its values.
-    legend
-        Above the frame.
-    brackets, arrows
-        Dimension lines in the margin, and beside targets.
-    levels
-        Each level with its height at the frame, and its label.
-    bar_values
-        What is written at the end of each bar.
-    """
-
-    panel: Panel
-    frame: Frame
-    legend: LegendLayout
+    panel: Panel  #: What is drawn.
+    frame: Frame  #: The area of its values.
+    legend: LegendLayout  #: Above the frame.
+    #: brackets and arrows: Dimension lines in the margin, and beside targets.
     brackets: tuple[Dimension, ...]
     arrows: tuple[Dimension, ...]
+    #: Each level with its height at the frame, and its label.
     levels: tuple[tuple[Level, float, PlacedLabel], ...]
-    bar_values: tuple[PlacedLabel, ...]
+    bar_values: tuple[PlacedLabel, ...]  #: What is written at the end of each bar.
 
 
 def lay_out_panel(

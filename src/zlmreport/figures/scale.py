@@ -25,25 +25,14 @@ _FEWEST_TICKS = 3
 
 @dataclass(frozen=True, slots=True)
 class Scale:
-    """One axis.
+    """One axis."""
 
-    Attributes
-    ----------
-    lower, upper
-        Its ends.
-    ticks
-        Values with a label, rising.
-    labels
-        What is written at them; of several lines where there is a line break.
-    marks
-        Values with a small tick and no label.
-    """
-
+    #: lower and upper: Its ends.
     lower: float
     upper: float
-    ticks: tuple[float, ...]
-    labels: tuple[str, ...]
-    marks: tuple[float, ...] = ()
+    ticks: tuple[float, ...]  #: Values with a label, rising.
+    labels: tuple[str, ...]  #: What is written at them; of several lines where there is a line break.
+    marks: tuple[float, ...] = ()  #: Values with a small tick and no label.
 
 
 def extremes(values: FloatArray) -> tuple[float, float]:

@@ -63,21 +63,11 @@ class Mark(Enum):
 
 @dataclass(frozen=True, slots=True)
 class RoleStyle:
-    """The look of a curve or a band.
+    """The look of a curve or a band."""
 
-    Attributes
-    ----------
-    stroke
-        Of the curve, or of both limits of a band.
-    mark
-        At each target; None for a bare line.
-    tint
-        Of a band's inside.
-    """
-
-    stroke: Stroke
-    mark: Mark | None
-    tint: Fill
+    stroke: Stroke  #: Of the curve, or of both limits of a band.
+    mark: Mark | None  #: At each target; None for a bare line.
+    tint: Fill  #: Of a band's inside.
 
 
 def _style(
@@ -230,27 +220,15 @@ class Frame:
 
 @dataclass(frozen=True, slots=True)
 class Outline:
-    """Lines, or the edges of areas: filled, stroked or both.
+    """Lines, or the edges of areas: filled, stroked or both."""
 
-    Attributes
-    ----------
-    kind
-        What is drawn, as a canvas is told.
-    parts
-        Each of shape (N, 2); points that are not finite leave gaps.
-    stroke, fill
-        How it looks.
-    is_closed
-        Whether each part ends where it begins, and is joined there.
-    frame
-        Whose values the coordinates are; None where they are places on the drawing.
-    """
-
-    kind: str
-    parts: tuple[FloatArray, ...]
+    kind: str  #: What is drawn, as a canvas is told.
+    parts: tuple[FloatArray, ...]  #: Each of shape (N, 2); points that are not finite leave gaps.
+    #: stroke and fill: How it looks.
     stroke: Stroke | None
     fill: Fill | None = None
-    is_closed: bool = False
+    is_closed: bool = False  #: Whether each part ends where it begins, and is joined there.
+    #: Whose values the coordinates are; None where they are places on the drawing.
     frame: Frame | None = None
 
 

@@ -95,26 +95,14 @@ class ParameterLimits(JobPart):
 
 @dataclass(frozen=True, slots=True)
 class EffectChoice:
-    """An effect that a file names.
+    """An effect that a file names."""
 
-    Attributes
-    ----------
-    identifier
-        Of an installed effect, or of one that is written as a formula.
-    settings
-        Its own keys, validated by its options class; `FormulaKeys` of a formula.
-    values
-        Parameters that are given, by name, in the users' units: of a model they are fixed.
-    place
-        Where the file names the effect.
-    limits
-        What else is known of parameters, by name, in the users' units.
-    """
-
-    identifier: str
-    settings: Options
+    identifier: str  #: Of an installed effect, or of one that is written as a formula.
+    settings: Options  #: Its own keys, validated by its options class; `FormulaKeys` of a formula.
+    #: Parameters that are given, by name, in the users' units: of a model they are fixed.
     values: Mapping[str, float]
-    place: Place
+    place: Place  #: Where the file names the effect.
+    #: What else is known of parameters, by name, in the users' units.
     limits: Mapping[str, ParameterLimits] = field(default_factory=dict)
 
     @property

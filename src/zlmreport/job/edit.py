@@ -40,43 +40,22 @@ EFFECTS, CANDIDATES = ListKey("model", "effects"), ListKey("model", "candidates"
 
 @dataclass(frozen=True, slots=True)
 class NamedEffect:
-    """An effect as somebody writes it: its name, or the name with keys; and what that means.
+    """An effect as somebody writes it: its name, or the name with keys; and what that means."""
 
-    Attributes
-    ----------
-    node
-        As it is written into a job.
-    choice
-        As it is understood.
-    """
-
-    node: Node
-    choice: EffectChoice
+    node: Node  #: As it is written into a job.
+    choice: EffectChoice  #: As it is understood.
 
 
 @dataclass(frozen=True, slots=True)
 class Edit:
-    """A change of a job file that has not been written yet.
+    """A change of a job file that has not been written yet."""
 
-    Attributes
-    ----------
-    path
-        The file.
-    digest
-        SHA-256 of the bytes that the change was made from.
-    content
-        The bytes with the change.
-    job
-        The job with the change.
-    inherited_from
-        The file from which the job had the list so far; empty if it stands in the job itself. The change
-        writes all of it into the job.
-    """
-
-    path: Path
-    digest: str
-    content: bytes
-    job: Job
+    path: Path  #: The file.
+    digest: str  #: SHA-256 of the bytes that the change was made from.
+    content: bytes  #: The bytes with the change.
+    job: Job  #: The job with the change.
+    #: The file from which the job had the list so far; empty if it stands in the job itself. The change
+    #: writes all of it into the job.
     inherited_from: str = ""
 
     def write(self) -> None:
@@ -112,24 +91,13 @@ def named_effect(text: str, registry: Installed, place: Place) -> NamedEffect:
 
 @dataclass(frozen=True, slots=True)
 class ListChange:
-    """What becomes of a list of a job.
+    """What becomes of a list of a job."""
 
-    Attributes
-    ----------
-    where
-        The list.
-    removed
-        Indices of items that go out.
-    changed
-        Items that are written anew, by their indices.
-    added
-        Items that come at the end.
-    """
-
-    where: ListKey
-    removed: Collection[int] = ()
+    where: ListKey  #: The list.
+    removed: Collection[int] = ()  #: Indices of items that go out.
+    #: Items that are written anew, by their indices.
     changed: Mapping[int, Node] = field(default_factory=dict)
-    added: Sequence[Node] = ()
+    added: Sequence[Node] = ()  #: Items that come at the end.
 
 
 def edit_effects(

@@ -29,19 +29,12 @@ _DATE = re.compile(r"\d{4}-\d\d-\d\d", re.ASCII)
 
 @dataclass(frozen=True, slots=True)
 class ParameterChoice:
-    """What somebody wants of a parameter of the model.
+    """What somebody wants of a parameter of the model."""
 
-    Attributes
-    ----------
-    effect, name
-        Which.
-    value
-        To fix it at, in the users' unit; None to leave it to the readings.
-    """
-
+    #: effect and name: Which.
     effect: str
     name: str
-    value: float | None
+    value: float | None  #: To fix it at, in the users' unit; None to leave it to the readings.
 
 
 def edit_parameter(path: Path, job: Job, registry: Installed, wanted: ParameterChoice) -> Edit:

@@ -71,18 +71,10 @@ _PLAIN_KEY = re.compile(r"[A-Za-z_][A-Za-z0-9_-]*")
 
 @dataclass(frozen=True, slots=True)
 class Defaults:
-    """Default keys of jobs.
+    """Default keys of jobs."""
 
-    Attributes
-    ----------
-    keys
-        With their places in the file that states them.
-    path
-        That file: relative paths among the keys are relative to its folder.
-    """
-
-    keys: Keys
-    path: Path
+    keys: Keys  #: With their places in the file that states them.
+    path: Path  #: That file: relative paths among the keys are relative to its folder.
 
     def as_files(self, job: Path) -> tuple[SourceFile, SourceFile]:
         """Return two files that nobody wrote: a job that extends a job file and the defaults, and these."""

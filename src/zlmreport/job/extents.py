@@ -28,25 +28,15 @@ class Form(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Extent:
-    """A value as it is written.
+    """A value as it is written."""
 
-    Attributes
-    ----------
-    form
-        How.
-    start, end
-        Its first character, and the one after its last; comments and blanks behind it do not belong to it.
-    parts
-        Of a list its items, of keys each key and its value in turn.
-    text
-        Of a single value, quotes resolved.
-    """
-
-    form: Form
+    form: Form  #: How.
+    #: start and end: Its first character, and the one after its last; comments and blanks behind it do not
+    #: belong to it.
     start: int
     end: int
-    parts: tuple[Extent, ...] = ()
-    text: str = ""
+    parts: tuple[Extent, ...] = ()  #: Of a list its items, of keys each key and its value in turn.
+    text: str = ""  #: Of a single value, quotes resolved.
 
     def entry(self, name: str) -> tuple[Extent, Extent] | None:
         """Return a key and its value, if these are keys and it is among them."""
@@ -60,18 +50,10 @@ class Extent:
 
 @dataclass(frozen=True, slots=True)
 class Written:
-    """A file's text, and where in it everything stands.
+    """A file's text, and where in it everything stands."""
 
-    Attributes
-    ----------
-    text
-        Of the file, without a byte order mark.
-    root
-        Its value.
-    """
-
-    text: str
-    root: Extent
+    text: str  #: Of the file, without a byte order mark.
+    root: Extent  #: Its value.
     _dashes: tuple[int, ...]
     _colons: tuple[int, ...]
 

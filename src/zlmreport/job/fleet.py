@@ -202,36 +202,16 @@ class FleetKeys(JobPart):
 
 @dataclass(frozen=True, slots=True)
 class FleetFile:
-    """A checked fleet file.
+    """A checked fleet file."""
 
-    Attributes
-    ----------
-    path
-        The file.
-    content
-        Its bytes, as they were read.
-    keys
-        What it says.
-    name
-        Of the fleet.
-    output
-        Folder of the certificates.
-    ledger
-        Path of an SQLite file, or the URL of a database.
-    defaults
-        Keys that all jobs build on; None without any.
-    tree
-        What it says, value by value, with the places.
-    """
-
-    path: Path
-    content: bytes
-    keys: FleetKeys
-    name: str
-    output: Path
-    ledger: str
-    defaults: Defaults | None
-    tree: Keys
+    path: Path  #: The file.
+    content: bytes  #: Its bytes, as they were read.
+    keys: FleetKeys  #: What it says.
+    name: str  #: Of the fleet.
+    output: Path  #: Folder of the certificates.
+    ledger: str  #: Path of an SQLite file, or the URL of a database.
+    defaults: Defaults | None  #: Keys that all jobs build on; None without any.
+    tree: Keys  #: What it says, value by value, with the places.
 
     def place_of(self, *steps: str | int) -> Place:
         """Return where a key stands; of one that is missing, its nearest parent's place."""

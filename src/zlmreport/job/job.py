@@ -25,21 +25,11 @@ from zlmreport.measurement.provenance import SourceFile
 
 @dataclass(frozen=True, slots=True)
 class StandardChoice:
-    """A standard that the job names.
+    """A standard that the job names."""
 
-    Attributes
-    ----------
-    identifier
-        Of an installed standard.
-    options
-        Its own keys, validated by its options class.
-    tolerances
-        Limits by symbol, m or rad.
-    """
-
-    identifier: str
-    options: Options
-    tolerances: Mapping[str, float]
+    identifier: str  #: Of an installed standard.
+    options: Options  #: Its own keys, validated by its options class.
+    tolerances: Mapping[str, float]  #: Limits by symbol, m or rad.
 
 
 @dataclass(frozen=True, slots=True)

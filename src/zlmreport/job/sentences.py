@@ -34,23 +34,12 @@ class Refusal:
 
 @dataclass(frozen=True, slots=True)
 class Mistake:
-    """A value that does not fit, a key that is missing, or one that is unknown.
+    """A value that does not fit, a key that is missing, or one that is unknown."""
 
-    Attributes
-    ----------
-    path
-        Keys and indices that lead to it.
-    place
-        Where it stands; of what is missing, the group that should have it.
-    node
-        The value; None where it is missing.
-    refusals
-        Why: several where a key takes several kinds of values, and this is none of them.
-    """
-
-    path: tuple[Step, ...]
-    place: Place
-    node: Node | None
+    path: tuple[Step, ...]  #: Keys and indices that lead to it.
+    place: Place  #: Where it stands; of what is missing, the group that should have it.
+    node: Node | None  #: The value; None where it is missing.
+    #: Why: several where a key takes several kinds of values, and this is none of them.
     refusals: tuple[Refusal, ...]
 
     @property

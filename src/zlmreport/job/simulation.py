@@ -142,30 +142,14 @@ MOST_READINGS = 200_000
 
 @dataclass(frozen=True, slots=True)
 class SimulationFile:
-    """A checked simulation file.
+    """A checked simulation file."""
 
-    Attributes
-    ----------
-    path
-        The file.
-    keys
-        What it says, in the users' units.
-    axis
-        The axis in SI.
-    effects
-        Effects with their parameters.
-    source
-        Name and digest of the file.
-    tree
-        What it says, value by value, with the places.
-    """
-
-    path: Path
-    keys: SimulationKeys
-    axis: Axis
-    effects: tuple[EffectChoice, ...]
-    source: SourceFile
-    tree: Keys
+    path: Path  #: The file.
+    keys: SimulationKeys  #: What it says, in the users' units.
+    axis: Axis  #: The axis in SI.
+    effects: tuple[EffectChoice, ...]  #: Effects with their parameters.
+    source: SourceFile  #: Name and digest of the file.
+    tree: Keys  #: What it says, value by value, with the places.
 
     def place_of(self, *steps: str | int) -> Place:
         """Return where a key stands; of one that is missing, its nearest parent's place."""

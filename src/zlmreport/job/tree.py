@@ -15,21 +15,11 @@ Step: TypeAlias = str | int
 
 @dataclass(frozen=True, slots=True)
 class Scalar:
-    """A single value as it is spelt.
+    """A single value as it is spelt."""
 
-    Attributes
-    ----------
-    place
-        Where it stands; where nothing stands, its key.
-    text
-        The value's text, quotes and line folding resolved.
-    plain
-        Whether it stands without quotes: only then can it be empty, or a number.
-    """
-
-    place: Place
-    text: str
-    plain: bool = True
+    place: Place  #: Where it stands; where nothing stands, its key.
+    text: str  #: The value's text, quotes and line folding resolved.
+    plain: bool = True  #: Whether it stands without quotes: only then can it be empty, or a number.
 
     @property
     def is_nothing(self) -> bool:

@@ -49,19 +49,12 @@ _FORMULA = re.compile(r"[\d*·×/+]\s*L\b|\bL\s*[*·×/+]")
 
 @dataclass(frozen=True, slots=True)
 class Enclosure:
-    """The only files that jobs can name: those that came with a document.
+    """The only files that jobs can name: those that came with a document."""
 
-    Attributes
-    ----------
-    files
-        Where each lies, by its path from the folder of the job as it was, ``../laboratory.yaml``, or from
-        the root.
-    nowhere
-        A folder that is not there: where every other reference leads.
-    """
-
+    #: Where each lies, by its path from the folder of the job as it was, ``../laboratory.yaml``, or from the
+    #: root.
     files: Mapping[str, Path]
-    nowhere: Path
+    nowhere: Path  #: A folder that is not there: where every other reference leads.
 
     def path_of(self, file: Path) -> str | None:
         """Return the path of one of the files from the job's folder."""

@@ -99,15 +99,9 @@ class WrongDeviceError(Exception):
 
 
 class Decoder(Protocol):
-    """Bytes to readings, without a port: so that every documented line can be tried.
+    """Bytes to readings, without a port: so that every documented line can be tried."""
 
-    Attributes
-    ----------
-    understood
-        How many lines made sense so far, those among them that hold no reading.
-    """
-
-    understood: int
+    understood: int  #: How many lines made sense so far, those among them that hold no reading.
 
     def feed(self, data: bytes, now: float) -> Sequence[LiveReading]:
         """Return the readings that these bytes complete; `now` is when they arrived, s.

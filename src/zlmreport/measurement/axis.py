@@ -31,23 +31,12 @@ class AxisKind(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class PositionTable:
-    """A quantity over the position of the axis, known at some positions.
+    """A quantity over the position of the axis, known at some positions."""
 
-    Attributes
-    ----------
-    positions
-        Rising, m or rad; two at least.
-    values
-        At these positions, SI.
-    source
-        The file that it was read from; None for one made in memory.
-    reverse
-        The values moving back, where they are others; None where one column stands for both directions.
-    """
-
-    positions: tuple[float, ...]
-    values: tuple[float, ...]
-    source: SourceFile | None = None
+    positions: tuple[float, ...]  #: Rising, m or rad; two at least.
+    values: tuple[float, ...]  #: At these positions, SI.
+    source: SourceFile | None = None  #: The file that it was read from; None for one made in memory.
+    #: The values moving back, where they are others; None where one column stands for both directions.
     reverse: tuple[float, ...] | None = None
 
     @property

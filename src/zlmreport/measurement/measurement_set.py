@@ -26,24 +26,15 @@ from zlmreport.quantities.units import (
 
 @dataclass(frozen=True, slots=True)
 class ConditionKind:
-    """A kind of condition.
+    """A kind of condition."""
 
-    Attributes
-    ----------
-    units
-        The units that files may give it in, by their spellings.
-    unit
-        The one that is meant where a file names none, and in which messages speak.
-    lowest, highest
-        In that unit: beyond, the value is a mistake and not the condition of a measurement.
-    usual
-        In that unit, the lowest and the highest that is usual where machines are measured.
-    """
-
-    units: Mapping[str, Scale]
-    unit: Scale
+    units: Mapping[str, Scale]  #: The units that files may give it in, by their spellings.
+    unit: Scale  #: The one that is meant where a file names none, and in which messages speak.
+    #: lowest and highest: In that unit: beyond, the value is a mistake and not the condition of a
+    #: measurement.
     lowest: float
     highest: float
+    #: In that unit, the lowest and the highest that is usual where machines are measured.
     usual: tuple[float, float]
 
 
@@ -83,21 +74,11 @@ CONDITIONS: Mapping[str, ConditionKind] = MappingProxyType(
 
 @dataclass(frozen=True, slots=True)
 class MissingReading:
-    """A reading that the test should have and has not.
+    """A reading that the test should have and has not."""
 
-    Attributes
-    ----------
-    target_position
-        m or rad.
-    approach
-        Direction of approach.
-    run
-        Number of the run, from 1.
-    """
-
-    target_position: float
-    approach: Approach
-    run: int
+    target_position: float  #: m or rad.
+    approach: Approach  #: Direction of approach.
+    run: int  #: Number of the run, from 1.
 
 
 @dataclass(frozen=True, slots=True)

@@ -21,21 +21,11 @@ _DELIMITERS = ("\t", ";", ",")
 
 @dataclass(frozen=True, slots=True)
 class TableColumn:
-    """A column that such a table has.
+    """A column that such a table has."""
 
-    Attributes
-    ----------
-    name
-        As the header names it; a unit may follow in brackets.
-    unit
-        Of its numbers where the header names none.
-    units
-        That the header may name, by their spellings.
-    """
-
-    name: str
-    unit: Unit
-    units: Mapping[str, Unit]
+    name: str  #: As the header names it; a unit may follow in brackets.
+    unit: Unit  #: Of its numbers where the header names none.
+    units: Mapping[str, Unit]  #: That the header may name, by their spellings.
 
 
 @dataclass(frozen=True, slots=True)

@@ -66,30 +66,14 @@ class Correction:
 
 @dataclass(frozen=True, slots=True)
 class Exclusion:
-    """A reading that was set aside.
+    """A reading that was set aside."""
 
-    Attributes
-    ----------
-    reading
-        Its place in the measurement set.
-    target_position
-        m or rad.
-    approach
-        Direction of approach.
-    run
-        Number of its run, from 1.
-    deviation
-        What was read, corrected as the others are, m or rad.
-    reason
-        Why, in the words of whoever did it.
-    """
-
-    reading: int
-    target_position: float
-    approach: Approach
-    run: int
-    deviation: float
-    reason: str
+    reading: int  #: Its place in the measurement set.
+    target_position: float  #: m or rad.
+    approach: Approach  #: Direction of approach.
+    run: int  #: Number of its run, from 1.
+    deviation: float  #: What was read, corrected as the others are, m or rad.
+    reason: str  #: Why, in the words of whoever did it.
 
 
 @dataclass(frozen=True, slots=True)

@@ -19,18 +19,10 @@ ACROSS = "position_of_second_axis"
 
 @dataclass(frozen=True, slots=True)
 class Line:
-    """A test of the axis at one position of the second axis.
+    """A test of the axis at one position of the second axis."""
 
-    Attributes
-    ----------
-    across
-        R, the position of the second axis, m.
-    observed
-        The readings, none set aside.
-    """
-
-    across: float
-    observed: Observations
+    across: float  #: R, the position of the second axis, m.
+    observed: Observations  #: The readings, none set aside.
 
     def aside(self) -> IntArray:
         """Return the readings that stand off, by their places among those observed."""
@@ -43,24 +35,14 @@ class Line:
 
 @dataclass(frozen=True, slots=True)
 class Readings:
-    """The readings of all lines that approach from one side.
+    """The readings of all lines that approach from one side."""
 
-    Attributes
-    ----------
-    second
-        Name of the second axis.
-    design
-        With R as the condition `ACROSS`. A target is a point of the plane: a line that is measured again
-        shares its targets, but no two lines share a run.
-    deviation : (N,) array
-        x, m.
-    noise_floor
-        σ_f of a single reading, from the repeats within each line, m; None without repeats.
-    """
-
-    second: str
+    second: str  #: Name of the second axis.
+    #: With R as the condition `ACROSS`. A target is a point of the plane: a line that is measured again
+    #: shares its targets, but no two lines share a run.
     design: Design
-    deviation: FloatArray
+    deviation: FloatArray  #: (N,): x, m.
+    #: σ_f of a single reading, from the repeats within each line, m; None without repeats.
     noise_floor: float | None
 
     @property

@@ -29,24 +29,12 @@ SCHEMA = "zlmreport/surface/1"
 
 @dataclass(frozen=True, slots=True)
 class Plane:
-    """The deviation of an axis over a plane.
+    """The deviation of an axis over a plane."""
 
-    Attributes
-    ----------
-    axis
-        The axis that was measured.
-    second
-        Name of the second axis.
-    lines
-        In rising order of the second axis.
-    surfaces
-        One for each direction of approach.
-    """
-
-    axis: Axis
-    second: str
-    lines: tuple[Line, ...]
-    surfaces: tuple[Surface, ...]
+    axis: Axis  #: The axis that was measured.
+    second: str  #: Name of the second axis.
+    lines: tuple[Line, ...]  #: In rising order of the second axis.
+    surfaces: tuple[Surface, ...]  #: One for each direction of approach.
 
 
 def plane_of(measured: Sequence[Measured]) -> Plane:

@@ -82,21 +82,11 @@ class Powers(Effect):
 
 @dataclass(frozen=True, slots=True)
 class Coefficients:
-    """The polynomial in powers of both positions, as equation (13) prints it.
+    """The polynomial in powers of both positions, as equation (13) prints it."""
 
-    Attributes
-    ----------
-    orders
-        Highest power of P, and of R.
-    values : (1 + both orders,) array
-        a, b₁, c₁, d₁, b₂, c₂, d₂; SI: m, 1, m⁻¹, m⁻², …
-    covariance : square array
-        Of the values.
-    """
-
-    orders: tuple[int, int]
-    values: FloatArray
-    covariance: FloatArray
+    orders: tuple[int, int]  #: Highest power of P, and of R.
+    values: FloatArray  #: (1 + both orders,): a, b₁, c₁, d₁, b₂, c₂, d₂; SI: m, 1, m⁻¹, m⁻², …
+    covariance: FloatArray  #: square: Of the values.
 
     @property
     def powers(self) -> tuple[tuple[int, int], ...]:
@@ -117,30 +107,15 @@ class Coefficients:
 
 @dataclass(frozen=True, slots=True)
 class Surface:
-    """The deviation over the plane for one direction of approach.
+    """The deviation over the plane for one direction of approach."""
 
-    Attributes
-    ----------
-    approach
-        The direction.
-    readings
-        What was fitted.
-    fit
-        The model, with scaled positions.
-    powers
-        Its one effect.
-    error
-        How far the readings are from it.
-    interaction
-        The product of both positions, when it is added: the deviation at the corners of the plane that
-        equation (13) has no term for, m.
-    """
-
-    approach: Approach
-    readings: Readings
-    fit: Fit
-    powers: Powers
-    error: ErrorNumbers
+    approach: Approach  #: The direction.
+    readings: Readings  #: What was fitted.
+    fit: Fit  #: The model, with scaled positions.
+    powers: Powers  #: Its one effect.
+    error: ErrorNumbers  #: How far the readings are from it.
+    #: The product of both positions, when it is added: the deviation at the corners of the plane that
+    #: equation (13) has no term for, m.
     interaction: Estimate
 
     @property

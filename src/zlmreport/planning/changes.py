@@ -73,24 +73,13 @@ _PAUSE = {
 
 @dataclass(frozen=True, slots=True)
 class Change:
-    """A change of a plan.
+    """A change of a plan."""
 
-    Attributes
-    ----------
-    of
-        What it changes: two changes of the same do not go together.
-    reason
-        What is wrong with the plan as it is; None where nothing better is known than that it sees too little.
-    advice
-        What to do.
-    changed
-        Returns the plan with the change.
-    """
-
-    of: str
+    of: str  #: What it changes: two changes of the same do not go together.
+    #: What is wrong with the plan as it is; None where nothing better is known than that it sees too little.
     reason: Words | None
-    advice: Words
-    changed: Callable[[Plan], Plan]
+    advice: Words  #: What to do.
+    changed: Callable[[Plan], Plan]  #: Returns the plan with the change.
 
 
 def together(changes: Sequence[Change]) -> Change:

@@ -71,31 +71,17 @@ _INSTEAD = Words(en="{statement} Instead: {advice}.", de="{statement} Stattdesse
 
 @dataclass(frozen=True, slots=True)
 class Rival:
-    """An effect that may be the true one.
+    """An effect that may be the true one."""
 
-    Attributes
-    ----------
-    effect
-        In one form.
-    probability
-        That it is.
-    theta, gamma : (s,), (k,) arrays
-        Its searched and linear parameters, SI; empty γ where no readings tell them.
-    root : (k + s, k + s) array
-        A factor of their covariance.
-    size
-        Where no readings tell its parameters: its root mean square value, m or rad.
-    kept
-        What the shrinking left of its coefficients, 0 to 1.
-    """
-
-    effect: Effect
-    probability: float
+    effect: Effect  #: In one form.
+    probability: float  #: That it is.
+    #: theta and gamma: (s,), (k,): Its searched and linear parameters, SI; empty γ where no readings tell
+    #: them.
     theta: FloatArray
     gamma: FloatArray
-    root: FloatArray
-    size: float = 0.0
-    kept: float = 1.0
+    root: FloatArray  #: (k + s, k + s): A factor of their covariance.
+    size: float = 0.0  #: Where no readings tell its parameters: its root mean square value, m or rad.
+    kept: float = 1.0  #: What the shrinking left of its coefficients, 0 to 1.
 
     @property
     def stands_out(self) -> bool:
@@ -164,37 +150,21 @@ def _possible(gamma: FloatArray, effect: Effect) -> FloatArray:
 
 @dataclass(frozen=True, slots=True)
 class Question:
-    """Which of several effects it is.
+    """Which of several effects it is."""
 
-    Attributes
-    ----------
-    axis, model
-        The axis, and the effects beside which they stand.
-    base
-        Returns what the model can imitate in a test, shape (N, p).
-    rivals
-        The effects in question.
-    sigma, degrees
-        Repeatability of single readings, m or rad, and how well it is known.
-    ratios
-        φ of the other sources of scatter.
-    known
-        Standard deviation of a noise of known size beside σ, m or rad.
-    span
-        The travel on which the parameters hold, m or rad; None for that of each plan.
-    logged
-        Columns that were logged, with the last value of each; None for all that can be expected.
-    """
-
+    #: axis and model: The axis, and the effects beside which they stand.
     axis: Axis
     model: AxisModel
-    base: Callable[[Design], FloatArray]
-    rivals: tuple[Rival, ...]
+    base: Callable[[Design], FloatArray]  #: Returns what the model can imitate in a test, shape (N, p).
+    rivals: tuple[Rival, ...]  #: The effects in question.
+    #: sigma and degrees: Repeatability of single readings, m or rad, and how well it is known.
     sigma: float
     degrees: int
-    ratios: Mapping[NoiseSource, float]
-    known: float = 0.0
+    ratios: Mapping[NoiseSource, float]  #: φ of the other sources of scatter.
+    known: float = 0.0  #: Standard deviation of a noise of known size beside σ, m or rad.
+    #: The travel on which the parameters hold, m or rad; None for that of each plan.
     span: tuple[float, float] | None = None
+    #: Columns that were logged, with the last value of each; None for all that can be expected.
     logged: Mapping[str, float] | None = None
 
     @property
@@ -224,30 +194,14 @@ class Question:
 
 @dataclass(frozen=True, slots=True)
 class Experiment:
-    """What to measure next.
+    """What to measure next."""
 
-    Attributes
-    ----------
-    effects
-        Identifiers of those that it tells apart.
-    plan
-        The plan; None where none that was simulated decides more often than not.
-    logs
-        Columns to log beside the readings.
-    minutes
-        What it takes; 0 without a plan.
-    decides
-        The probability that it decides.
-    statement
-        All this in a sentence or two.
-    """
-
-    effects: tuple[str, ...]
-    plan: Plan | None
-    logs: tuple[str, ...]
-    minutes: float
-    decides: float
-    statement: Words
+    effects: tuple[str, ...]  #: Identifiers of those that it tells apart.
+    plan: Plan | None  #: The plan; None where none that was simulated decides more often than not.
+    logs: tuple[str, ...]  #: Columns to log beside the readings.
+    minutes: float  #: What it takes; 0 without a plan.
+    decides: float  #: The probability that it decides.
+    statement: Words  #: All this in a sentence or two.
 
 
 @dataclass(frozen=True, slots=True)

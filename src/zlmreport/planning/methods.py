@@ -32,21 +32,11 @@ RUN_BY_RUN = frozenset({Method.LINEAR, Method.UNIDIRECTIONAL})
 
 @dataclass(frozen=True, slots=True)
 class Stop:
-    """A point at which the axis stops: at a target for a reading, or beyond one to turn round.
+    """A point at which the axis stops: at a target for a reading, or beyond one to turn round."""
 
-    Attributes
-    ----------
-    position
-        m or rad.
-    target
-        Index of the target position that is read there; None where nothing is read.
-    run
-        Number of the run of that reading, from 1.
-    """
-
-    position: float
-    target: int | None = None
-    run: int = 0
+    position: float  #: m or rad.
+    target: int | None = None  #: Index of the target position that is read there; None where nothing is read.
+    run: int = 0  #: Number of the run of that reading, from 1.
 
 
 Path: TypeAlias = Iterator[Stop]
@@ -136,26 +126,13 @@ _PATHS: Mapping[Method, Callable[[Sequence[float], int, float], Path]] = Mapping
 
 @dataclass(frozen=True, slots=True)
 class Visit:
-    """A reading that is to be taken.
+    """A reading that is to be taken."""
 
-    Attributes
-    ----------
-    target
-        Index of the target position.
-    approach
-        The direction in which the axis comes there.
-    run
-        Number of the run, from 1.
-    since_reversal
-        Distance from the place where the axis last changed its direction, m or rad.
-    travelled
-        The whole way since the visit before, loops included, m or rad; of the first, since the start.
-    """
-
-    target: int
-    approach: Approach
-    run: int
-    since_reversal: float
+    target: int  #: Index of the target position.
+    approach: Approach  #: The direction in which the axis comes there.
+    run: int  #: Number of the run, from 1.
+    since_reversal: float  #: Distance from the place where the axis last changed its direction, m or rad.
+    #: The whole way since the visit before, loops included, m or rad; of the first, since the start.
     travelled: float
 
 

@@ -58,27 +58,14 @@ _ROUNDING = 1e-9
 
 @dataclass(frozen=True, slots=True)
 class Proposal:
-    """The plan of a test.
+    """The plan of a test."""
 
-    Attributes
-    ----------
-    plan
-        Targets, method, runs, overrun, feed and dwell.
-    expected
-        What is expected of the readings.
-    seed
-        Of random fractions.
-    has_fractions
-        Whether the targets were drawn with it: not where the job lists them, or asks for even ones.
-    assumed
-        Keys of the job that it does not state and that nothing but custom answers.
-    """
-
-    plan: Plan
-    expected: Expected
-    seed: int
+    plan: Plan  #: Targets, method, runs, overrun, feed and dwell.
+    expected: Expected  #: What is expected of the readings.
+    seed: int  #: Of random fractions.
+    #: Whether the targets were drawn with it: not where the job lists them, or asks for even ones.
     has_fractions: bool
-    assumed: frozenset[str]
+    assumed: frozenset[str]  #: Keys of the job that it does not state and that nothing but custom answers.
 
 
 def propose(job: Job, standards: Sequence[PlannedStandard]) -> Proposal:
@@ -176,49 +163,23 @@ def _assumed(job: Job) -> frozenset[str]:
 
 @dataclass(frozen=True, slots=True)
 class Expected:
-    """What is expected of a test that nobody has done yet.
+    """What is expected of a test that nobody has done yet."""
 
-    Attributes
-    ----------
-    sigma
-        Repeatability of a single reading, m or rad.
-    temperature_change
-        From the first reading to the last, K.
-    """
-
-    sigma: float
-    temperature_change: float
+    sigma: float  #: Repeatability of a single reading, m or rad.
+    temperature_change: float  #: From the first reading to the last, K.
 
 
 @dataclass(frozen=True, slots=True)
 class Plan:
-    """How the axis is tested.
+    """How the axis is tested."""
 
-    Attributes
-    ----------
-    targets : (m,) array
-        Target positions, rising, m or rad.
-    method
-        The positioning method.
-    runs
-        How often each target is read in each direction.
-    overrun
-        How far beyond a target the axis turns round, m or rad.
-    feed
-        m/s or rad/s.
-    dwell
-        Time at rest before each reading, s.
-    pause
-        Half-way.
-    """
-
-    targets: FloatArray
-    method: Method = Method.LINEAR
-    runs: int = 5
-    overrun: float = 5e-3
-    feed: float = 2 / 60
-    dwell: float = 5.0
-    pause: Pause | None = None
+    targets: FloatArray  #: (m,): Target positions, rising, m or rad.
+    method: Method = Method.LINEAR  #: The positioning method.
+    runs: int = 5  #: How often each target is read in each direction.
+    overrun: float = 5e-3  #: How far beyond a target the axis turns round, m or rad.
+    feed: float = 2 / 60  #: m/s or rad/s.
+    dwell: float = 5.0  #: Time at rest before each reading, s.
+    pause: Pause | None = None  #: Half-way.
 
     @property
     def stops(self) -> list[float]:
@@ -268,21 +229,11 @@ _FOLLOW: Mapping[str, Mapping[str, float]] = {
 
 @dataclass(frozen=True, slots=True)
 class Pause:
-    """A rest half-way through a test in which a temperature changes.
+    """A rest half-way through a test in which a temperature changes."""
 
-    Attributes
-    ----------
-    duration
-        s.
-    change
-        Of the temperature, K.
-    of
-        Which one, by the name of its column: others follow it in part.
-    """
-
-    duration: float
-    change: float
-    of: str
+    duration: float  #: s.
+    change: float  #: Of the temperature, K.
+    of: str  #: Which one, by the name of its column: others follow it in part.
 
     def change_of(self, column: str) -> float:
         """Return by how much another temperature changes meanwhile, K."""

@@ -33,46 +33,23 @@ USUAL_MODEL = ("offset", "scale-error", "backlash")
 
 @dataclass(frozen=True, slots=True)
 class PlannedTest:
-    """A test before it is done.
+    """A test before it is done."""
 
-    Attributes
-    ----------
-    proposal
-        The plan, and what it takes for granted.
-    visits
-        Its readings in their order.
-    design
-        The same with times and the conditions that are expected.
-    travelled
-        The whole way of the axis, loops included, m or rad.
-    duration
-        Of motion and rest together, s.
-    half_seen
-        Known periods of which the targets see two phases only, and so what repeats with them in part only.
-    beyond_travel
-        The lowest and the highest position that the axis reaches, m or rad, where one of them lies beyond
-        an end of its travel.
-    model
-        The effects beside which others are looked for: those of the job that the test determines.
-    seen_effects
-        What is seen of every other installed effect.
-    remedies
-        What to do about those that the plan hides, by their identifiers.
-    findings
-        What each standard asks of the test, by its designation.
-    """
-
-    proposal: Proposal
-    visits: tuple[Visit, ...]
-    design: Design
-    travelled: float
-    duration: float
+    proposal: Proposal  #: The plan, and what it takes for granted.
+    visits: tuple[Visit, ...]  #: Its readings in their order.
+    design: Design  #: The same with times and the conditions that are expected.
+    travelled: float  #: The whole way of the axis, loops included, m or rad.
+    duration: float  #: Of motion and rest together, s.
+    #: Known periods of which the targets see two phases only, and so what repeats with them in part only.
     half_seen: tuple[Words, ...]
+    #: The lowest and the highest position that the axis reaches, m or rad, where one of them lies beyond an
+    #: end of its travel.
     beyond_travel: tuple[float, float] | None
+    #: The effects beside which others are looked for: those of the job that the test determines.
     model: AxisModel
-    seen_effects: tuple[SeenEffect, ...]
-    remedies: Mapping[str, Remedy]
-    findings: Mapping[str, tuple[Finding, ...]]
+    seen_effects: tuple[SeenEffect, ...]  #: What is seen of every other installed effect.
+    remedies: Mapping[str, Remedy]  #: What to do about those that the plan hides, by their identifiers.
+    findings: Mapping[str, tuple[Finding, ...]]  #: What each standard asks of the test, by its designation.
 
     @property
     def logs(self) -> dict[str, list[str]]:

@@ -46,24 +46,12 @@ class Sight(Enum):
 
 @dataclass(frozen=True, slots=True)
 class SeenEffect:
-    """What a plan sees of an effect.
-
-    Attributes
-    ----------
-    effect
-        The effect.
-    sight
-        How far it is seen.
-    visibility
-        The numbers.
-    logs
-        Columns that must be logged beside the readings for it to be tried.
-    """
+    """What a plan sees of an effect."""
 
     effect: Effect
-    sight: Sight
-    visibility: Visibility
-    logs: tuple[str, ...]
+    sight: Sight  #: How far it is seen.
+    visibility: Visibility  #: The numbers.
+    logs: tuple[str, ...]  #: Columns that must be logged beside the readings for it to be tried.
 
 
 def planned_visits(plan: Plan) -> tuple[Visit, ...]:
@@ -168,21 +156,12 @@ class _Asked(Mapping[str, FloatArray]):
 
 @dataclass(frozen=True, slots=True)
 class Remedy:
-    """What to do about an effect that a plan hides.
+    """What to do about an effect that a plan hides."""
 
-    Attributes
-    ----------
-    reason
-        Why the plan hides it; None where nothing better is known than that the model imitates it.
-    advice
-        What to change.
-    share
-        What would then be visible of it; None where another measurement is advised.
-    """
-
+    #: Why the plan hides it; None where nothing better is known than that the model imitates it.
     reason: Words | None
-    advice: Words
-    share: float | None
+    advice: Words  #: What to change.
+    share: float | None  #: What would then be visible of it; None where another measurement is advised.
 
 
 def remedies(

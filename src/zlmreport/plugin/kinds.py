@@ -43,35 +43,16 @@ def _nothing_more(offered: Any) -> str:  # noqa: ARG001 - what a kind asks beyon
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Kind(Generic[Offered_co]):
-    """What a plugin may offer.
+    """What a plugin may offer."""
 
-    Attributes
-    ----------
-    name
-        In hooks, and where a distribution declares what it offers.
-    label
-        In messages and listings.
-    offers
-        What the hook returns: the rest of the sentence "Return …".
-    interface
-        The name in `zlmreport.plugin` of what each must be.
-    reserved
-        Job keys that it must not have of its own.
-    suffix
-        Such as its files have; empty for what writes no file.
-    has_keys
-        Whether a job can give it keys of its own.
-    lacks
-        Returns what is wrong with one beyond a missing member; empty if nothing is.
-    """
-
-    name: str
-    label: str
-    offers: str
-    interface: str
-    reserved: frozenset[str] = frozenset()
-    suffix: str = ""
-    has_keys: bool = True
+    name: str  #: In hooks, and where a distribution declares what it offers.
+    label: str  #: In messages and listings.
+    offers: str  #: What the hook returns: the rest of the sentence "Return …".
+    interface: str  #: The name in `zlmreport.plugin` of what each must be.
+    reserved: frozenset[str] = frozenset()  #: Job keys that it must not have of its own.
+    suffix: str = ""  #: Such as its files have; empty for what writes no file.
+    has_keys: bool = True  #: Whether a job can give it keys of its own.
+    #: Returns what is wrong with one beyond a missing member; empty if nothing is.
     lacks: Callable[[Any], str] = _nothing_more
 
     @property

@@ -24,20 +24,11 @@ _LONGEST_REASON = 300
 
 @dataclass(frozen=True, slots=True)
 class Plugin:
-    """Where a plugin comes from.
+    """Where a plugin comes from."""
 
-    Attributes
-    ----------
-    name
-        Of its entry point; of a plugin in a file of its own, the file's without its suffix.
-    module
-        That the entry point names, or the file.
-    distribution, version
-        What was installed; empty for a file.
-    """
-
-    name: str
-    module: str = ""
+    name: str  #: Of its entry point; of a plugin in a file of its own, the file's without its suffix.
+    module: str = ""  #: That the entry point names, or the file.
+    #: distribution and version: What was installed; empty for a file.
     distribution: str = ""
     version: str = ""
 

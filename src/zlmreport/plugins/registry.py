@@ -54,22 +54,13 @@ Wanted = TypeVar("Wanted")
 
 @dataclass(frozen=True, slots=True)
 class Offer:
-    """What a plugin offers.
+    """What a plugin offers."""
 
-    Attributes
-    ----------
-    kind, identifier
-        What it is, and what jobs call it.
-    offered
-        The object.
-    plugin
-        Where it comes from.
-    """
-
+    #: kind and identifier: What it is, and what jobs call it.
     kind: Kind[Any]
     identifier: str
-    offered: Any
-    plugin: Plugin
+    offered: Any  #: The object.
+    plugin: Plugin  #: Where it comes from.
 
 
 class Registry:

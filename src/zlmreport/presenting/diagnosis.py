@@ -30,66 +30,39 @@ _FOUND_FROM = Words(
 
 @dataclass(frozen=True, slots=True)
 class FailureRow:
-    """A test of the residuals that failed.
+    """A test of the residuals that failed."""
 
-    Attributes
-    ----------
-    statement, where
-        What the residuals do, and the place, time, run or condition that shows it.
-    p
-        The chance of such residuals if the model held.
-    failure
-        The test.
-    """
-
+    #: statement and where: What the residuals do, and the place, time, run or condition that shows it.
     statement: str
     where: str
-    p: str
-    failure: Failure
+    p: str  #: The chance of such residuals if the model held.
+    failure: Failure  #: The test.
 
 
 @dataclass(frozen=True, slots=True)
 class CandidateRow:
-    """An effect that the model may lack.
+    """An effect that the model may lack."""
 
-    Attributes
-    ----------
-    effect, argument, title
-        Identifier; as a job names it, with its keys unless they are the usual ones; what it is called.
-    probability, p
-        Among all that were tried, in per cent without the sign; chance of so large a fall without it.
-    error
-        Of the model with it.
-    rms, left_out
-        Root mean square error with it, and at runs predicted from the others, without unit.
-    parameters
-        As fitted.
-    explains, tell_apart_by
-        What it explains; what would tell it from its equals, empty if it has none.
-    remedy
-        What to do about it; empty if nobody says.
-    equals
-        Effects that these readings cannot tell from it.
-    is_serious
-        Whether it is worth a word: the first, one with equals, one that is not improbable.
-    candidate
-        The candidate.
-    """
-
+    #: effect, argument and title: Identifier; as a job names it, with its keys unless they are the usual
+    #: ones; what it is called.
     effect: str
     argument: str
     title: str
+    #: probability and p: Among all that were tried, in per cent without the sign; chance of so large a fall
+    #: without it.
     probability: str
     p: str
-    error: ErrorRows
+    error: ErrorRows  #: Of the model with it.
+    #: rms and left_out: Root mean square error with it, and at runs predicted from the others, without unit.
     rms: str
     left_out: str
-    parameters: tuple[ParameterRow, ...]
+    parameters: tuple[ParameterRow, ...]  #: As fitted.
+    #: explains and tell_apart_by: What it explains; what would tell it from its equals, empty if it has none.
     explains: str
     tell_apart_by: str
-    remedy: str
-    equals: tuple[str, ...]
-    is_serious: bool
+    remedy: str  #: What to do about it; empty if nobody says.
+    equals: tuple[str, ...]  #: Effects that these readings cannot tell from it.
+    is_serious: bool  #: Whether it is worth a word: the first, one with equals, one that is not improbable.
     candidate: Candidate
 
 
@@ -103,41 +76,18 @@ class HiddenRow:
 
 @dataclass(frozen=True, slots=True)
 class DiagnosisRows:
-    """A diagnosis in one language.
+    """A diagnosis in one language."""
 
-    Attributes
-    ----------
-    statement
-        The verdict in a sentence.
-    error
-        Of the model.
-    failures
-        Where it fails, the clearest first.
-    candidates
-        What it may lack, best first.
-    implausible
-        Where only impossible ones are left, these.
-    hidden
-        Effects that the plan of the test hides beside this model.
-    not_tested
-        Effects that could not be tried, reason by reason.
-    not_excluded
-        Those among them that nothing speaks against.
-    remarks
-        What was taken for granted.
-    names_candidates
-        Whether the verdict is that the first candidate, or one of its equals, is missing.
-    """
-
-    statement: str
-    error: ErrorRows
-    failures: tuple[FailureRow, ...]
-    candidates: tuple[CandidateRow, ...]
-    implausible: tuple[CandidateRow, ...]
-    hidden: tuple[HiddenRow, ...]
-    not_tested: tuple[HiddenRow, ...]
-    not_excluded: tuple[str, ...]
-    remarks: tuple[str, ...]
+    statement: str  #: The verdict in a sentence.
+    error: ErrorRows  #: Of the model.
+    failures: tuple[FailureRow, ...]  #: Where it fails, the clearest first.
+    candidates: tuple[CandidateRow, ...]  #: What it may lack, best first.
+    implausible: tuple[CandidateRow, ...]  #: Where only impossible ones are left, these.
+    hidden: tuple[HiddenRow, ...]  #: Effects that the plan of the test hides beside this model.
+    not_tested: tuple[HiddenRow, ...]  #: Effects that could not be tried, reason by reason.
+    not_excluded: tuple[str, ...]  #: Those among them that nothing speaks against.
+    remarks: tuple[str, ...]  #: What was taken for granted.
+    #: Whether the verdict is that the first candidate, or one of its equals, is missing.
     names_candidates: bool
 
     @property

@@ -46,24 +46,16 @@ _TOO_FINE = Words(
 
 @dataclass(frozen=True, slots=True)
 class ErrorRows:
-    """How far model and readings are apart.
+    """How far model and readings are apart."""
 
-    Attributes
-    ----------
-    rms, noise_floor, left_out
-        Root mean square error; scatter of a single reading; error at runs predicted from the others. Each
-        with three significant digits and its unit; None where the test does not tell.
-    chi2_per_dof
-        χ²/ν, likewise.
-    language
-        Of the names.
-    """
-
+    #: rms, noise_floor and left_out: Root mean square error; scatter of a single reading; error at runs
+    #: predicted from the others. Each with three significant digits and its unit; None where the test does
+    #: not tell.
     rms: str
     noise_floor: str | None
     left_out: str | None
-    chi2_per_dof: str | None
-    language: Language
+    chi2_per_dof: str | None  #: χ²/ν, likewise.
+    language: Language  #: Of the names.
 
     @classmethod
     def of(cls, error: ErrorNumbers, axis: Axis, language: Language) -> ErrorRows:
@@ -93,40 +85,23 @@ class ErrorRows:
 
 @dataclass(frozen=True, slots=True)
 class ParameterRow:
-    """A parameter of a fitted model, rounded to what is known.
+    """A parameter of a fitted model, rounded to what is known."""
 
-    Attributes
-    ----------
-    effect
-        Identifier of its effect.
-    name, notation, description
-        As jobs name it, as it is printed, and in words.
-    value, uncertainty, unit
-        As they are printed; no uncertainty of a given value.
-    number
-        The printed value as a number: what a click fixes is what was shown.
-    is_given
-        Whether the job states it.
-    is_on_grid
-        Whether it is one of the values that were tried, and the uncertainty half the interval about it.
-    plausibility
-        How it lies to what is usual for the effect.
-    expected
-        The value that follows from the job, without unit; empty where none does.
-    """
-
-    effect: str
+    effect: str  #: Identifier of its effect.
+    #: name, notation and description: As jobs name it, as it is printed, and in words.
     name: str
     notation: str
     description: str
+    #: value, uncertainty and unit: As they are printed; no uncertainty of a given value.
     value: str
     uncertainty: str
     unit: str
-    number: float
-    is_given: bool = False
+    number: float  #: The printed value as a number: what a click fixes is what was shown.
+    is_given: bool = False  #: Whether the job states it.
+    #: Whether it is one of the values that were tried, and the uncertainty half the interval about it.
     is_on_grid: bool = False
-    plausibility: Plausibility = Plausibility.UNKNOWN
-    expected: str = ""
+    plausibility: Plausibility = Plausibility.UNKNOWN  #: How it lies to what is usual for the effect.
+    expected: str = ""  #: The value that follows from the job, without unit; empty where none does.
 
     @classmethod
     def of(cls, estimate: Estimate, design: Design, language: Language) -> ParameterRow:

@@ -29,14 +29,9 @@ EXTERNAL = "‡"
 
 @dataclass(frozen=True, slots=True)
 class Marks:
-    """Whose the values of a job are, where they are not the laboratory's own.
+    """Whose the values of a job are, where they are not the laboratory's own."""
 
-    Attributes
-    ----------
-    by_customer, external
-        Dotted job keys.
-    """
-
+    #: by_customer and external: Dotted job keys.
     by_customer: frozenset[str] = frozenset()
     external: frozenset[str] = frozenset()
 

@@ -166,22 +166,13 @@ def _decimals(value: float) -> int:
 
 @dataclass(frozen=True, slots=True)
 class Span:
-    """A stretch of a symbol that is set alike.
+    """A stretch of a symbol that is set alike."""
 
-    Attributes
-    ----------
-    text
-        What is set.
-    italic
-        True for a quantity's letter and for a running index, as ISO 80000-1 sets them; words such as
-        ``max`` and operators stay upright.
-    subscript
-        True below the line.
-    """
-
-    text: str
+    text: str  #: What is set.
+    #: True for a quantity's letter and for a running index, as ISO 80000-1 sets them; words such as ``max``
+    #: and operators stay upright.
     italic: bool
-    subscript: bool
+    subscript: bool  #: True below the line.
 
 
 def spans(notation: str) -> tuple[Span, ...]:

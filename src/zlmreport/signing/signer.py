@@ -270,21 +270,11 @@ _EXAMPLE = "pkcs11:token=…;object=…?module-path=/usr/lib/…"
 
 @dataclass(frozen=True, slots=True)
 class TokenUri:
-    """A key in a token.
+    """A key in a token."""
 
-    Attributes
-    ----------
-    module
-        The driver: a shared library.
-    token
-        Label of the token.
-    label
-        Label of the key and its certificate.
-    """
-
-    module: Path
-    token: str
-    label: str
+    module: Path  #: The driver: a shared library.
+    token: str  #: Label of the token.
+    label: str  #: Label of the key and its certificate.
 
 
 def parse_token_uri(text: str, place: Place) -> TokenUri:

@@ -40,66 +40,37 @@ class Integrity(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Signature:
-    """One signature.
+    """One signature."""
 
-    Attributes
-    ----------
-    signer
-        Name on the signer's certificate: anybody can make one with any name.
-    fingerprint
-        SHA-256 of the certificate in hexadecimal, to compare with the one that the laboratory publishes.
-    time
-        When it was signed, by its time stamp or else by the signer's clock; None if neither says.
-    stamped_by
-        Whose time stamp that is; empty if it is the signer's clock.
-    is_time_trusted
-        Whether the time stamp is intact and trusted.
-    holds
-        Whether the bytes that it covers are the bytes that were signed with the certificate's key.
-    covers_file
-        Whether it covers the whole file: nothing was appended after it.
-    is_trusted
-        Whether the certificate, or an authority that issued it, is among those that are trusted, both were
-        valid when it was signed, and neither is known to have been revoked then.
-    distrust
-        Why it is not trusted, where that is known.
-    is_stamp
-        Whether it is the time stamp of the whole document, and nobody's signature.
-    changes
-        What was changed after it, in words; empty if that is nothing but proofs of its validity.
-    """
-
-    signer: str
+    signer: str  #: Name on the signer's certificate: anybody can make one with any name.
+    #: SHA-256 of the certificate in hexadecimal, to compare with the one that the laboratory publishes.
     fingerprint: str
+    #: When it was signed, by its time stamp or else by the signer's clock; None if neither says.
     time: datetime | None
+    #: Whether the bytes that it covers are the bytes that were signed with the certificate's key.
     holds: bool
-    covers_file: bool
+    covers_file: bool  #: Whether it covers the whole file: nothing was appended after it.
+    #: Whether the certificate, or an authority that issued it, is among those that are trusted, both were
+    #: valid when it was signed, and neither is known to have been revoked then.
     is_trusted: bool = False
-    stamped_by: str = ""
-    is_time_trusted: bool = False
-    distrust: str = ""
-    is_stamp: bool = False
+    stamped_by: str = ""  #: Whose time stamp that is; empty if it is the signer's clock.
+    is_time_trusted: bool = False  #: Whether the time stamp is intact and trusted.
+    distrust: str = ""  #: Why it is not trusted, where that is known.
+    is_stamp: bool = False  #: Whether it is the time stamp of the whole document, and nobody's signature.
+    #: What was changed after it, in words; empty if that is nothing but proofs of its validity.
     changes: str = ""
 
 
 @dataclass(frozen=True, slots=True)
 class SignatureState:
-    """What can be said of a PDF's signatures.
+    """What can be said of a PDF's signatures."""
 
-    Attributes
-    ----------
-    integrity
-        Intact if every signature holds and the last covers the whole file; altered otherwise. Unchecked if
-        there is one, but pyHanko (``pip install 'zlmreport[sign]'``) is not installed.
-    signatures
-        In the order in which they were made; those that cannot be read are absent.
-    reason
-        Why it is altered or unchecked, in words; empty otherwise.
-    """
-
+    #: Intact if every signature holds and the last covers the whole file; altered otherwise. Unchecked if
+    #: there is one, but pyHanko (``pip install 'zlmreport[sign]'``) is not installed.
     integrity: Integrity
+    #: In the order in which they were made; those that cannot be read are absent.
     signatures: tuple[Signature, ...] = ()
-    reason: str = ""
+    reason: str = ""  #: Why it is altered or unchecked, in words; empty otherwise.
 
     @property
     def is_trusted(self) -> bool:

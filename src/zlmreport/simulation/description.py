@@ -20,107 +20,52 @@ from zlmreport.quantities.arrays import BoolArray, FloatArray
 
 @dataclass(frozen=True, slots=True)
 class Course:
-    """How a condition changes during the test, and how it is logged.
+    """How a condition changes during the test, and how it is logged."""
 
-    Attributes
-    ----------
-    start
-        At the first reading, SI.
-    end
-        At the last reading where there is no time constant, else what it tends to; None: it stays.
-    time_constant
-        Of the way from start to end, s; None for a straight way.
-    swing
-        Amplitude of a sine that is added.
-    swing_period
-        Its period, s.
-    sensor_noise
-        Standard deviation of what is logged.
-    resolution
-        Of what is logged; 0 for none.
-    is_logged
-        Whether the condition is logged at all; it acts in any case.
-    """
-
-    start: float
+    start: float  #: At the first reading, SI.
+    #: At the last reading where there is no time constant, else what it tends to; None: it stays.
     end: float | None = None
-    time_constant: float | None = None
-    swing: float = 0.0
-    swing_period: float = 900.0
-    sensor_noise: float = 0.0
-    resolution: float = 0.0
-    is_logged: bool = True
+    time_constant: float | None = None  #: Of the way from start to end, s; None for a straight way.
+    swing: float = 0.0  #: Amplitude of a sine that is added.
+    swing_period: float = 900.0  #: Its period, s.
+    sensor_noise: float = 0.0  #: Standard deviation of what is logged.
+    resolution: float = 0.0  #: Of what is logged; 0 for none.
+    is_logged: bool = True  #: Whether the condition is logged at all; it acts in any case.
 
 
 @dataclass(frozen=True, slots=True)
 class Noise:
-    """Everything random about the readings, m or rad, as standard deviations.
+    """Everything random about the readings, m or rad, as standard deviations."""
 
-    Attributes
-    ----------
-    reading
-        σ of a single reading.
-    unequal
-        By which share of itself σ differs from target to target, at most.
-    position
-        Fixed in position: geometry that no smooth effect describes.
-    position_and_direction
-        Fixed in position, of opposite sign in the two directions.
-    run
-        Every run a little displaced.
-    drift, drift_time
-        Slow random drift, and the time over which it forgets itself, s.
-    outlier_share, outlier_size
-        The probability that a reading is off, and by how much, up or down.
-    missing_share
-        The probability that a reading is missing.
-    resolution
-        Of the instrument; 0 for none.
-    """
-
-    reading: float = 0.0
-    unequal: float = 0.0
-    position: float = 0.0
-    position_and_direction: float = 0.0
-    run: float = 0.0
+    reading: float = 0.0  #: σ of a single reading.
+    unequal: float = 0.0  #: By which share of itself σ differs from target to target, at most.
+    position: float = 0.0  #: Fixed in position: geometry that no smooth effect describes.
+    position_and_direction: float = 0.0  #: Fixed in position, of opposite sign in the two directions.
+    run: float = 0.0  #: Every run a little displaced.
+    #: drift and drift_time: Slow random drift, and the time over which it forgets itself, s.
     drift: float = 0.0
     drift_time: float = 600.0
+    #: outlier_share and outlier_size: The probability that a reading is off, and by how much, up or down.
     outlier_share: float = 0.0
     outlier_size: float = 0.0
-    missing_share: float = 0.0
-    resolution: float = 0.0
+    missing_share: float = 0.0  #: The probability that a reading is missing.
+    resolution: float = 0.0  #: Of the instrument; 0 for none.
 
 
 @dataclass(frozen=True, slots=True)
 class Description:
-    """A test that is to be simulated.
+    """A test that is to be simulated."""
 
-    Attributes
-    ----------
-    axis
-        The axis, with its tables.
-    plan
-        How it is tested.
-    seed
-        Of everything random: the same description gives the same test. Each random part has a stream of
-        its own, so that changing one leaves the others as they are.
-    effects
-        What makes the axis err, each with the values of its parameters; linear ones that are left out are 0.
-    conditions
-        By name.
-    noise
-        Everything random about the readings.
-    time_is_logged
-        Whether the readings carry times.
-    """
-
-    axis: Axis
-    plan: Plan
+    axis: Axis  #: The axis, with its tables.
+    plan: Plan  #: How it is tested.
+    #: Of everything random: the same description gives the same test. Each random part has a stream of its
+    #: own, so that changing one leaves the others as they are.
     seed: int
+    #: What makes the axis err, each with the values of its parameters; linear ones that are left out are 0.
     effects: tuple[Term, ...] = ()
-    conditions: Mapping[str, Course] = field(default_factory=dict)
-    noise: Noise = field(default_factory=Noise)
-    time_is_logged: bool = True
+    conditions: Mapping[str, Course] = field(default_factory=dict)  #: By name.
+    noise: Noise = field(default_factory=Noise)  #: Everything random about the readings.
+    time_is_logged: bool = True  #: Whether the readings carry times.
 
 
 class Stream(IntEnum):

@@ -37,21 +37,11 @@ _REMARK = Words(
 
 @dataclass(frozen=True, slots=True)
 class Simulation:
-    """A simulated test.
+    """A simulated test."""
 
-    Attributes
-    ----------
-    measurements
-        The readings as an instrument would have given them.
-    design
-        The test with its true conditions; it has every reading, the missing ones too.
-    systematic : (N,) array
-        The deviation that the effects make, without noise, m or rad.
-    """
-
-    measurements: MeasurementSet
-    design: Design
-    systematic: FloatArray
+    measurements: MeasurementSet  #: The readings as an instrument would have given them.
+    design: Design  #: The test with its true conditions; it has every reading, the missing ones too.
+    systematic: FloatArray  #: (N,): The deviation that the effects make, without noise, m or rad.
 
 
 def simulate(description: Description) -> Simulation:
@@ -166,27 +156,18 @@ def _number_of(condition: str) -> int:
 
 @dataclass(frozen=True, slots=True)
 class EmulatedMachine:
-    """A machine under its part program: an `zlmreport.emulation.emulator.EmulatedAxis` that knows its truth.
+    """A machine under its part program: `zlmreport.emulation.emulator.EmulatedAxis`, its truth known."""
 
-    Attributes
-    ----------
-    moments, places
-        Corners of the motion, s from the start of the emulation, and m or rad: between two of them the axis
-        moves evenly, after the last it rests.
-    weather
-        Conditions at these moments, SI, by name.
-    arrives, leaves : (N,) array
-        When the axis arrives at each visit of the plan, and when it goes on, s from the start.
-    truth
-        What the axis really did: its deviation at each visit, and the true conditions.
-    """
-
+    #: moments and places: Corners of the motion, s from the start of the emulation, and m or rad: between two
+    #: of them the axis moves evenly, after the last it rests.
     moments: Sequence[float]
     places: Sequence[float]
-    weather: Mapping[str, Sequence[float]]
+    weather: Mapping[str, Sequence[float]]  #: Conditions at these moments, SI, by name.
+    #: arrives and leaves: (N,): When the axis arrives at each visit of the plan, and when it goes on, s from
+    #: the start.
     arrives: FloatArray
     leaves: FloatArray
-    truth: MeasurementSet
+    truth: MeasurementSet  #: What the axis really did: its deviation at each visit, and the true conditions.
 
     @property
     def duration(self) -> float:

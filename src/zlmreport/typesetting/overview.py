@@ -52,27 +52,13 @@ class LinkContext:
 
 @dataclass(frozen=True, slots=True)
 class OverviewCellContext:
-    """A cell or heading of a table of the overview.
+    """A cell or heading of a table of the overview."""
 
-    Attributes
-    ----------
-    content
-        Text, or a symbol that is set already.
-    style
-        Class names: alignment, or the shape of a state.
-    note
-        Below the content, in small type; empty for most.
-    links
-        Below the content.
-    drawing
-        A small graph in place of text; empty for most.
-    """
-
-    content: str = ""
-    style: str = ""
-    note: str = ""
-    links: tuple[LinkContext, ...] = ()
-    drawing: Markup = _NO_DRAWING
+    content: str = ""  #: Text, or a symbol that is set already.
+    style: str = ""  #: Class names: alignment, or the shape of a state.
+    note: str = ""  #: Below the content, in small type; empty for most.
+    links: tuple[LinkContext, ...] = ()  #: Below the content.
+    drawing: Markup = _NO_DRAWING  #: A small graph in place of text; empty for most.
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,34 +72,16 @@ class OverviewGroupContext:
 
 @dataclass(frozen=True, slots=True)
 class OverviewTableContext:
-    """A table of the overview.
-
-    Attributes
-    ----------
-    key
-        Its anchor.
-    style
-        Class name of its columns.
-    title
-        Its heading.
-    count
-        Number after the heading; empty for none.
-    caption
-        What it shows.
-    headings
-        One for each column.
-    groups
-        The rows.
-    """
+    """A table of the overview."""
 
     template: ClassVar[str] = "overview_table.html"
-    key: str
-    style: str
-    title: str
-    count: str
-    caption: str
-    headings: tuple[OverviewCellContext, ...]
-    groups: tuple[OverviewGroupContext, ...]
+    key: str  #: Its anchor.
+    style: str  #: Class name of its columns.
+    title: str  #: Its heading.
+    count: str  #: Number after the heading; empty for none.
+    caption: str  #: What it shows.
+    headings: tuple[OverviewCellContext, ...]  #: One for each column.
+    groups: tuple[OverviewGroupContext, ...]  #: The rows.
 
 
 @dataclass(frozen=True, slots=True)
@@ -140,23 +108,15 @@ class OverviewSectionContext:
 
 @dataclass(frozen=True, slots=True)
 class OverviewToolsContext:
-    """What a reader searches, chooses and orders axes by.
-
-    Attributes
-    ----------
-    search, example
-        Label of the field, and what may stand in it.
-    choices
-        Name, label, and the options of each list: what an option stands for, and its text.
-    found
-        How many axes are shown: ``{shown}`` of ``{all}``.
-    """
+    """What a reader searches, chooses and orders axes by."""
 
     template: ClassVar[str] = "overview_tools.html"
+    #: search and example: Label of the field, and what may stand in it.
     search: str
     example: str
+    #: Name, label, and the options of each list: what an option stands for, and its text.
     choices: tuple[tuple[str, str, tuple[tuple[str, str], ...]], ...]
-    found: str
+    found: str  #: How many axes are shown: ``{shown}`` of ``{all}``.
 
 
 @dataclass(frozen=True, slots=True)
@@ -171,37 +131,20 @@ class OverviewLegendContext:
 
 @dataclass(frozen=True, slots=True)
 class OverviewContext:
-    """The whole overview.
-
-    Attributes
-    ----------
-    language
-        ISO 639-1 code.
-    title, subtitle
-        At the head.
-    generator
-        The program with its version.
-    style, script, policy
-        Style sheets, the script, and the fingerprint by which the page allows it and no other.
-    facts
-        Name and value of what is said of the last night.
-    tiles
-        The numbers of the headline.
-    tiles_title
-        Name of the headline, for those who cannot see it.
-    sections
-        Markup, in this order.
-    """
+    """The whole overview."""
 
     template: ClassVar[str] = "overview.html"
-    language: str
+    language: str  #: ISO 639-1 code.
+    #: title and subtitle: At the head.
     title: str
     subtitle: str
-    generator: str
+    generator: str  #: The program with its version.
+    #: style, script and policy: Style sheets, the script, and the fingerprint by which the page allows it and
+    #: no other.
     style: Markup
     script: Markup
     policy: str
-    facts: tuple[tuple[str, str], ...]
-    tiles: tuple[TileContext, ...]
-    tiles_title: str
-    sections: tuple[Markup, ...]
+    facts: tuple[tuple[str, str], ...]  #: Name and value of what is said of the last night.
+    tiles: tuple[TileContext, ...]  #: The numbers of the headline.
+    tiles_title: str  #: Name of the headline, for those who cannot see it.
+    sections: tuple[Markup, ...]  #: Markup, in this order.

@@ -38,24 +38,12 @@ from zlmreport.typesetting.resources import PACKAGE
 
 @dataclass(frozen=True, slots=True)
 class CellContext:
-    """A table's cell or heading.
+    """A table's cell or heading."""
 
-    Attributes
-    ----------
-    content
-        Text, or a symbol that is set already.
-    style
-        Class names: alignment, distance from the decimal sign, shape of a verdict.
-    unit
-        Below a heading; empty elsewhere.
-    note
-        Below the content, in small type; empty for most.
-    """
-
-    content: str
-    style: str
-    unit: str = ""
-    note: str = ""
+    content: str  #: Text, or a symbol that is set already.
+    style: str  #: Class names: alignment, distance from the decimal sign, shape of a verdict.
+    unit: str = ""  #: Below a heading; empty elsewhere.
+    note: str = ""  #: Below the content, in small type; empty for most.
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,46 +66,21 @@ class RowGroupContext:
 
 @dataclass(frozen=True, slots=True)
 class TableContext:
-    """A table.
-
-    Attributes
-    ----------
-    label
-        ``Table 2``.
-    caption
-        What it shows.
-    size
-        Class name of its type size.
-    whole
-        Whether it is short enough to stay on one page.
-    in_fives
-        Whether its rows are read in fives.
-    widths
-        Of the columns, in per cent of the page's.
-    headings
-        One for each column.
-    groups
-        The rows.
-    page
-        Word before the number of a page that the table refers to.
-    is_for_screens
-        Whether keys can scroll it.
-    labels
-        What stands above each column, for a screen on which the cells of a row stand below each other; empty
-        where they never do.
-    """
+    """A table."""
 
     template: ClassVar[str] = "table.html"
-    label: str
-    caption: str
-    size: str
-    whole: bool
-    in_fives: bool
-    widths: tuple[str, ...]
-    headings: tuple[CellContext, ...]
-    groups: tuple[RowGroupContext, ...]
-    page: str
-    is_for_screens: bool = False
+    label: str  #: ``Table 2``.
+    caption: str  #: What it shows.
+    size: str  #: Class name of its type size.
+    whole: bool  #: Whether it is short enough to stay on one page.
+    in_fives: bool  #: Whether its rows are read in fives.
+    widths: tuple[str, ...]  #: Of the columns, in per cent of the page's.
+    headings: tuple[CellContext, ...]  #: One for each column.
+    groups: tuple[RowGroupContext, ...]  #: The rows.
+    page: str  #: Word before the number of a page that the table refers to.
+    is_for_screens: bool = False  #: Whether keys can scroll it.
+    #: What stands above each column, for a screen on which the cells of a row stand below each other; empty
+    #: where they never do.
     labels: tuple[str, ...] = ()
 
 
@@ -143,28 +106,14 @@ class FactsContext:
 
 @dataclass(frozen=True, slots=True)
 class GraphContext:
-    """A graph with its caption.
-
-    Attributes
-    ----------
-    label
-        ``Figure 3``.
-    caption
-        Its title.
-    alternative
-        What it shows, for those who cannot see it.
-    address
-        Where the renderer finds the drawing: ``graph:2``.
-    drawing
-        The drawing itself as markup; empty where it stands at its address.
-    """
+    """A graph with its caption."""
 
     template: ClassVar[str] = "graph.html"
-    label: str
-    caption: str
-    alternative: str
-    address: str
-    drawing: Markup
+    label: str  #: ``Figure 3``.
+    caption: str  #: Its title.
+    alternative: str  #: What it shows, for those who cannot see it.
+    address: str  #: Where the renderer finds the drawing: ``graph:2``.
+    drawing: Markup  #: The drawing itself as markup; empty where it stands at its address.
 
 
 @dataclass(frozen=True, slots=True)
@@ -198,25 +147,17 @@ class LetterheadContext:
 
 @dataclass(frozen=True, slots=True)
 class DocumentContext:
-    """The whole document.
-
-    Attributes
-    ----------
-    certificate
-        What stands beside its blocks: titles, words of the page margins, metadata of the file.
-    style
-        Style sheets in the document's head; empty where the renderer hands them over otherwise.
-    policy, script
-        The only script and the content security policy that names it; empty where nothing is run.
-    letterhead, cover, sections
-        Markup, in this order.
-    """
+    """The whole document."""
 
     template: ClassVar[str] = "document.html"
+    #: What stands beside its blocks: titles, words of the page margins, metadata of the file.
     certificate: Certificate
-    style: Markup
+    style: Markup  #: Style sheets in the document's head; empty where the renderer hands them over otherwise.
+    #: policy and script: The only script and the content security policy that names it; empty where nothing
+    #: is run.
     policy: str
     script: Markup
+    #: letterhead, cover and sections: Markup, in this order.
     letterhead: Markup
     cover: tuple[Markup, ...]
     sections: tuple[Markup, ...]

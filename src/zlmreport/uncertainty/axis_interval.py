@@ -45,26 +45,16 @@ _STEP = 1e-3
 
 @dataclass(frozen=True, slots=True)
 class _Scatter:
-    """What one test tells of its axis's scatter; cells are positions in one direction.
+    """What one test tells of its axis's scatter; cells are positions in one direction."""
 
-    Attributes
-    ----------
-    mean : (approach, position) array
-        Mean deviations, m or rad; NaN where there is no reading.
-    variance, freedom : (approach, position) arrays
-        Of the posterior: scaled inverse χ².
-    run_variance, run_freedom : (approach,) arrays
-        Of the means of runs.
-    correlation
-        Of what the two directions of a run share.
-    """
-
-    mean: FloatArray
+    mean: FloatArray  #: (approach, position): Mean deviations, m or rad; NaN where there is no reading.
+    #: variance and freedom: (approach, position): Of the posterior: scaled inverse χ².
     variance: FloatArray
     freedom: FloatArray
+    #: run_variance and run_freedom: (approach,): Of the means of runs.
     run_variance: FloatArray
     run_freedom: FloatArray
-    correlation: float
+    correlation: float  #: Of what the two directions of a run share.
 
 
 def axis_intervals(

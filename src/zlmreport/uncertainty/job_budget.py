@@ -276,28 +276,15 @@ def _other(keys: ContributionKeys, unit: Unit) -> Contribution:
 
 @dataclass(frozen=True, slots=True)
 class SetUp:
-    """The circumstances of a test, SI; None for what is not known as a number.
+    """The circumstances of a test, SI; None for what is not known as a number."""
 
-    Attributes
-    ----------
-    length
-        L, from the first target position to the last, m or rad.
-    expansion
-        α of the machine, 1/K.
-    device_expansion
-        α of the measuring device, 1/K.
-    difference
-        ΔT, the largest distance of the machine's temperature from 20 °C, K, with its sign; the measuring
-        device lies on the machine and is taken to share it.
-    is_corrected
-        Whether the readings are corrected to 20 °C.
-    """
-
-    length: float
-    expansion: float | None
-    device_expansion: float | None
+    length: float  #: L, from the first target position to the last, m or rad.
+    expansion: float | None  #: α of the machine, 1/K.
+    device_expansion: float | None  #: α of the measuring device, 1/K.
+    #: ΔT, the largest distance of the machine's temperature from 20 °C, K, with its sign; the measuring
+    #: device lies on the machine and is taken to share it.
     difference: float | None
-    is_corrected: bool = False
+    is_corrected: bool = False  #: Whether the readings are corrected to 20 °C.
 
     @classmethod
     def of(cls, job: Job, measurements: MeasurementSet) -> SetUp:

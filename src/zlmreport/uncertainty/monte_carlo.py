@@ -49,21 +49,11 @@ StandardArithmetic = Callable[[PositionStatistics], Arithmetic]
 
 @dataclass(frozen=True, slots=True)
 class Expanded:
-    """Expanded uncertainty of a parameter.
+    """Expanded uncertainty of a parameter."""
 
-    Attributes
-    ----------
-    uncertainty
-        U = k·u, m or rad.
-    coverage_factor
-        k.
-    least
-        What U was raised to, where the simulation gave less; else None.
-    """
-
-    uncertainty: float
-    coverage_factor: float
-    least: Least | None = None
+    uncertainty: float  #: U = k·u, m or rad.
+    coverage_factor: float  #: k.
+    least: Least | None = None  #: What U was raised to, where the simulation gave less; else None.
 
 
 def propagate(

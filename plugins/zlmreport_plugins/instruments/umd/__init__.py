@@ -56,22 +56,13 @@ _NO_EDGE = 0x7E00
 
 @dataclass(frozen=True, slots=True)
 class Setup:
-    """What the display does not know.
+    """What the display does not know."""
 
-    Attributes
-    ----------
-    axis
-        Which of its axes, from 0.
-    length
-        Displacement for an optical cycle, m, with its sign: half the wavelength in air with a
-        retroreflector, divided by the fold of the optics.
-    temperatures
-        The names of what its two temperature sensors measure.
-    """
-
-    axis: int
+    axis: int  #: Which of its axes, from 0.
+    #: Displacement for an optical cycle, m, with its sign: half the wavelength in air with a retroreflector,
+    #: divided by the fold of the optics.
     length: float
-    temperatures: tuple[str, str]
+    temperatures: tuple[str, str]  #: The names of what its two temperature sensors measure.
 
 
 class UmdDecoder:

@@ -27,30 +27,16 @@ from zlmreport.plugin import (
 
 @dataclass(frozen=True, slots=True)
 class Model:
-    """A display.
+    """A display."""
 
-    Attributes
-    ----------
-    identifier
-        As jobs name it.
-    name
-        As its makers write it.
-    baud_rate
-        Of its port; only that of µMD0 is a real line, the others take any.
-    slots
-        After so many samples the low-speed channel begins anew.
-    announces_counting
-        Whether it says how many counts a cycle has (code 20); one that does not has 1.
-    interpolation
-        By how many counts DISP and VEL may disagree: the displacement is moved by interpolation, and the
-        velocity is not.
-    """
-
-    identifier: str
-    name: str
-    baud_rate: int
-    slots: int
+    identifier: str  #: As jobs name it.
+    name: str  #: As its makers write it.
+    baud_rate: int  #: Of its port; only that of µMD0 is a real line, the others take any.
+    slots: int  #: After so many samples the low-speed channel begins anew.
+    #: Whether it says how many counts a cycle has (code 20); one that does not has 1.
     announces_counting: bool
+    #: By how many counts DISP and VEL may disagree: the displacement is moved by interpolation, and the
+    #: velocity is not.
     interpolation: int
 
 
@@ -79,44 +65,21 @@ class Code(IntEnum):
 
 
 class AxisCounts(NamedTuple):
-    """What a line says of one axis.
+    """What a line says of one axis."""
 
-    Attributes
-    ----------
-    measured
-        MEAS, cycles of the measurement signal in the sample; 0 of a homodyne instrument.
-    displacement
-        DISP, counts from switching on.
-    velocity
-        VEL, counts from the sample before; 0 of a homodyne instrument.
-    phase
-        PHASE, the fraction of a count, or a flag that it was not found.
-    """
-
-    measured: int
-    displacement: int
-    velocity: int
-    phase: int
+    measured: int  #: MEAS, cycles of the measurement signal in the sample; 0 of a homodyne instrument.
+    displacement: int  #: DISP, counts from switching on.
+    velocity: int  #: VEL, counts from the sample before; 0 of a homodyne instrument.
+    phase: int  #: PHASE, the fraction of a count, or a flag that it was not found.
 
 
 class Frame(NamedTuple):
-    """A line.
+    """A line."""
 
-    Attributes
-    ----------
-    reference
-        REF, cycles of the laser's reference in the sample; 0 of a homodyne instrument.
-    axes
-        One, or three.
-    sequence
-        SEQ, the number of the sample.
-    code, data
-        The low-speed channel.
-    """
-
-    reference: int
-    axes: tuple[AxisCounts, ...]
-    sequence: int
+    reference: int  #: REF, cycles of the laser's reference in the sample; 0 of a homodyne instrument.
+    axes: tuple[AxisCounts, ...]  #: One, or three.
+    sequence: int  #: SEQ, the number of the sample.
+    #: code and data: The low-speed channel.
     code: int
     data: int
 
@@ -154,24 +117,12 @@ _TURNS = 2
 
 @dataclass(frozen=True, slots=True)
 class Counting:
-    """How a display counts.
+    """How a display counts."""
 
-    Attributes
-    ----------
-    rate
-        Samples a second, 1/s.
-    per_cycle
-        Counts per optical cycle.
-    phase_steps
-        Into how many parts the phase divides a count.
-    is_homodyne
-        Whether it counts the signals of a homodyne interferometer, which has no reference.
-    """
-
-    rate: float
-    per_cycle: int
-    phase_steps: int
-    is_homodyne: bool
+    rate: float  #: Samples a second, 1/s.
+    per_cycle: int  #: Counts per optical cycle.
+    phase_steps: int  #: Into how many parts the phase divides a count.
+    is_homodyne: bool  #: Whether it counts the signals of a homodyne interferometer, which has no reference.
 
 
 class LowSpeed:
@@ -272,36 +223,17 @@ _SI: Mapping[int, Callable[[int], float]] = {
 
 @dataclass(frozen=True, slots=True)
 class _Manner:
-    """How one model speaks.
+    """How one model speaks."""
 
-    Attributes
-    ----------
-    rate
-        Samples a second, 1/s.
-    reference
-        Cycles of the laser's reference a second, Hz; 0 of a homodyne instrument.
-    direction
-        Which way DISP counts while MEAS has more cycles than REF.
-    counts
-        Per optical cycle.
-    phase_steps
-        Into how many parts PHASE divides a count; 1 for a display that sends none.
-    says
-        Of the low-speed channel, by slot: code and number.
-    sensors
-        The same of its sensors: code, what the sensor measures, its unit, and how much finer the number is.
-    greeting
-        What it sends first.
-    """
-
-    rate: float
-    reference: float
-    direction: int
-    counts: int
-    phase_steps: int
-    says: Mapping[int, tuple[int, int]]
+    rate: float  #: Samples a second, 1/s.
+    reference: float  #: Cycles of the laser's reference a second, Hz; 0 of a homodyne instrument.
+    direction: int  #: Which way DISP counts while MEAS has more cycles than REF.
+    counts: int  #: Per optical cycle.
+    phase_steps: int  #: Into how many parts PHASE divides a count; 1 for a display that sends none.
+    says: Mapping[int, tuple[int, int]]  #: Of the low-speed channel, by slot: code and number.
+    #: The same of its sensors: code, what the sensor measures, its unit, and how much finer the number is.
     sensors: Mapping[int, tuple[int, str, ReadingScale, int]] = field(default_factory=dict)
-    greeting: bytes = b""
+    greeting: bytes = b""  #: What it sends first.
 
 
 _MANNERS: Mapping[str, _Manner] = {

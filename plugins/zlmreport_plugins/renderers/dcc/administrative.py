@@ -46,15 +46,9 @@ _SERIAL = Words(en="Serial number", de="Seriennummer")
 
 @dataclass(frozen=True, slots=True)
 class Writer:
-    """Writes texts in the language of one certificate.
+    """Writes texts in the language of one certificate."""
 
-    Attributes
-    ----------
-    language
-        Of the certificate, the only one of its DCC.
-    """
-
-    language: Language
+    language: Language  #: Of the certificate, the only one of its DCC.
 
     def content(self, words: Words | str) -> ET.Element:
         """Return a text as content: a phrase with its language, a user's own words as they stand."""

@@ -133,21 +133,11 @@ _HARDLY_ANY = 100
 
 @dataclass(frozen=True, slots=True)
 class Log:
-    """A log.
+    """A log."""
 
-    Attributes
-    ----------
-    file
-        For what has no line of its own.
-    entries
-        By key.
-    problems
-        What is wrong with them; reading adds to it.
-    """
-
-    file: Place
-    entries: Mapping[Key, Entry]
-    problems: list[Problem]
+    file: Place  #: For what has no line of its own.
+    entries: Mapping[Key, Entry]  #: By key.
+    problems: list[Problem]  #: What is wrong with them; reading adds to it.
 
     def readings(self, unit: Unit, forward: Approach) -> Iterator[Reading]:
         """Yield the readings cycle by cycle, upwards and then downwards; the log tells no order.

@@ -177,24 +177,12 @@ def _names_column(text: str, options: LaserCsvOptions) -> bool:
 
 @dataclass(frozen=True, slots=True)
 class _Header:
-    """A row that names columns.
+    """A row that names columns."""
 
-    Attributes
-    ----------
-    index
-        Of the line, from 0.
-    delimiter
-        What parts the cells.
-    cells
-        The names.
-    known
-        How many of them are known.
-    """
-
-    index: int
-    delimiter: str
-    cells: tuple[str, ...]
-    known: int
+    index: int  #: Of the line, from 0.
+    delimiter: str  #: What parts the cells.
+    cells: tuple[str, ...]  #: The names.
+    known: int  #: How many of them are known.
 
 
 def proposals(file: Path) -> Iterator[SourceProposal]:

@@ -98,20 +98,11 @@ def decimal_sign(table: Table, indices: Sequence[int]) -> DecimalSign:
 
 @dataclass(frozen=True, slots=True)
 class Cells:
-    """Reads the cells of a table.
-
-    Attributes
-    ----------
-    table
-        The table.
-    sign
-        Its decimal sign.
-    problems
-        What was found wrong so far. A method that returns None has noted why.
-    """
+    """Reads the cells of a table."""
 
     table: Table
-    sign: DecimalSign
+    sign: DecimalSign  #: Its decimal sign.
+    #: What was found wrong so far. A method that returns None has noted why.
     problems: list[Problem] = field(default_factory=list)
 
     def number(self, row: Row, column: Column) -> float | None:
@@ -202,24 +193,12 @@ def _is_number(text: str, cells: Cells) -> bool:
 
 @dataclass(frozen=True, slots=True)
 class Heading:
-    """A name in the header.
+    """A name in the header."""
 
-    Attributes
-    ----------
-    index
-        Of the column, from 0.
-    text
-        As the file writes it.
-    name
-        Without a unit in brackets.
-    bracket
-        What stands in brackets at its end; None without.
-    """
-
-    index: int
-    text: str
-    name: str
-    bracket: str | None
+    index: int  #: Of the column, from 0.
+    text: str  #: As the file writes it.
+    name: str  #: Without a unit in brackets.
+    bracket: str | None  #: What stands in brackets at its end; None without.
 
     def is_called(self, name: str) -> bool:
         """Whether a name, with or without the unit, means this heading."""
@@ -228,23 +207,12 @@ class Heading:
 
 @dataclass(frozen=True, slots=True)
 class Column:
-    """A column that is read.
+    """A column that is read."""
 
-    Attributes
-    ----------
-    index
-        Of the column, from 0.
-    text
-        Its heading in the file.
-    name
-        What it is: one of `COLUMN_NAMES`, or its own heading for any other condition.
-    unit
-        Of its numbers; None for what has none, and for conditions that are kept as found.
-    """
-
-    index: int
-    text: str
-    name: str
+    index: int  #: Of the column, from 0.
+    text: str  #: Its heading in the file.
+    name: str  #: What it is: one of `COLUMN_NAMES`, or its own heading for any other condition.
+    #: Of its numbers; None for what has none, and for conditions that are kept as found.
     unit: Unit | ReadingScale | None
 
 

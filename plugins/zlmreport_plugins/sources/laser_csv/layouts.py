@@ -23,33 +23,15 @@ from zlmreport_plugins.sources.laser_csv.table import Row, Table
 
 @dataclass(frozen=True, slots=True)
 class LongLayout:
-    """The columns of a long table.
+    """The columns of a long table."""
 
-    Attributes
-    ----------
-    target
-        The target position.
-    value
-        The deviation or the actual position.
-    direction
-        None where the job states one direction for all readings.
-    run
-        None where the file has none: all readings are of one run.
-    time
-        None where there is none.
-    conditions
-        All the others.
-    stated_direction
-        The direction that the job states.
-    """
-
-    target: Column
-    value: Column
-    direction: Column | None
-    run: Column | None
-    time: Column | None
-    conditions: tuple[Column, ...]
-    stated_direction: Approach | None
+    target: Column  #: The target position.
+    value: Column  #: The deviation or the actual position.
+    direction: Column | None  #: None where the job states one direction for all readings.
+    run: Column | None  #: None where the file has none: all readings are of one run.
+    time: Column | None  #: None where there is none.
+    conditions: tuple[Column, ...]  #: All the others.
+    stated_direction: Approach | None  #: The direction that the job states.
 
     @property
     def columns(self) -> tuple[Column, ...]:
@@ -181,18 +163,10 @@ class RunColumn:
 
 @dataclass(frozen=True, slots=True)
 class WideLayout:
-    """The columns of a wide table.
+    """The columns of a wide table."""
 
-    Attributes
-    ----------
-    target
-        The target position.
-    runs
-        The columns of readings.
-    """
-
-    target: Column
-    runs: tuple[RunColumn, ...]
+    target: Column  #: The target position.
+    runs: tuple[RunColumn, ...]  #: The columns of readings.
 
     @property
     def columns(self) -> tuple[Column, ...]:

@@ -27,24 +27,12 @@ _UNITS = frozenset({each.casefold() for units in (POSITION_UNITS, TIME_UNITS) fo
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """A row of a table.
+    """A row of a table."""
 
-    Attributes
-    ----------
-    line
-        In the file, from 1.
-    text
-        The line.
-    delimiter
-        What parts its cells.
-    cells
-        Without quotation marks and the blanks around.
-    """
-
-    line: int
-    text: str
-    delimiter: str
-    cells: tuple[str, ...]
+    line: int  #: In the file, from 1.
+    text: str  #: The line.
+    delimiter: str  #: What parts its cells.
+    cells: tuple[str, ...]  #: Without quotation marks and the blanks around.
 
     def column(self, index: int) -> int:
         """Return in which character of the line a cell begins, from 1."""
@@ -56,24 +44,12 @@ class Row:
 
 @dataclass(frozen=True, slots=True)
 class Table:
-    """A table: a header and rows that have as many cells.
+    """A table: a header and rows that have as many cells."""
 
-    Attributes
-    ----------
-    file
-        Name of the file, for places.
-    header
-        The row of names.
-    rows
-        The rows that are sound.
-    problems
-        What is wrong with the others.
-    """
-
-    file: str
-    header: Row
-    rows: tuple[Row, ...]
-    problems: tuple[Problem, ...]
+    file: str  #: Name of the file, for places.
+    header: Row  #: The row of names.
+    rows: tuple[Row, ...]  #: The rows that are sound.
+    problems: tuple[Problem, ...]  #: What is wrong with the others.
 
     def place(self, row: Row, index: int) -> Place:
         """Return the place of a cell."""

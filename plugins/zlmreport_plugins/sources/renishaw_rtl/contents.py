@@ -25,18 +25,10 @@ _HEAD = re.compile(r"([A-Z][A-Z0-9 -]*)::")
 
 @dataclass(frozen=True, slots=True)
 class Line:
-    """A line of a file.
+    """A line of a file."""
 
-    Attributes
-    ----------
-    place
-        Of its first character.
-    text
-        The line.
-    """
-
-    place: Place
-    text: str
+    place: Place  #: Of its first character.
+    text: str  #: The line.
 
     def at(self, column: int) -> Place:
         """Return the place of a character, counted from 0."""
@@ -49,23 +41,11 @@ class Line:
 
 @dataclass(frozen=True, slots=True)
 class Entry:
-    """A key of a section with what stands behind it.
+    """A key of a section with what stands behind it."""
 
-    Attributes
-    ----------
-    name
-        As the file writes it.
-    key
-        The name without case, blanks and hyphens.
-    value
-        The rest of the line.
-    line
-        The line.
-    """
-
-    name: str
-    key: str
-    value: str
+    name: str  #: As the file writes it.
+    key: str  #: The name without case, blanks and hyphens.
+    value: str  #: The rest of the line.
     line: Line
 
 
@@ -201,43 +181,21 @@ _TITLE = re.compile(r"run\s+target\s+data\s*:?", re.IGNORECASE)
 
 @dataclass(frozen=True, slots=True)
 class Deviation:
-    """A deviation line.
+    """A deviation line."""
 
-    Attributes
-    ----------
-    place
-        Of the deviation.
-    run
-        Number of the single-direction run.
-    target
-        Number of the target.
-    value
-        The deviation, in the file's unit; NaN where it is none, which is a problem noted.
-    """
-
-    place: Place
-    run: int
-    target: int
-    value: float
+    place: Place  #: Of the deviation.
+    run: int  #: Number of the single-direction run.
+    target: int  #: Number of the target.
+    value: float  #: The deviation, in the file's unit; NaN where it is none, which is a problem noted.
 
 
 @dataclass(frozen=True, slots=True)
 class Pass:
-    """A run in one direction.
+    """A run in one direction."""
 
-    Attributes
-    ----------
-    approach
-        Its direction.
-    cycle
-        Its number among the runs of that direction, from 1.
-    deviations
-        By the number of the target.
-    """
-
-    approach: Approach
-    cycle: int
-    deviations: Mapping[int, Sequence[Deviation]]
+    approach: Approach  #: Its direction.
+    cycle: int  #: Its number among the runs of that direction, from 1.
+    deviations: Mapping[int, Sequence[Deviation]]  #: By the number of the target.
 
     @property
     def place(self) -> Place:

@@ -184,29 +184,17 @@ _SINCE_1997 = frozenset({"E", "E_fwd", "E_bwd", "M"})
 
 @dataclass(frozen=True, slots=True)
 class Edition:
-    """One edition.
+    """One edition."""
 
-    Attributes
-    ----------
-    year
-        Of publication.
-    coverage_factor
-        k: limits are x̄ ± k·s. 3 in 1988 (ZLM, G 1.3), 2 since 1997 (confirmed by published results).
-    position_index
-        The letter that counts target positions: j in 1988, i since; the other one counts the runs.
-    defines_systematic_deviation
-        Whether E and M exist: since 1997.
-    prints_reversal_as_negative_minus_positive
-        Whether the mean reversal value is printed as x̄↓ − x̄↑: in 1988 (ZLM, G 1.3).
-    long_axis
-        Where the rule for axes above 2000 mm or 360° is known from; None where the edition has none.
-    """
-
-    year: int
+    year: int  #: Of publication.
+    #: k: limits are x̄ ± k·s. 3 in 1988 (ZLM, G 1.3), 2 since 1997 (confirmed by published results).
     coverage_factor: int
+    #: The letter that counts target positions: j in 1988, i since; the other one counts the runs.
     position_index: str
-    defines_systematic_deviation: bool
+    defines_systematic_deviation: bool  #: Whether E and M exist: since 1997.
+    #: Whether the mean reversal value is printed as x̄↓ − x̄↑: in 1988 (ZLM, G 1.3).
     prints_reversal_as_negative_minus_positive: bool
+    #: Where the rule for axes above 2000 mm or 360° is known from; None where the edition has none.
     long_axis: Basis | None
 
 

@@ -76,31 +76,18 @@ OF_A_POINT_MEASURED = {
 
 @dataclass(frozen=True, slots=True)
 class Guideline:
-    """One of the two guidelines.
+    """One of the two guidelines."""
 
-    Attributes
-    ----------
-    identifier, designation, title
-        As in `zlmreport.plugin.protocols.Standard`.
-    factor
-        k: P_sj = k·(s_j↑ + s_j↓).
-    positions_per_metre
-        Least number of positions for each metre, one more to be added; None where none is stated.
-    positions_in_all
-        Least number of positions whatever the length; None where none is stated.
-    positions_per_scale_element
-        Least number of positions on each element of the scale.
-    meanings
-        What the parameters mean, by symbol: of a part made, or of a point measured on the machine.
-    """
-
+    #: identifier, designation and title: As in `zlmreport.plugin.protocols.Standard`.
     identifier: str
     designation: str
     title: Words
-    factor: int
+    factor: int  #: k: P_sj = k·(s_j↑ + s_j↓).
+    #: Least number of positions for each metre, one more to be added; None where none is stated.
     positions_per_metre: int | None
-    positions_in_all: int | None
-    positions_per_scale_element: int
+    positions_in_all: int | None  #: Least number of positions whatever the length; None where none is stated.
+    positions_per_scale_element: int  #: Least number of positions on each element of the scale.
+    #: What the parameters mean, by symbol: of a part made, or of a point measured on the machine.
     meanings: Mapping[str, Words]
 
 
