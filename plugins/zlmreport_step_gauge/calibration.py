@@ -151,12 +151,8 @@ def section(gauge: StepGauge, first_block: int | None, last_block: int | None, p
 
     Parameters
     ----------
-    gauge
-        The whole gauge.
     first_block, last_block
         Numbers of blocks; None for the first and the last of the gauge.
-    place
-        Where the section is stated.
 
     Raises
     ------

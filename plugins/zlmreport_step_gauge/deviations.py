@@ -46,8 +46,6 @@ def deviations_of(probed: Probed, set_up: GaugeSetUp, place: Place, *, is_correc
 
     Parameters
     ----------
-    probed
-        The points.
     set_up
         The gauge, its location, the probe, the temperatures.
     place
@@ -216,16 +214,12 @@ def radius_of(
 
     Parameters
     ----------
-    probed
-        The faces.
     set_up
         What is stated of the probe.
     along : (face, cycle) array
         Where the centres lie along the gauge, m.
     actual : (face,) array
         Distances of the faces at the temperature of the test, m.
-    place
-        The file of the points.
 
     Raises
     ------
@@ -282,8 +276,6 @@ def radius_uncertainty(by_block: FloatArray, faces: Sequence[Face]) -> float:
     ----------
     by_block : (block,) array
         R_eff of each block, or what it differs by from the mean of all, m.
-    faces
-        Of these blocks.
 
     Notes
     -----

@@ -90,8 +90,6 @@ def locate(points: InitialPoints, gauge: StepGauge, radius: float, uncertainty: 
     ----------
     points
         On the first and on the last block of the section.
-    gauge
-        The section.
     radius
         Nominal radius of the tip, m; 0 where the points are those of the surface.
     uncertainty

@@ -273,22 +273,12 @@ def measurement_set(  # noqa: PLR0913 - what a set is made of
     ----------
     probed, deviations
         The points, and what they come to.
-    set_up
-        The gauge and its location.
     axis
         The axis, or line, under test.
     targets
         Whether faces or blocks are target positions.
-    sign
-        What a deviation is.
     origin
         Position on the axis of the reference face of the gauge, m.
-    source
-        Identifier of the data source.
-    files
-        The files of the points.
-    place
-        The file of the points, for messages.
     """
     face_index = {face.number: index for index, face in enumerate(probed.faces)}
     cycle_index = {cycle: index for index, cycle in enumerate(probed.cycles)}

@@ -71,16 +71,8 @@ def gridded(
 
     Parameters
     ----------
-    points
-        As they were taken.
-    gauge
-        The section that is used.
     sides
         The faces that are evaluated; points on others are left out.
-    place
-        The file.
-    problems
-        What its reader found wrong.
 
     Raises
     ------
@@ -226,8 +218,6 @@ def numbered(
     ----------
     points
         In the order in which they were taken.
-    gauge
-        The section.
     origin, direction
         C1, and the unit vector to C2.
     radius

@@ -211,10 +211,6 @@ def sample_path(
     ----------
     kind
         Over the top, or round the side.
-    number
-        Of the job.
-    gauge
-        Name of the gauge.
     radius_correction
         Whether the machine is to report points of the surface.
     """

@@ -96,8 +96,6 @@ def as_problems(job: Path, error: Exception) -> ZlmreportError:
 
     Parameters
     ----------
-    job
-        The job file.
     error
         What was raised: a mistake of the user, a file that cannot be used, a library that is not there, or a
         mistake of the program's own, named with the line of it that a report needs.

@@ -132,10 +132,6 @@ def rewrite(path: Path, content: bytes, check: Callable[[bytes], None]) -> None:
 
     Parameters
     ----------
-    path
-        The file.
-    content
-        What it is to hold.
     check
         Gets what the file holds, last of all before it is replaced, and may refuse by an exception.
 

@@ -209,10 +209,6 @@ def run(job: Job, registry: Registry, signer: Signer | None = None, showing: Sho
 
     Parameters
     ----------
-    job
-        The job.
-    registry
-        The plugins.
     signer
         Signs each PDF when it is finished; without one, the same job gives the same bytes.
     showing

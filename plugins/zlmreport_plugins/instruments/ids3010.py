@@ -191,8 +191,6 @@ class Client:
 
     Parameters
     ----------
-    port
-        Where the device is.
     timeout
         How long to wait for an answer, s.
     """

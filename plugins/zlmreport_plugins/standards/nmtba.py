@@ -251,8 +251,6 @@ def position_spread(statistics: PositionStatistics, mean: FloatArray) -> FloatAr
 
     Parameters
     ----------
-    statistics
-        By position.
     mean : (..., position) array
         X̄_j.
     """

@@ -74,10 +74,6 @@ class DmeServer:
 
     Parameters
     ----------
-    machine
-        What it leads.
-    tools
-        Names of its tools.
     faults
         What goes wrong, by the number of the measuring move since the server was started, from 1.
     temperature

@@ -180,8 +180,6 @@ class Session:
 
     Parameters
     ----------
-    connection
-        The line to it.
     timeout
         How long a command may take from its acknowledgement to its end, s.
     event
@@ -309,11 +307,6 @@ _PATIENCE = 10.0
 
 class Connection:
     """Lines to and from a server.
-
-    Parameters
-    ----------
-    host, port
-        Where it is.
 
     Raises
     ------

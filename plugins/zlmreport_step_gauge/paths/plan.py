@@ -86,18 +86,10 @@ def plan_path(  # noqa: PLR0913 - a gauge, where it lies, and how, for whom
 
     Parameters
     ----------
-    gauge
-        The whole gauge.
     section
         The part of it that is probed.
-    location
-        Where the section lies.
-    settings
-        How it is probed.
     size
         Width and height of the blocks, m.
-    number
-        Of the job.
     place
         Where the path is asked for.
 
@@ -163,13 +155,6 @@ def remaining(planned: PlannedPath, done: Collection[tuple[int, int]]) -> Probin
 
     All moves to a face and away from it begin and end where the tip passes the blocks, so that those of
     others can be left out; what then follows upon each other is held against the gauge again.
-
-    Parameters
-    ----------
-    planned
-        The whole path.
-    done
-        Numbers of face and cycle.
 
     Raises
     ------

@@ -36,10 +36,6 @@ class Guarded:
 
     Parameters
     ----------
-    kind
-        What it is.
-    offered
-        The object.
     who
         What messages call it: ``standard 'house' of plugin house (zlmreport-house 1.0)``.
     """
@@ -105,10 +101,6 @@ class Guarded:
 
         Parameters
         ----------
-        name
-            What messages call it.
-        method
-            The function.
         accept
             Takes this object, the answer and what was asked, and returns what is handed on; raises
             `Unacceptable` for what no plugin must answer.
@@ -164,10 +156,6 @@ def guarded(kind: Kind[Any], offered: Any, by: str) -> Any:
 
     Parameters
     ----------
-    kind
-        What it is.
-    offered
-        The object.
     by
         Where it comes from: ``plugin house (zlmreport-house 1.0)``.
     """

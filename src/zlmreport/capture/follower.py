@@ -76,8 +76,6 @@ class Follower:
     ----------
     progress
         Where to begin: `Progress.begin`, or that of a journal.
-    settings
-        When a reading is taken.
     is_watched
         Whether an operator answers questions while the axis goes on; if not, a question halts.
     last

@@ -289,8 +289,6 @@ class Journal:
 
         Parameters
         ----------
-        event
-            What happened.
         elapsed
             When, s from the start of the capture; a clock that was set back does not let time go back.
 
@@ -371,12 +369,8 @@ def captured(
 
     Parameters
     ----------
-    readings
-        Of the instrument.
     follower
         It begins with the progress of the journal.
-    journal
-        Where it is written down.
     elapsed
         From the time of a reading to s from the start of the capture.
     show

@@ -79,8 +79,6 @@ class Programme:
 
     Parameters
     ----------
-    visits
-        The list.
     settings
         The feed, and the rest at each target.
     """

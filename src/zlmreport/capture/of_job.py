@@ -100,13 +100,6 @@ def options_of(job: Job) -> CaptureOptions | None:
 def assignment_of(job: Job, plan: Plan) -> Assignment:
     """Return what a job asks to be captured.
 
-    Parameters
-    ----------
-    job
-        The job.
-    plan
-        Of its test.
-
     Raises
     ------
     InputError

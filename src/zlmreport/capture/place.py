@@ -98,10 +98,6 @@ class Place:
 
     Parameters
     ----------
-    programme
-        The motion of the plan.
-    settings
-        When a reading is taken.
     taken
         How many visits are taken or missed for good: the operator begins after them.
     last

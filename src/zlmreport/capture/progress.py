@@ -186,8 +186,6 @@ class Progress:
         ----------
         text
             The number of a visit, or ``run`` and that of a run.
-        place
-            Where it stands, for messages.
 
         Raises
         ------

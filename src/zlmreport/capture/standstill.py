@@ -232,8 +232,6 @@ def expected_deviation(
 
     Parameters
     ----------
-    visit
-        The visit.
     read
         What was read under this datum: the latest reading of each target from each side.
     settings
@@ -267,8 +265,6 @@ def misread_by(
         The position at which it shows 0, m or rad.
     right
         Where it was last known to be right: the datum, or its own zero, m or rad.
-    following
-        The visits that are next.
     near
         How far off a stop may be, m or rad.
     """

@@ -191,8 +191,6 @@ def capture(  # noqa: PLR0913 - whom, what, with what, shown where, and how to g
 
     Parameters
     ----------
-    job
-        The job.
     assignment
         What it asks to be captured.
     registry
@@ -203,8 +201,6 @@ def capture(  # noqa: PLR0913 - whom, what, with what, shown where, and how to g
         The job file, for the command that goes on.
     resume
         Whether to go on with a journal.
-    words
-        What the operator says beforehand.
 
     Raises
     ------

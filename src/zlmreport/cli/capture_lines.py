@@ -233,10 +233,6 @@ def what_to_do(progress: Progress, writer: AxisWriter, event: Event | None = Non
 
     Parameters
     ----------
-    progress
-        How far it has come.
-    writer
-        Writes positions.
     event
         What stopped it; None if nothing did.
     """

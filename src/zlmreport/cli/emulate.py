@@ -77,8 +77,6 @@ def put_on_line(
 
     Parameters
     ----------
-    emulator
-        The instrument.
     options
         Of the command: ``link`` or ``port``, and ``fault``.
     announce

@@ -138,8 +138,6 @@ class Progress:
 
     Parameters
     ----------
-    stream
-        Of the terminal.
     total
         Number of certificates that are due.
     """

@@ -63,8 +63,6 @@ def do_all(
     ----------
     loaded
         The jobs of the command line.
-    work
-        What is done with one.
     lines
         What people read of one that is done.
     options

@@ -325,12 +325,8 @@ def chosen_programs(
         Identifiers on the command line, parted by commas; None if there are none.
     folder
         Where files go; None for nowhere.
-    stated
-        The programs of the job.
     find
         Finds the installed writers of their kind.
-    known
-        All of these, for a message.
 
     Raises
     ------
@@ -363,10 +359,6 @@ def program_files(
         Of the plan; they name the files.
     subject
         Returns what the programs are written of, asked for at a place.
-    choices
-        The programs.
-    find
-        Returns an installed writer.
 
     Raises
     ------

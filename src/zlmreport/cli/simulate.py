@@ -125,8 +125,6 @@ def remarks(file: SimulationFile, kind: str) -> tuple[str, ...]:
 
     Parameters
     ----------
-    file
-        The simulation.
     kind
         What the table holds, in a sentence.
     """

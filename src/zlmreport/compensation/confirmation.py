@@ -50,10 +50,6 @@ def confirm(basis: Basis, after: ErrorCurve, table: CompensationTable, place: Pl
         What is known of the axis from the first test; between its targets, too.
     after
         The second test, with the table active.
-    table
-        As the control reads it.
-    place
-        Of the second test, for a message.
 
     Raises
     ------

@@ -165,12 +165,8 @@ def _unknown(basis: Basis, own: FloatArray, random: np.random.Generator) -> Floa
 
     Parameters
     ----------
-    basis
-        What is known.
     own : (N, 1) array
         u, m or rad.
-    random
-        Draws.
     """
     drawn = []
     for part in basis.parts:

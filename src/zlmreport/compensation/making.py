@@ -167,8 +167,6 @@ def make(  # noqa: PLR0913, PLR0917 - of what, on which grid, for whom
         What is known of the axis.
     axis, number, place
         The axis with the table that was active; the name of the job; where the table is asked for.
-    controller, own
-        The control, and its keys.
     step
         Distance of the rows, m or rad; None for the grid that `grid_of` chooses.
     budget

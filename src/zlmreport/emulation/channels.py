@@ -242,14 +242,8 @@ def serve(
 
     Parameters
     ----------
-    emulator
-        The instrument.
-    channel
-        The line.
     troubles
         What goes wrong: here, what goes wrong on the line.
-    is_over
-        Asked at every beat.
     clock
         Time in s; it begins anywhere.
     """

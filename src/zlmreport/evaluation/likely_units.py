@@ -62,8 +62,6 @@ def doubts(job: Job, evaluations: Sequence[Evaluation]) -> tuple[Words, ...]:
 
     Parameters
     ----------
-    job
-        The job.
     evaluations
         Of its readings, at least one, with the limits that it states.
     """

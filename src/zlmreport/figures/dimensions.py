@@ -150,8 +150,6 @@ def beside_targets(
     ----------
     spans
         What is measured, each at one target.
-    region
-        Where there is room.
     marks, lines : (N, 2) arrays
         Points that a dimension should not cover, and points along lines that its label should not.
     """

@@ -96,8 +96,6 @@ class ModelDiagram:
 
         Parameters
         ----------
-        notation, role
-            Of the curve.
         x, values : (k,) arrays
             Of readings: in the unit of the page, and m or rad.
         group : (k,) integer array

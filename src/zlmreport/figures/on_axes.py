@@ -56,12 +56,8 @@ def put(figure: Figure, axes: Axes | Sequence[Axes], language: Language = Langua
 
     Parameters
     ----------
-    figure
-        What is drawn.
     axes
         Empty ones, in the size that they will have; legend and brackets stand inside.
-    language
-        Of titles and legends.
 
     Raises
     ------

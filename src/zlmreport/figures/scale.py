@@ -171,8 +171,6 @@ def category_scale(names: Sequence[str], width: float, width_of: Callable[[str],
 
     Parameters
     ----------
-    names
-        Of the things.
     width
         Of the axis, in points.
     width_of

@@ -36,14 +36,6 @@ def instrument_choice(
     ----------
     source
         The keys that the data source knows.
-    keys
-        What the job says.
-    registry
-        The installed plugins.
-    problems
-        Where mistakes are added.
-    within
-        The dotted path of the data source, for messages.
     """
     key = next(
         (key for key, field in keys_in(source).items() if model_in(field.annotation) is LiveInstrumentKeys),
@@ -120,12 +112,6 @@ def effect_choices(
     ----------
     listed
         The list; anything else has been refused before, and gives none.
-    registry
-        The installed plugins.
-    problems
-        Where mistakes are added.
-    within
-        The dotted path of the list, for messages.
     """
     items = listed.items if isinstance(listed, Items) else ()
     return tuple(_effects(items, registry, problems, within))
@@ -257,8 +243,6 @@ def program_choices(
         Finds the installed writers of their kind.
     problems
         Where mistakes are added: two that would write the same file among them.
-    within
-        The dotted path of the list, for messages.
     """
     items = listed.items if isinstance(listed, Items) else ()
     choices = tuple(_programs(items, find, problems, within))
@@ -309,12 +293,6 @@ def programs_by_name(
 
     Parameters
     ----------
-    names
-        Identifiers of installed writers.
-    named_at
-        Where they are named.
-    stated
-        Those of the job.
     find
         Finds the installed writers of their kind.
 

@@ -46,12 +46,6 @@ def validate(
     ----------
     model
         The keys that there are, with types and descriptions.
-    keys
-        What the job says.
-    problems
-        Where mistakes are added.
-    within
-        The dotted path of the group in the job, for messages.
     also_known
         Keys that belong to the group and are not the model's, for messages.
     """

@@ -112,14 +112,6 @@ def edit_effects(
 
     Parameters
     ----------
-    path
-        The job file.
-    job
-        As it was loaded.
-    registry
-        The installed plugins.
-    add
-        The effect to add.
     remove
         Identifiers of effects to take out.
 
@@ -147,8 +139,6 @@ def edit_list(
     ----------
     path, job, registry
         The job file, as it was loaded, and the installed plugins.
-    change
-        Of the list.
     is_meant
         Whether a job with the change says in that list what is meant; in all else it must be as before.
 

@@ -39,10 +39,6 @@ def refuse_other_format(
 
     Parameters
     ----------
-    tree
-        The file.
-    expected
-        What it should be.
     others
         Returns formats that extensions add; asked only for a file of none that the core knows.
 
@@ -137,8 +133,6 @@ def compose(path: Path, content: bytes | None = None, defaults: Defaults | None 
 
     Parameters
     ----------
-    path
-        The job file.
     content
         What it is to hold, instead of what it holds: to see what a change would come to.
     defaults

@@ -245,8 +245,6 @@ def load_fleet(
 
     Parameters
     ----------
-    path
-        The file.
     content
         Its bytes, where they were read already.
     extensions

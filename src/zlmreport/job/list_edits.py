@@ -243,8 +243,6 @@ def as_text(node: Node, quote: str = "", *, in_lines: bool = False) -> str:
 
     Parameters
     ----------
-    node
-        The value.
     quote
         The quotation mark of text; empty for none where none is needed.
     in_lines

@@ -51,10 +51,6 @@ def load(
 
     Parameters
     ----------
-    path
-        The job file.
-    registry
-        The installed plugins.
     formats
         Identifiers of installed renderers, instead of those that the job names.
     content
@@ -286,8 +282,6 @@ def chosen_formats(named: Iterable[tuple[str, Place]], registry: Installed) -> t
     ----------
     named
         Identifiers, each with the place where it is named.
-    registry
-        The installed plugins.
 
     Raises
     ------

@@ -119,8 +119,6 @@ def parse(content: bytes, file: str) -> Keys:
     ----------
     content
         The file's bytes.
-    file
-        Its name, for places.
 
     Raises
     ------

@@ -147,8 +147,6 @@ def problem(mistake: Mistake, model: type[BaseModel], within: str, also_known: C
 
     Parameters
     ----------
-    mistake
-        What was found.
     model
         What describes the keys: a message quotes its descriptions and examples.
     within

@@ -161,10 +161,6 @@ def load_simulation(path: Path, registry: Installed, content: bytes | None = Non
 
     Parameters
     ----------
-    path
-        The file.
-    registry
-        The installed plugins.
     content
         What the file is to hold, instead of what it holds.
 

@@ -95,8 +95,6 @@ def path_from_job(file: Path, job: Path, from_root: str | None = None) -> str | 
 
     Parameters
     ----------
-    file, job
-        As they were read.
     from_root
         How the job names the file, if it does so from the root of the file system.
     """

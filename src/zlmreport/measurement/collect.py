@@ -219,8 +219,6 @@ def problems_of(measurements: MeasurementSet, places: Sequence[Place]) -> list[P
     ----------
     measurements
         The readings, arranged but not checked.
-    places
-        Where each of them stands.
     """
     misread = list(_columns_are_what_they_say(measurements, places))
     return misread or [problem for check in _CHECKS for problem in check(measurements, places)]

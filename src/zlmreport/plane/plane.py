@@ -135,8 +135,6 @@ def report(plane: Plane, points: Sequence[tuple[float, float]]) -> dict[str, Any
 
     Parameters
     ----------
-    plane
-        The plane.
     points
         Where the deviation is asked for: P and R, m.
     """

@@ -167,8 +167,6 @@ def surface(readings: Readings, instrument: InstrumentError) -> Surface:
 
     Parameters
     ----------
-    readings
-        Of one direction of approach.
     instrument
         Its error, common to all readings.
 

@@ -107,10 +107,6 @@ def further_changes(axis: Axis, plan: Plan, seed: int, period: float | None) -> 
 
     Parameters
     ----------
-    axis, plan
-        What is changed.
-    seed
-        Of random fractions.
     period
         Of an effect in question, m or rad: the targets are to see all its phases.
     """

@@ -51,12 +51,6 @@ def experiment_of_tie(
 
     Parameters
     ----------
-    study
-        Of the job.
-    diagnosis
-        Its outcome.
-    effects
-        All that are installed.
     told
         Is told the share of the plans that are simulated.
     """
@@ -90,15 +84,9 @@ def deciding_experiment(
 
     Parameters
     ----------
-    names
-        Their identifiers.
-    job
-        The job.
     study
         Of its readings; None if there are none yet: then the effects are taken to be three times as large as
         the repeatability that the plan expects.
-    effects
-        All that are installed.
     standards
         Of the job, for a plan without readings.
 
@@ -194,8 +182,6 @@ def question_of(base: Fit, rivals: Sequence[Rival], fits: Sequence[Fit]) -> Ques
     ----------
     base
         The fitted model beside which they stand.
-    rivals
-        The effects.
     fits
         Of the model with one of them; the best one tells the noise.
     """
@@ -271,8 +257,6 @@ def deciding_text(experiment: Experiment, job: Job, extends: str) -> str:
 
     Parameters
     ----------
-    experiment
-        With a plan.
     job
         The job that left the question open.
     extends

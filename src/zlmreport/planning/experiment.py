@@ -227,16 +227,8 @@ def next_experiment(  # noqa: PLR0913 - what is asked, what is known, what may b
 
     Parameters
     ----------
-    question
-        Which effect it is.
     plan
         Of the test that left it open.
-    expected
-        What temperatures do.
-    effects
-        All that are installed.
-    seed
-        Of everything random.
     told
         Is told the share of the plans that are simulated; how many there will be shows on the way.
     """

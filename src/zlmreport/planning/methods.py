@@ -47,8 +47,6 @@ def path(method: Method, targets: Sequence[float], runs: int, overrun: float) ->
 
     Parameters
     ----------
-    method
-        The positioning method.
     targets
         Target positions, rising, m or rad.
     runs
@@ -177,8 +175,6 @@ def times(listed: Sequence[Visit], feed: float, dwell: float) -> FloatArray:
 
     Parameters
     ----------
-    listed
-        The visits.
     feed
         m/s or rad/s; the way to a target is travelled at this speed.
     dwell
@@ -195,12 +191,8 @@ def planned_design(
 
     Parameters
     ----------
-    axis
-        The axis under test.
     targets : (m,) array
         Target positions, rising, m or rad.
-    listed
-        The visits.
     feed, dwell
         As `times` takes them.
     """

@@ -297,14 +297,6 @@ def chosen_count(
     ----------
     axis
         An axis with a travel.
-    method
-        The positioning method.
-    runs
-        Where the job states them.
-    drawn
-        Returns targets by their number.
-    standards
-        Those of the job.
     """
     assert axis.travel is not None  # noqa: S101 - the caller has seen to it
     intervals = math.ceil((axis.travel[1] - axis.travel[0]) / _LARGEST_INTERVAL[axis.kind] - _ROUNDING)

@@ -71,8 +71,6 @@ def planned_test(job: Job, standards: Sequence[PlannedStandard], effects: Sequen
         The job; its readings need not exist.
     standards
         The standards that it names, each with its own keys.
-    effects
-        All that are installed.
 
     Raises
     ------

@@ -172,10 +172,6 @@ def motion_of(number: str, axis: Axis, plan: Plan, place: Place) -> Motion:
 
     Parameters
     ----------
-    number
-        Of the job.
-    axis
-        The axis under test.
     plan
         Targets, method, runs, overrun, feed and dwell, in SI.
     place

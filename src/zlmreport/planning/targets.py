@@ -54,8 +54,6 @@ def target_positions(
     period
         The greatest period that is expected, m or rad: r is drawn anew for each target, evenly from 0 up to
         it. 0 gives even targets.
-    random
-        Where the fractions come from.
 
     Raises
     ------
@@ -104,8 +102,6 @@ def drawn_targets(axis: Axis, count: int, overrun: float, period: float | None, 
     period
         Whose random fractions r are, m or rad; 0 for even targets; None for the pitch that the axis states,
         or else a quarter of the interval, as far as they fit.
-    seed
-        Of the fractions.
 
     Raises
     ------

@@ -94,10 +94,6 @@ def effects_seen(
         The effects that are taken for granted, all of which the test determines.
     design
         The plan with the conditions that are expected.
-    effects
-        All that are installed.
-    expected
-        Above all the repeatability.
 
     Notes
     -----
@@ -171,14 +167,8 @@ def remedies(
 
     Parameters
     ----------
-    seen_effects
-        What the plan sees.
     model
         The effects that the job takes for granted.
-    axis
-        The axis.
-    proposal
-        The plan.
     """
     plan, expected = proposal.plan, proposal.expected
     blurred = [each for each in seen_effects if each.sight in {Sight.HIDDEN, Sight.TOO_SMALL}]

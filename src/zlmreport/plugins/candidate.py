@@ -77,8 +77,6 @@ class Candidate:
 
     Parameters
     ----------
-    plugin
-        Where it comes from.
     load
         Returns its module, or any object that has hooks.
     declared

@@ -106,10 +106,6 @@ class DiagnosisRows:
 
         Parameters
         ----------
-        diagnosis
-            What the model lacks.
-        language
-            Of the texts.
         titles
             What effects are called, by identifier; without them, candidates have none.
         """

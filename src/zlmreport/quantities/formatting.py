@@ -99,8 +99,6 @@ def p_value(
     ----------
     value
         A probability.
-    sign
-        Decimal sign.
     least
         A power of ten: below it, a smaller chance is no stronger evidence.
     is_extrapolated
@@ -135,8 +133,6 @@ def rounded_pair(
     ----------
     value, expanded_uncertainty
         In the unit that is printed.
-    sign
-        Decimal sign.
 
     >>> rounded_pair(-4.01187, 0.1319), rounded_pair(12.3456, 0.0996), rounded_pair(5678.9, 432.1)
     (('−4.01', '0.13'), ('12.35', '0.10'), ('5680', '430'))

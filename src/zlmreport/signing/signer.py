@@ -45,8 +45,6 @@ def open_signer(
         A PKCS#12 file (``laboratory.p12``), or the address of a key in a PKCS#11 token (``pkcs11:…``).
     ask_password
         Returns the password of the file, or the PIN of the token; it is told what the password is of.
-    place
-        Where the key is named, for messages.
     authorities
         Certificates of those that issued the signer's and the time stamps', where these do not bring them.
 

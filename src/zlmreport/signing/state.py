@@ -319,8 +319,6 @@ def trusted_certificates(path: Path, place: Place) -> tuple[Any, ...]:
     path
         A certificate, PEM or DER, or several in one file (PEM); or a folder of such files, those that end in
         ``.pem``, ``.crt``, ``.cer`` or ``.der``.
-    place
-        Where it is named, for messages.
 
     Raises
     ------

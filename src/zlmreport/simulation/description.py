@@ -161,8 +161,6 @@ def logged_course(course: Course, true: FloatArray, seed: int, sensor: int) -> F
         With the sensor's noise and resolution.
     true : (N,) array
         The condition, SI.
-    seed
-        Of the simulation.
     sensor
         Number of the sensor: each has noise of its own.
     """

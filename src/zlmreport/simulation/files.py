@@ -45,8 +45,6 @@ def description_of(file: SimulationFile, find: Callable[[str], Effect]) -> Descr
 
     Parameters
     ----------
-    file
-        The checked file.
     find
         Returns an installed effect by its identifier.
 
@@ -187,8 +185,6 @@ def readings_table(measurements: MeasurementSet, remarks: Sequence[str]) -> str:
 
     Parameters
     ----------
-    measurements
-        The readings.
     remarks
         Lines for the head of the file: where the readings come from.
     """
@@ -231,8 +227,6 @@ def job_text(file: SimulationFile, folder: Path, readings: str) -> str:
 
     Parameters
     ----------
-    file
-        The simulation.
     folder
         Where the job will stand: tables of the axis are named from there.
     readings
@@ -247,12 +241,8 @@ def live_job_text(file: SimulationFile, folder: Path, plan: Plan, source: Mappin
 
     Parameters
     ----------
-    file
-        The simulation.
     folder
         Where the job will stand: tables of the axis are named from there.
-    plan
-        What the machine carries out.
     source
         The keys of the job's source.
     """

@@ -88,10 +88,6 @@ def deviation_by(effect: Effect, design: Design, values: Mapping[str, float]) ->
 
     Parameters
     ----------
-    effect
-        The effect.
-    design
-        The test.
     values
         Its parameters by name, SI. Linear ones that are left out are 0; searched ones may be left out where
         the axis tells them (a stated pitch).

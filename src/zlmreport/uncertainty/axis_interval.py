@@ -68,8 +68,6 @@ def axis_intervals(
     ----------
     evaluations
         Of one test, one at least, each with the arithmetic that takes it from statistics to parameters.
-    pairs
-        Simulated pairs of tests.
     """
     measurements = evaluations[0][0].measurements
     readings = measurements.deviations()

@@ -59,10 +59,6 @@ def budget_of(
 
     Parameters
     ----------
-    job
-        The job.
-    measurements
-        Its readings.
     of_the_instrument
         The instrument's own contributions where it is no device of one uncertainty.
 
@@ -396,8 +392,6 @@ def refusals(job: Job, budget: Budget | NoBudget) -> Iterator[Problem]:
     ----------
     job
         The job; a report may leave out what it says that it leaves out.
-    budget
-        Of the job.
     """
     if job.keys.certificate.kind != "certificate":
         return

@@ -65,8 +65,6 @@ def propagate(
 
     Parameters
     ----------
-    budget
-        Of the set-up.
     evaluations
         Of one test, one at least, each with the arithmetic that takes it from statistics to parameters.
     trials

@@ -237,11 +237,6 @@ class Umd:
     set: it counts from when it was switched on.
 
     µMD1 counts REF − MEAS and µMD2 MEAS − REF: the key `sign` sets right which way is up.
-
-    Parameters
-    ----------
-    model
-        Which of them.
     """
 
     def __init__(self, model: Model) -> None:

@@ -284,8 +284,6 @@ class UmdEmulator:
 
     Parameters
     ----------
-    model
-        Which.
     scene
         The axis, and what goes wrong.
     length

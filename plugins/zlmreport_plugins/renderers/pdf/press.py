@@ -188,13 +188,7 @@ Contents: TypeAlias = dict[str, tuple[bytes, str]]
 
 
 class Supply(URLFetcher):  # type: ignore[misc]
-    """Answers addresses from memory and refuses every other one, be it a file or a network address.
-
-    Parameters
-    ----------
-    contents
-        What there is.
-    """
+    """Answers addresses from memory and refuses every other one, be it a file or a network address."""
 
     def __init__(self, contents: Contents) -> None:
         # The base class's own set-up is left out: it installs the openers of files and networks.

@@ -144,8 +144,6 @@ class Log:
 
         Parameters
         ----------
-        unit
-            Of all positions.
         forward
             The approach that the log calls FWD.
         """

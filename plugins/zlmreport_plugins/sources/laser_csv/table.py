@@ -67,8 +67,6 @@ def read_table(
 
     Parameters
     ----------
-    text
-        The file.
     delimiter
         As stated; None to tell it by the header.
     lines

@@ -78,10 +78,6 @@ def parameters(
 
     Parameters
     ----------
-    statistics
-        By position.
-    k
-        Coverage factor.
     repeatability
         The columns by position, as from `positions`.
     """
