@@ -19,22 +19,43 @@ Point: TypeAlias = tuple[float, float, float]
 
 @dataclass(frozen=True, slots=True)
 class Travel:
-    """A straight move of the tip's centre, nothing being measured."""
+    """A straight move of the tip's centre, nothing being measured.
 
-    to: Point  #: Where it ends, m.
-    #: Number of the face that it leads to or away from; 0 for the beginning and the end of the path.
+    Attributes
+    ----------
+    to
+        Where it ends, m.
+    face
+        Number of the face that it leads to or away from; 0 for the beginning and the end of the path.
+    cycle
+        Number of the cycle, from 1; 0 for the beginning and the end of the path.
+    """
+
+    to: Point
     face: int = 0
-    cycle: int = 0  #: Number of the cycle, from 1; 0 for the beginning and the end of the path.
+    cycle: int = 0
 
 
 @dataclass(frozen=True, slots=True)
 class Probing:
-    """A measuring move towards a face, against its outward normal."""
+    """A measuring move towards a face, against its outward normal.
 
-    face: int  #: Number of the face, from 1 at the beginning of the gauge.
-    cycle: int  #: Number of the cycle, from 1.
-    target: Point  #: Where the face should be: the point on its surface, m.
-    normal: Point  #: Outward unit normal of the face.
+    Attributes
+    ----------
+    face
+        Number of the face, from 1 at the beginning of the gauge.
+    cycle
+        Number of the cycle, from 1.
+    target
+        Where the face should be: the point on its surface, m.
+    normal
+        Outward unit normal of the face.
+    """
+
+    face: int
+    cycle: int
+    target: Point
+    normal: Point
 
     def away(self, distance: float) -> Point:
         """Return the point in front of the face at a distance from it, m."""
@@ -46,23 +67,40 @@ Move: TypeAlias = Travel | Probing
 
 @dataclass(frozen=True, slots=True)
 class ProbingPath:
-    """The path of a probe over a step gauge."""
+    """The path of a probe over a step gauge.
 
-    number: str  #: Of the job.
-    gauge: str  #: Name and serial number of the gauge.
-    moves: tuple[Move, ...]  #: In the order in which they are made; the first leads to the safe position.
-    tip_radius: float  #: Nominal, m.
-    #: approach, search and retract: Distances of the tip's surface from the face, m: at which a measuring
-    #: move begins, how far behind the face it gives up, and how far the tip draws back when it has touched.
+    Attributes
+    ----------
+    number
+        Of the job.
+    gauge
+        Name and serial number of the gauge.
+    moves
+        In the order in which they are made; the first leads to the safe position.
+    tip_radius
+        Nominal, m.
+    approach, search, retract
+        Distances of the tip's surface from the face, m: at which a measuring move begins, how far behind the
+        face it gives up, and how far the tip draws back when it has touched.
+    speed, measuring_speed
+        Of moves and of measuring moves, m/s.
+    radius_correction
+        Whether the machine is to report points of the surface and not centres of the tip.
+    place
+        Where the path is asked for: for messages about what cannot be programmed.
+    """
+
+    number: str
+    gauge: str
+    moves: tuple[Move, ...]
+    tip_radius: float
     approach: float
     search: float
     retract: float
-    #: speed and measuring_speed: Of moves and of measuring moves, m/s.
     speed: float
     measuring_speed: float
-    #: Whether the machine is to report points of the surface and not centres of the tip.
     radius_correction: bool
-    place: Place  #: Where the path is asked for: for messages about what cannot be programmed.
+    place: Place
 
     @property
     def probings(self) -> tuple[Probing, ...]:

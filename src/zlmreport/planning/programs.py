@@ -47,12 +47,21 @@ Begins: TypeAlias = Literal["", "test", "run", "second half"]
 
 @dataclass(frozen=True, slots=True)
 class ProgramStop:
-    """A point at which the axis stops: to be read, or to turn round."""
+    """A point at which the axis stops: to be read, or to turn round.
 
-    position: float  #: mm or °.
-    reading: Reading | None = None  #: What is read there; None where the axis only turns round.
-    #: Of a stop before the first reading of the test, of a run that goes over the whole axis, or of the
-    #: second half after a pause: which of them begins from here; empty for any other.
+    Attributes
+    ----------
+    position
+        mm or °.
+    reading
+        What is read there; None where the axis only turns round.
+    begins
+        Of a stop before the first reading of the test, of a run that goes over the whole axis, or of the
+        second half after a pause: which of them begins from here; empty for any other.
+    """
+
+    position: float
+    reading: Reading | None = None
     begins: Begins = ""
 
 
