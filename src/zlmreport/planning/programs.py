@@ -34,12 +34,24 @@ _SIGNS = {Approach.POSITIVE: "+", Approach.NEGATIVE: "-"}
 
 @dataclass(frozen=True, slots=True)
 class Reading:
-    """A reading that is taken while the axis stands at a target."""
+    """A reading that is taken while the axis stands at a target.
 
-    number: int  #: In the order of the test, from 1.
-    target: int  #: Number of the target, from 1.
-    approach: Approach  #: The direction in which the axis must come there.
-    run: int  #: Number of the run, from 1.
+    Attributes
+    ----------
+    number
+        In the order of the test, from 1.
+    target
+        Number of the target, from 1.
+    approach
+        The direction in which the axis must come there.
+    run
+        Number of the run, from 1.
+    """
+
+    number: int
+    target: int
+    approach: Approach
+    run: int
 
 
 Begins: TypeAlias = Literal["", "test", "run", "second half"]
