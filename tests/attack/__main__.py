@@ -21,7 +21,7 @@ sys.dont_write_bytecode = True  # of plugins in the folders that are watched
 os.environ["OPENBLAS_NUM_THREADS"] = "1"  # before any library is loaded: threads do not outlive a fork
 sys.path.insert(0, str(Path(__file__).parents[1]))  # for its neighbours, as pytest has them
 
-from attack.adversary import Input, answers, inputs, shown, shrunk
+from attack.adversary import Input, answers, inputs, shown, shrunk, warm_up
 from attack.targets import targets
 
 #: Inputs of a process.
@@ -34,6 +34,7 @@ def attacked(seed: int, wanted: int, until: float, only: str) -> int:
     found: dict[str, Input] = {}
     with tempfile.TemporaryDirectory(prefix="zlmreport-attack-") as folder:
         known = [each for each in targets(Path(folder)) if only in each.name]
+        warm_up(known)
         drawn = inputs(seed, known)
         while sum(done.values()) < wanted and time.monotonic() < until:
             batch = [next(drawn) for _ in range(min(_BATCH, wanted - sum(done.values())))]
@@ -41,9 +42,9 @@ def attacked(seed: int, wanted: int, until: float, only: str) -> int:
                 done[known[each.target].name] += 1
                 if complained:
                     found.setdefault(f"{known[each.target].name}: {complained[:80]}", each)
-        for each in found.values():
+        for first, each in found.items():
             least, complained = shrunk(each, known)
-            print(f"\n{known[least.target].name}: {complained}\nedits {least.seeds}, attack {least.attack}")
+            print(f"\n{first}\n{complained or 'not again'}\nedits {least.seeds}, attack {least.attack}")
             print(shown(least, known), flush=True)
     print(f"{sum(done.values())} inputs, seed {seed}: {len(found)} findings ({dict(done)})")
     return len(found)

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import contextlib
 import difflib
+import gc
+import importlib
 import io
 import json
 import os
@@ -11,21 +13,24 @@ import random
 import resource
 import select
 import signal
+import sys
 import tempfile
 import time
 import traceback
 import warnings
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 
 from attack.edits import spoiled
 from attack.targets import Target
+from zlmreport.plugins import find
 
 #: Exit codes of a command that refuses.
 _REFUSED = (2, 3)
-#: Processor seconds of an input, and seconds until its process is ended.
-_SECONDS, _PATIENCE = 30, 60
+#: Processor seconds of an input, and seconds until its process is ended: a busy machine lets it wait.
+_SECONDS, _PATIENCE = 30, 300
 #: That the memory of a process may grow by an input, MB.
 _MEGABYTES = 600
 
@@ -40,12 +45,41 @@ class Input:
 
 
 def inputs(seed: int, known: Sequence[Target]) -> Iterator[Input]:
-    """Yield inputs without end, each target as often as the others."""
+    """Yield inputs without end: rounds in which each target has its share, and first each once."""
     draw = random.Random(seed)
     while True:
+        for turn in range(max(target.share for target in known)):
+            for number, target in enumerate(known):
+                if turn < target.share:
+                    seeds = tuple(draw.randrange(2**32) for _ in range(draw.choice((1, 1, 1, 2, 2, 3, 6))))
+                    yield Input(number, draw.randrange(len(target.attacks)), seeds)
+
+
+def warm_up(known: Sequence[Target]) -> None:
+    """Import what the attacks import, and list installed plugins once: processes of inputs are forks of this.
+
+    The attacks are made on sound files in a child, for some start threads, which do not outlive a fork.
+    """
+    find.entry_points = cache(find.entry_points)  # type: ignore[assignment,attr-defined]
+    reading, writing = os.pipe()
+    if not (child := os.fork()):
         for number, target in enumerate(known):
-            seeds = tuple(draw.randrange(2**32) for _ in range(draw.choice((1, 1, 1, 2, 2, 3, 6))))
-            yield Input(number, draw.randrange(len(target.attacks)), seeds)
+            for attack in range(len(target.attacks)):
+                complaint(Input(number, attack, ()), target)
+        with os.fdopen(writing, "w") as pipe:
+            json.dump(list(sys.modules), pipe)
+        os._exit(0)
+    os.close(writing)
+    with os.fdopen(reading) as pipe:
+        names = json.load(pipe)
+    os.waitpid(child, 0)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        for name in names:
+            with contextlib.suppress(ImportError):  # of a folder that is gone
+                importlib.import_module(name)
+    gc.collect()
+    gc.freeze()
 
 
 def _files(folder: Path) -> dict[str, bytes]:
