@@ -3,17 +3,23 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
 
 from model.axis_tests import AXIS, EFFECTS, linear_test, model_of, noise
+from zlmreport.job.formula_keys import FormulaKeys
 from zlmreport.measurement.approach import Approach
+from zlmreport.measurement.axis import AxisKind
 from zlmreport.model.axis_model import AxisModel, Term
-from zlmreport.model.curve import curve_positions, effect_positions
+from zlmreport.model.curve import curve_positions, effect_positions, waves_along
 from zlmreport.model.design import at_positions
+from zlmreport.model.effect import Effect
 from zlmreport.model.fit import Fit, fit
+from zlmreport.model.formula import FormulaEffect
 from zlmreport.quantities.arrays import FloatArray
+from zlmreport_plugins.effects.periodic import HarmonicOptions, ScrewPitch
 
 _PITCHES = [0.5, 0.01, 0.005]
 
@@ -74,3 +80,54 @@ def test_effect_alone_is_drawn_as_finely_as_in_a_model() -> None:
     turn = np.linspace(0, 2 * np.pi, 1000)
     true = np.sin(turn) + np.cos(turn) + np.sin(2 * turn) + np.cos(2 * turn)
     assert np.ptp(drawn) == pytest.approx(np.ptp(true), rel=0.03)
+
+
+def _formula(text: str, **parameters: Any) -> FormulaEffect:
+    return FormulaEffect(FormulaKeys(name="own", formula=text, parameters=parameters), AxisKind.LINEAR)
+
+
+_METRE = linear_test(15, 2, axis=replace(AXIS, screw_pitch=0.005))
+_LONG = replace(_METRE, position=3 * _METRE.position, span=(0.0, 3 * _METRE.span[1]))
+_MM, _UM = {"unit": "mm", "range": [1, 3000]}, {"unit": "um", "range": [-50, 50]}
+
+
+@pytest.mark.parametrize(
+    ("drawn", "searched"),
+    [
+        (ScrewPitch(HarmonicOptions(harmonics=(1,))), [0.005]),
+        (_formula("a*sin(2*pi*P/L)", a=_UM, L=_MM), [0.005]),
+        (
+            _formula("a*sin(2*pi*P/L + b*cos(4*pi*P/M))", a=_UM, L=_MM, b={"range": [0, 2]}, M=_MM),
+            [0.02, 1, 0.1],
+        ),
+        (_formula("a*exp(-P/L)", a=_UM, L=_MM), [0.01]),
+        (_formula("a*exp(-(P - M)^2/L^2)", a=_UM, L=_MM, M=_MM), [0.015, 1.2345]),
+        (_formula("a*step(P - 777)*P/L - b*step(P - 123)", a=_UM, b=_UM, L={**_MM, "value": 3000}), [3.0]),
+        (_formula("a*sign(sin(2*pi*P/L))", a=_UM, L={**_MM, "value": 300}), [0.3]),
+        (
+            _formula(
+                "a*abs(P/L - b) + c*min(P/L, 1)", a=_UM, c=_UM, L={**_MM, "value": 1300}, b={"range": [0, 1]}
+            ),
+            [1.3, 0.7],
+        ),
+    ],
+    ids=["pitch", "wave", "modulated", "fading", "bump", "steps", "square", "kinks"],
+)
+def test_between_positions_a_curve_is_what_the_model_gives(drawn: Effect, searched: list[float]) -> None:
+    """An axis of 3000 mm with waves down to 5 mm: lines between positions, held against the prediction."""
+    design, theta = _LONG, np.array(searched)
+    deviation = 1e-5 * drawn.columns(design, theta).sum(axis=1) + noise(design, sigma=1e-8)
+    names = [each.name for each in drawn.searched]
+    known = dict(zip(names, searched, strict=True))
+    fitted = fit(AxisModel((Term(drawn, known),)), design, deviation)
+    positions = curve_positions(fitted, Approach.POSITIVE)
+    asked = np.random.default_rng(5).uniform(*design.span, 20_000)
+    true = fitted.predict(at_positions(design, asked, Approach.POSITIVE)).deviation
+    line = np.interp(asked, positions, _values(fitted, positions))
+    np.testing.assert_allclose(line, true, atol=0.03 * np.abs(true).max())
+
+
+def test_wave_of_a_formula_is_as_long_as_its_period_says() -> None:
+    wave = _formula("a*sin(6*pi*P/L) + b*cos(2*pi*P/L)", a=_UM, b=_UM, L=_MM)
+    fitted = fit(AxisModel((Term(wave, {"L": 0.3}),)), _LONG, noise(_LONG))
+    assert waves_along(fitted) == {"own": pytest.approx(0.1)}

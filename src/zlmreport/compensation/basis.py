@@ -18,7 +18,7 @@ import numpy as np
 from zlmreport.compensation.curve import ErrorCurve
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.measurement_set import MeasurementSet
-from zlmreport.model.curve import shortest_wave
+from zlmreport.model.curve import waves_along
 from zlmreport.model.design import at_positions
 from zlmreport.model.fit import Fit
 from zlmreport.model.observations import Observations
@@ -134,13 +134,9 @@ class FittedModel:
 
 def waves_of(fit: Fit) -> dict[str, float]:
     """Return the effects of a model that repeat along the axis, each with its shortest wave, m or rad."""
-    pairs = zip(fit.model.terms, fit.solution.thetas, strict=True)
-    found = {
-        term.effect.identifier: shortest_wave(term, theta)
-        for term, theta in pairs
-        if term.effect.shape in BY_TABLE
-    }
-    return {name: wave for name, wave in found.items() if np.isfinite(wave)}
+    by_table = {term.effect.identifier for term in fit.model.terms if term.effect.shape in BY_TABLE}
+    waves = waves_along(fit)
+    return {name: wave for name, wave in waves.items() if name in by_table and np.isfinite(wave)}
 
 
 def too_fine(waves: Mapping[str, float], rows: FloatArray) -> dict[str, float]:

@@ -165,6 +165,8 @@ class Formula:
 
     Attributes
     ----------
+    tree
+        The formula.
     units
         Of all names.
     columns
@@ -176,6 +178,7 @@ class Formula:
     """
 
     def __init__(self, keys: FormulaKeys, tree: Tree, units: Mapping[str, UnitOf]) -> None:
+        self.tree = tree
         self.units = units
         self.names = names_in(tree)
         known = {*keys.parameters, *VARIABLES}

@@ -8,6 +8,7 @@ can show, it runs through the least and the largest value of each stretch, and s
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import partial
 
 import numpy as np
 
@@ -16,13 +17,14 @@ from zlmreport.model.axis_model import Term
 from zlmreport.model.design import Design, at_positions
 from zlmreport.model.effect import Dimension, Effect
 from zlmreport.model.fit import Fit
+from zlmreport.model.formula import FormulaEffect
 from zlmreport.quantities.arrays import FloatArray
 
 #: Positions where nothing repeats and nothing jumps.
 _POSITIONS = 480
 _PER_PERIOD = 16
 #: Beyond so many positions a page cannot part the periods; stretches that it can, and probes in each.
-_MOST = 4000
+_MOST = 10_000
 _STRETCHES, _PROBES = 600, 32
 #: Distance of the two positions at a joint, as a share of the travel.
 _BESIDE = 1e-9
@@ -43,12 +45,8 @@ def curve_positions(fitted: Fit, approach: Approach, span: tuple[float, float] |
     """
     design = fitted.design
     pairs = list(zip(fitted.model.terms, fitted.solution.thetas, strict=True))
-    return _positions(
-        pairs,
-        design,
-        span or design.span,
-        lambda places: fitted.value_at(at_positions(design, places, approach)),
-    )
+    at = partial(at_positions, design, approach=approach)
+    return _positions(pairs, at, span or design.span, fitted.value_at)
 
 
 def effect_positions(
@@ -65,24 +63,23 @@ def effect_positions(
     span
         The part of the travel that is drawn, m or rad.
     """
+    at = partial(at_positions, design, approach=approach)
     return _positions(
-        [(Term(effect), theta)],
-        design,
-        span,
-        lambda places: effect.columns(at_positions(design, places, approach), theta).sum(axis=1),
+        [(Term(effect), theta)], at, span, lambda asked: effect.columns(asked, theta).sum(axis=1)
     )
 
 
 def _positions(
     pairs: Sequence[tuple[Term, FloatArray]],
-    design: Design,
+    at: Callable[[FloatArray], Design],
     span: tuple[float, float],
-    value: Callable[[FloatArray], FloatArray],
+    value: Callable[[Design], FloatArray],
 ) -> FloatArray:
     first, last = span
-    shortest = min((_scale(term, theta) for term, theta in pairs), default=np.inf)
+    along = at(np.linspace(first, last, _MOST))
+    shortest = min((_scale(term, theta, along) for term, theta in pairs), default=np.inf)
     joints = [
-        place for term, theta in pairs for place in _joints(term, theta, design) if first < place < last
+        place for term, theta in pairs for place in _joints(term, theta, along) if first <= place <= last
     ]
     wanted = _PER_PERIOD * (last - first) / shortest
     if wanted <= _POSITIONS:
@@ -90,7 +87,7 @@ def _positions(
     elif wanted <= _MOST:
         found = np.linspace(first, last, int(np.ceil(wanted)) + 1)
     else:
-        found = _extremes(value, span, shortest)
+        found = _extremes(lambda places: value(at(places)), span, shortest)
     if not joints:
         return np.asarray(found, dtype=np.float64)
     beside = np.add.outer(np.array(joints), np.array([-_BESIDE, _BESIDE]) * (last - first)).ravel()
@@ -114,15 +111,28 @@ def _extremes(
     return np.unique(np.concatenate([[first, last], *chosen]))
 
 
-def _scale(term: Term, theta: FloatArray) -> float:
+def _scale(term: Term, theta: FloatArray, along: Design) -> float:
     """Return the shortest length over which an effect repeats or fades, m or rad; infinite if over none."""
-    named = zip(term.effect.searched, theta.tolist(), strict=True)
-    fading = [abs(value) for parameter, value in named if parameter.name == "relaxation_length"]
-    return min([shortest_wave(term, theta), *fading]) or np.inf
+    if isinstance(term.effect, FormulaEffect):
+        fading = [term.effect.shortest_fading(along, theta)]
+    else:
+        named = zip(term.effect.searched, theta.tolist(), strict=True)
+        fading = [abs(value) for parameter, value in named if parameter.name == "relaxation_length"]
+    return min([_shortest_wave(term, theta, along), *fading]) or np.inf
 
 
-def shortest_wave(term: Term, theta: FloatArray) -> float:
-    """Return the length of the shortest wave of a periodic effect, m or rad; infinite if it has none."""
+def waves_along(fitted: Fit) -> dict[str, float]:
+    """Return the length of the shortest wave of each effect of a model, m or rad; infinite if it has none."""
+    design = fitted.design
+    approach = Approach.POSITIVE if np.any(design.direction > 0) else Approach.NEGATIVE
+    along = at_positions(design, np.linspace(*design.span, _MOST), approach)
+    pairs = zip(fitted.model.terms, fitted.solution.thetas, strict=True)
+    return {term.effect.identifier: _shortest_wave(term, theta, along) for term, theta in pairs}
+
+
+def _shortest_wave(term: Term, theta: FloatArray, along: Design) -> float:
+    if isinstance(term.effect, FormulaEffect):
+        return term.effect.shortest_wave(along, theta)
     periods = [np.inf]
     orders = [int(each.name.partition("_")[2] or 1) for each in term.effect.linear if "sine" in each.name]
     for parameter, value in zip(term.effect.searched, theta.tolist(), strict=True):
@@ -133,11 +143,13 @@ def shortest_wave(term: Term, theta: FloatArray) -> float:
     return float(min(periods)) / max(orders, default=1) or np.inf
 
 
-def _joints(term: Term, theta: FloatArray, design: Design) -> list[float]:
+def _joints(term: Term, theta: FloatArray, along: Design) -> list[float]:
     """Return positions at which an effect jumps or bends: its joints, and the rows of a table."""
+    if isinstance(term.effect, FormulaEffect):
+        return term.effect.joints(along, theta)
     named = zip(term.effect.searched, theta.tolist(), strict=True)
     found = [value for parameter, value in named if parameter.name in {"joint", "kink"}]
-    tables = {"compensation": design.axis.compensation_table, "abbe": design.axis.angular_errors}
+    tables = {"compensation": along.axis.compensation_table, "abbe": along.axis.angular_errors}
     for name, table in tables.items():
         if table is not None and term.effect.identifier.startswith(name):
             found.extend(table.positions)

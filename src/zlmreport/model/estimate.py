@@ -269,7 +269,8 @@ class Uncertainties:
             [self.variances.degrees(row, part) for row, part in zip(rows, scaled, strict=True)]
         )
         # The instrument's share is known from its certificate: Welch and Satterthwaite with one term.
-        return np.sqrt(total), degrees * (total / np.where(random > 0, random, 1.0)) ** 2
+        shares = np.divide(total, random, out=np.ones_like(total), where=random > 0)
+        return np.sqrt(total), degrees * shares**2
 
 
 def estimates_of(

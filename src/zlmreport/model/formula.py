@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from itertools import product
 
 import numpy as np
@@ -13,9 +14,16 @@ from zlmreport.measurement.measurement_set import CONDITIONS
 from zlmreport.model.design import Design
 from zlmreport.model.effect import Dimension, Effect, Parameter, Shape, needs_logged, unit_of
 from zlmreport.quantities.arrays import FloatArray
+from zlmreport.quantities.formula import Call, Tree, calls_in, computed
 
 #: Values of searched parameters that are tried: at most all together, of one alone, in each of its periods.
 _MOST, _FEWEST, _PER_PERIOD = 400, 12, 4
+#: Steps that find a joint between two positions, each to half the distance.
+_HALVINGS = 40
+#: Functions that repeat with their argument, that fade with it, and that jump or bend where it is zero.
+_WAVES = frozenset({"sin", "cos", "tan"})
+_FADING = frozenset({"exp", "tanh", "atan"})
+_JOINTS = frozenset({"step", "sign", "abs", "min", "max"})
 _STATED = Words(
     en="stated where the formula is written; no standard states them",
     de="dort angegeben, wo die Formel steht; keine Norm nennt sie",
@@ -95,6 +103,48 @@ class FormulaEffect(Effect):
 
     def columns(self, design: Design, theta: FloatArray) -> FloatArray:
         """Return what each linear parameter is multiplied with."""
+        return self._formula.values(self._readings(design), self._named(theta))
+
+    def shortest_wave(self, along: Design, theta: FloatArray) -> float:
+        """Return the length of the shortest wave at rising positions, m or rad; infinite without any."""
+        calls = calls_in(self._formula.tree, _WAVES)
+        phases = [self._over_position(call.arguments[0], along, theta)(along.position) for call in calls]
+        return 2 * np.pi * _shortest(along, phases)
+
+    def shortest_fading(self, along: Design, theta: FloatArray) -> float:
+        """Return the shortest length over which a part of it comes or goes, m or rad; infinite without."""
+        calls = calls_in(self._formula.tree, _FADING)
+        values = [self._over_position(call, along, theta)(along.position) for call in calls]
+        return _shortest(along, [value / np.abs(value).max() for value in values if value.any()])
+
+    def joints(self, along: Design, theta: FloatArray) -> list[float]:
+        """Return where it jumps or bends between rising positions, m or rad."""
+        found: list[float] = []
+        for call in calls_in(self._formula.tree, _JOINTS):
+            zero = Call("-", call.arguments) if len(call.arguments) > 1 else call.arguments[0]
+            value = self._over_position(zero, along, theta)
+            signs = np.nan_to_num(np.sign(value(along.position)))
+            before = np.flatnonzero(np.diff(signs))
+            low, high = along.position[before], along.position[before + 1]
+            for _ in range(_HALVINGS):
+                middle = (low + high) / 2
+                is_low = np.sign(value(middle)) == signs[before]
+                low, high = np.where(is_low, middle, low), np.where(is_low, high, middle)
+            found += low.tolist()
+        return found
+
+    def _over_position(
+        self, part: Tree, along: Design, theta: FloatArray
+    ) -> Callable[[FloatArray], FloatArray]:
+        """Return a part of the formula as a function of the position, all else being as in a design."""
+        known = {name: values[0] for name, values in self._readings(along).items()} | self._named(theta)
+        return lambda places: np.broadcast_to(computed(part, {**known, "P": places}), places.shape)
+
+    def _named(self, theta: FloatArray) -> dict[str, float]:
+        names = [parameter.name for parameter in self.searched]
+        return dict(zip(names, theta.tolist(), strict=True))
+
+    def _readings(self, design: Design) -> dict[str, FloatArray]:
         readings = {"P": design.position, "D": design.direction, "t": design.time}
         readings["run"] = design.run.astype(np.float64)
         for name in self._formula.columns:
@@ -103,5 +153,11 @@ class FormulaEffect(Effect):
             readings[name] = log if kind is None else kind.unit.from_si(log)
         if "v" in self._formula.names:
             readings["v"] = design.conditions["v"] / self._formula.units["v"].per_si
-        named = [parameter.name for parameter in self.searched]
-        return self._formula.values(readings, dict(zip(named, theta.tolist(), strict=True)))
+        return readings
+
+
+def _shortest(along: Design, values: list[FloatArray]) -> float:
+    """Return the shortest length in which one of some values changes by 1; infinite if none does."""
+    with np.errstate(all="ignore"):
+        slopes = np.abs(np.diff(np.array(values)) / np.diff(along.position)) if values else np.zeros(1)
+        return float(1.0 / slopes[np.isfinite(slopes)].max(initial=0.0))

@@ -7,7 +7,7 @@ frozen values, of which each name and each operation is known: nothing in it can
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from types import MappingProxyType
@@ -220,6 +220,15 @@ def names_in(tree: Tree) -> tuple[str, ...]:
     if isinstance(tree, Number):
         return ()
     return tuple(dict.fromkeys(name for each in tree.arguments for name in names_in(each)))
+
+
+def calls_in(tree: Tree, operations: Collection[str]) -> Iterator[Call]:
+    """Yield the calls of some operations in a formula, those of their arguments included."""
+    if isinstance(tree, Call):
+        if tree.operation in operations:
+            yield tree
+        for each in tree.arguments:
+            yield from calls_in(each, operations)
 
 
 def in_si(tree: Tree, units: Mapping[str, UnitOf]) -> tuple[Tree, Extent]:
