@@ -129,20 +129,29 @@ def position_statistics(deviations: FloatArray) -> PositionStatistics:
     total = np.zeros(by_position, order="F")
     squares = np.zeros(by_position, order="F")
     for run in runs:
-        present = ~np.isnan(run)
-        count += present
-        np.add(total, run, out=total, where=present)
+        count += _added(total, np.asfortranarray(run))
     with np.errstate(invalid="ignore", divide="ignore"):
         mean = total / count
         for run in runs:
-            residual = run - mean
+            residual = np.subtract(run, mean, order="F")
             residual *= residual
-            np.add(squares, residual, out=squares, where=~np.isnan(residual))
+            _added(squares, residual)
         standard_deviation = np.sqrt(squares / (count - 1))
     standard_deviation[count < 2] = np.nan
     for array in (count, mean, standard_deviation):
         array.setflags(write=False)
     return PositionStatistics(readings, count, mean, standard_deviation)
+
+
+def _added(total: FloatArray, values: FloatArray) -> BoolArray | bool:
+    """Add to a sum the values that are not NaN, and return which they are."""
+    missing = np.isnan(values)
+    if not missing.any():  # nearly always, and then three times as fast
+        total += values
+        return True
+    present: BoolArray = ~missing
+    np.add(total, values, out=total, where=present)
+    return present
 
 
 def largest(values: FloatArray) -> FloatArray:

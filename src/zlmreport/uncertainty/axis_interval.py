@@ -215,10 +215,12 @@ def _pairs(
     for _ in range(2):
         run = generator.standard_normal((count, 2, there.shape[-1]))
         run[:, 1] = scatter.correlation * run[:, 0] + math.sqrt(1 - scatter.correlation**2) * run[:, 1]
-        test = np.sqrt(variance)[..., np.newaxis] * generator.standard_normal((count, *there.shape))
+        test = generator.standard_normal((count, *there.shape))
+        test *= np.sqrt(variance)[..., np.newaxis]
         test += (np.sqrt(shared)[..., np.newaxis] * run)[:, :, np.newaxis, :]
         test += scatter.mean[..., np.newaxis]
-        tests.append(np.where(there, test, np.nan))
+        test[:, ~there] = np.nan
+        tests.append(test)
     return tests[0], tests[1]
 
 

@@ -78,7 +78,8 @@ def mean_drift_variance(times: FloatArray) -> tuple[FloatArray, FloatArray]:
     there = np.isfinite(times)
     by_approach, both = np.zeros(times.shape[1]), np.zeros(times.shape[1])
     for kind in Drift:
-        drifts = np.where(there, drawn_drifts(kind, times, _DRIFTS, generator), 0.0)
+        drifts = drawn_drifts(kind, times, _DRIFTS, generator)
+        drifts[:, ~there] = 0.0
         means = drifts.sum(axis=-1) / np.maximum(there.sum(axis=-1), 1)
         by_approach = np.maximum(by_approach, np.mean(means**2, axis=0).max(axis=0))
         both = np.maximum(both, np.mean(means.mean(axis=1) ** 2, axis=0))

@@ -144,12 +144,16 @@ def _simulated(
         own = single_draws(budget.acting(Acts.AT_EACH_READING), (count, *readings.shape), generator)
         if kind:
             for each in drifting:
-                own += drift_range(each) * drawn_drifts(kind, times, count, generator)
+                drifts = drawn_drifts(kind, times, count, generator)
+                drifts *= drift_range(each)
+                own += drifts
         trial = slice(first, first + count)
         common = alike[trial, np.newaxis] + np.multiply.outer(parting[trial], parted)
         shared = errors[:, np.newaxis, :] + common[..., np.newaxis]
         shared += single_draws(budget.acting(Acts.AT_EACH_APPROACH), shared.shape, generator)
-        yield readings + shared[..., np.newaxis] + own
+        tests = readings + shared[..., np.newaxis]
+        tests += own
+        yield tests
 
 
 def _compares_positions(
@@ -228,9 +232,11 @@ def single_draws(
     total = np.zeros(shape)
     for distribution, standard_uncertainty in _combined(contributions):
         if distribution is Distribution.NORMAL:
-            total += standard_uncertainty * generator.standard_normal(shape)
+            errors = generator.standard_normal(shape)
         else:
-            total += standard_uncertainty * _quantiles(distribution, generator.random(shape))
+            errors = _quantiles(distribution, generator.random(shape))
+        errors *= standard_uncertainty
+        total += errors
     return total
 
 
