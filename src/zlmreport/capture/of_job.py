@@ -22,7 +22,7 @@ from zlmreport.capture.visits import (
     visit_list,
 )
 from zlmreport.errors import AccessError, InputError, Place, Problem
-from zlmreport.job.choices import InstrumentChoice
+from zlmreport.job.choices import Choice
 from zlmreport.job.job import Job
 from zlmreport.job.types import Finite, JobPath, LiveInstrumentKeys, Options, Positive
 from zlmreport.measurement.axis import Axis
@@ -119,7 +119,7 @@ def assignment_of(job: Job, plan: Plan) -> Assignment:
     return Assignment(options, settings, _datum(options, plan, job.axis), plan, visit_list(plan))
 
 
-def instrument_of(job: Job) -> InstrumentChoice:
+def instrument_of(job: Job) -> Choice:
     """Return the live instrument that a job names; raise `InputError` if it names none."""
     choice = job.source.instrument
     if choice is None:

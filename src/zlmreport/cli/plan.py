@@ -17,7 +17,7 @@ from zlmreport.cli.terminal import Colour, print_json, said, shown_path, wrapped
 from zlmreport.errors import AccessError, InputError, Place, Problem
 from zlmreport.figures.sequence import sequence
 from zlmreport.files import Document, demand_free, write
-from zlmreport.job.choices import ExtensionChoice, Find, ProgramChoice, programs_by_name
+from zlmreport.job.choices import Choice, ExtensionChoice, Find, programs_by_name
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
 from zlmreport.language import Language
@@ -313,10 +313,10 @@ def _readings(job: Job, planned: PlannedTest) -> Iterator[str]:
 def chosen_programs(
     named: str | None,
     folder: Path | None,
-    stated: tuple[ProgramChoice, ...],
+    stated: tuple[Choice, ...],
     find: Find,
     known: Sequence[PartProgram],
-) -> tuple[ProgramChoice, ...]:
+) -> tuple[Choice, ...]:
     """Return the programs that the command line names, or else those of the job.
 
     Parameters
@@ -348,7 +348,7 @@ def program_files(
     folder: Path,
     number: str,
     subject: Callable[[Place], Any],
-    choices: Sequence[ProgramChoice],
+    choices: Sequence[Choice],
     find: Callable[[str], PartProgram],
 ) -> tuple[Document, ...]:
     """Return the files of part programs.

@@ -12,24 +12,57 @@ from pydantic import BaseModel, Field, create_model, model_validator
 from zlmreport.errors import InputError, Place, Problem
 from zlmreport.job.contradictions import validate
 from zlmreport.job.formula_keys import FormulaKeys, ParameterName
-from zlmreport.job.installed import Installed, InstalledEffect, InstalledExtension, InstalledProgram
+from zlmreport.job.installed import Installed, InstalledEffect, InstalledExtension, InstalledProgram, WithKeys
 from zlmreport.job.sentences import shown
 from zlmreport.job.tree import Entry, Items, Keys, Node, Scalar, found_at, keys_of
 from zlmreport.job.types import Finite, JobPart, LiveInstrumentKeys, Options, keys_in, model_in
 
 
 @dataclass(frozen=True, slots=True)
-class InstrumentChoice:
-    """A live instrument that the job names, its own keys validated, and where the job names it."""
+class Choice:
+    """A plugin that a file names: its identifier, its own keys validated, and where the file names it."""
 
     identifier: str
     options: Options
-    place: Place
+    place: Place = field(compare=False)
+
+
+def choice_in(
+    group: Node | None,
+    key: str,
+    find: Callable[[str, Place], WithKeys],
+    problems: list[Problem],
+    *,
+    within: str,
+) -> Choice | None:
+    """Return the plugin that a key of a group names, the group's other keys being its own.
+
+    None where the group names none, or a wrong one, or has wrong keys: these mistakes are added.
+    """
+    named = group.entries.get(key) if isinstance(group, Keys) else None
+    if not isinstance(group, Keys) or named is None or not isinstance(named.value, Scalar):
+        return None
+    if named.value.is_nothing:
+        return None
+    place = named.value.place
+    try:
+        plugin = find(named.value.text, place)
+    except InputError as error:
+        problems.extend(error.problems)
+        return None
+    own = replace(group.without(key), place=place)
+    options = validate(plugin.options, own, problems, within=within, also_known=[key])
+    return Choice(plugin.identifier, options, place) if options else None
+
+
+def group_naming(key: str, item: Node) -> Keys:
+    """Return the group of keys that an item of a list is; a bare identifier stands for a key alone."""
+    return item if isinstance(item, Keys) else keys_of(item.place, (Entry(key, item.place, item),))
 
 
 def instrument_choice(
     source: type[Options], keys: Keys, registry: Installed, problems: list[Problem], *, within: str
-) -> InstrumentChoice | None:
+) -> Choice | None:
     """Return the live instrument that the keys of a data source name; None if they name none.
 
     Parameters
@@ -37,25 +70,10 @@ def instrument_choice(
     source
         The keys that the data source knows.
     """
-    key = next(
-        (key for key, field in keys_in(source).items() if model_in(field.annotation) is LiveInstrumentKeys),
-        "",
-    )
-    entry = keys.entries.get(key)
-    if entry is None or not isinstance(entry.value, Keys):
-        return None
-    named = entry.value.entries.get("plugin")
-    if named is None or not isinstance(named.value, Scalar) or named.value.is_nothing:
-        return None
-    place = named.value.place
-    try:
-        instrument = registry.instrument(named.value.text, place)
-    except InputError as error:
-        problems.extend(error.problems)
-        return None
-    own = replace(entry.value.without("plugin"), place=place)
-    options = validate(instrument.options, own, problems, within=f"{within}.{key}", also_known=["plugin"])
-    return InstrumentChoice(instrument.identifier, options, place) if options else None
+    fields = keys_in(source).items()
+    key = next((key for key, field in fields if model_in(field.annotation) is LiveInstrumentKeys), "")
+    group = found_at(keys, (key,))
+    return choice_in(group, "plugin", registry.instrument, problems, within=f"{within}.{key}")
 
 
 _SHAPE = (
@@ -217,22 +235,13 @@ def _model_of_parameters(names: Sequence[str]) -> type[Options]:
     return create_model("Parameters", __base__=Options, **fields)
 
 
-@dataclass(frozen=True, slots=True)
-class ProgramChoice:
-    """A program for a machine that the job names, its own keys validated, and where the job names it."""
-
-    identifier: str
-    options: Options
-    place: Place
-
-
 #: Returns the writer of an identifier that is named at a place; raises `InputError` if there is none.
 Find: TypeAlias = Callable[[str, Place | None], InstalledProgram]
 
 
 def program_choices(
     listed: Node | None, find: Find, problems: list[Problem], *, within: str
-) -> tuple[ProgramChoice, ...]:
+) -> tuple[Choice, ...]:
     """Return the programs of a list.
 
     Parameters
@@ -250,27 +259,14 @@ def program_choices(
     return choices
 
 
-def _programs(
-    items: Sequence[Node], find: Find, problems: list[Problem], within: str
-) -> Iterator[ProgramChoice]:
+def _programs(items: Sequence[Node], find: Find, problems: list[Problem], within: str) -> Iterator[Choice]:
     for item in items:
-        keys = item if isinstance(item, Keys) else keys_of(item.place, (Entry("program", item.place, item),))
-        named = keys.entries.get("program")
-        if named is None or not isinstance(named.value, Scalar) or named.value.is_nothing:
-            continue
-        place = named.value.place
-        try:
-            program = find(named.value.text, place)
-        except InputError as error:
-            problems.extend(error.problems)
-            continue
-        own = replace(keys.without("program"), place=place)
-        options = validate(program.options, own, problems, within=within, also_known=["program"])
-        if options:
-            yield ProgramChoice(program.identifier, options, place)
+        choice = choice_in(group_naming("program", item), "program", find, problems, within=within)
+        if choice:
+            yield choice
 
 
-def _clashes(choices: Sequence[ProgramChoice], find: Find) -> Iterator[Problem]:
+def _clashes(choices: Sequence[Choice], find: Find) -> Iterator[Problem]:
     """Yield programs whose file would be that of one before them."""
     by_suffix: dict[str, str] = {}
     for choice in choices:
@@ -287,8 +283,8 @@ def _clashes(choices: Sequence[ProgramChoice], find: Find) -> Iterator[Problem]:
 
 
 def programs_by_name(
-    names: Sequence[str], named_at: Place, stated: Sequence[ProgramChoice], find: Find
-) -> tuple[ProgramChoice, ...]:
+    names: Sequence[str], named_at: Place, stated: Sequence[Choice], find: Find
+) -> tuple[Choice, ...]:
     """Return programs that somebody names instead of those of a job, with the keys that it states.
 
     Parameters
@@ -316,12 +312,9 @@ def programs_by_name(
 
 
 @dataclass(frozen=True, slots=True)
-class ControllerChoice:
-    """A control that takes compensation tables: its own keys validated, as stated, and where it is named."""
+class ControllerChoice(Choice):
+    """A control that takes compensation tables, and its keys as stated."""
 
-    identifier: str
-    options: Options
-    place: Place
     stated: Keys
 
 
@@ -329,18 +322,11 @@ def controller_choice(
     stated: Node | None, registry: Installed, problems: list[Problem]
 ) -> ControllerChoice | None:
     """Return the control that a group of keys names; None if it names none, or a wrong one."""
-    named = stated.entries.get("controller") if isinstance(stated, Keys) else None
-    if not isinstance(stated, Keys) or named is None or not isinstance(named.value, Scalar):
+    choice = choice_in(stated, "controller", registry.controller, problems, within="compensation")
+    if choice is None or not isinstance(stated, Keys):
         return None
-    place = named.value.place
-    try:
-        controller = registry.controller(named.value.text, place)
-    except InputError as error:
-        problems.extend(error.problems)
-        return None
-    own = replace(stated.without("controller"), place=place)
-    options = validate(controller.options, own, problems, within="compensation", also_known=["controller"])
-    return ControllerChoice(controller.identifier, options, place, own) if options else None
+    own = replace(stated.without("controller"), place=choice.place)
+    return ControllerChoice(choice.identifier, choice.options, choice.place, own)
 
 
 @dataclass(frozen=True, slots=True)
@@ -349,7 +335,7 @@ class ExtensionChoice:
 
     identifier: str
     options: Any
-    programs: tuple[ProgramChoice, ...] = ()
+    programs: tuple[Choice, ...] = ()
 
 
 def group_model(extension: InstalledExtension) -> type[BaseModel]:

@@ -8,41 +8,26 @@ from pathlib import Path
 from typing import Any
 
 from zlmreport.errors import Place
-from zlmreport.job.choices import (
-    ControllerChoice,
-    EffectChoice,
-    ExtensionChoice,
-    InstrumentChoice,
-    ProgramChoice,
-)
+from zlmreport.job.choices import Choice, ControllerChoice, EffectChoice, ExtensionChoice
 from zlmreport.job.evaluation_keys import PriorsKeys
 from zlmreport.job.keys import JobKeys
 from zlmreport.job.tree import Keys, Step, keys_of, place_of
-from zlmreport.job.types import Options
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.provenance import SourceFile
 
 
 @dataclass(frozen=True, slots=True)
-class StandardChoice:
+class StandardChoice(Choice):
     """A standard that the job names."""
 
-    identifier: str  #: Of an installed standard.
-    options: Options  #: Its own keys, validated by its options class.
     tolerances: Mapping[str, float]  #: Limits by symbol, m or rad.
 
 
 @dataclass(frozen=True, slots=True)
-class SourceChoice:
-    """The data source that the job names, its own keys validated, and where the job names it.
+class SourceChoice(Choice):
+    """The data source that the job names; `instrument` is the live one that its keys name, None for most."""
 
-    `instrument` is the live instrument that its keys name; None for most.
-    """
-
-    identifier: str
-    options: Options
-    place: Place
-    instrument: InstrumentChoice | None = None
+    instrument: Choice | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,7 +77,7 @@ class Job:
     files: tuple[SourceFile, ...]
     source_as_found: SourceChoice | None = None
     candidates: tuple[EffectChoice, ...] = ()
-    programs: tuple[ProgramChoice, ...] = ()
+    programs: tuple[Choice, ...] = ()
     extensions: tuple[ExtensionChoice, ...] = ()
     controller: ControllerChoice | None = None
     tree: Keys = field(default_factory=lambda: keys_of(Place("job")))

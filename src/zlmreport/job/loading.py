@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Generic, TypeVar
@@ -12,9 +13,11 @@ from pydantic import BaseModel
 from zlmreport.errors import InputError, Place, Problem, did_you_mean, quoted
 from zlmreport.job.choices import (
     candidate_choices,
+    choice_in,
     controller_choice,
     effect_choices,
     extension_choices,
+    group_naming,
     instrument_choice,
     program_choices,
 )
@@ -25,7 +28,7 @@ from zlmreport.job.installed import Installed, InstalledStandard
 from zlmreport.job.job import Job, SourceChoice, StandardChoice
 from zlmreport.job.keys import JobKeys
 from zlmreport.job.measurement_keys import AxisKeys
-from zlmreport.job.tree import Entry, Items, Keys, Node, Scalar, found_at, keys_of, place_of
+from zlmreport.job.tree import Items, Keys, Scalar, found_at, place_of
 from zlmreport.measurement.axis import Axis, position_units
 from zlmreport.measurement.position_table import TableColumn, read_position_table
 from zlmreport.measurement.provenance import SourceFile
@@ -176,20 +179,15 @@ def _source(
     tree: Keys, path: tuple[str, ...], registry: Installed, problems: list[Problem]
 ) -> SourceChoice | None:
     """Return the data source at a path, with its own keys; None where there is none, or a wrong one."""
-    keys = found_at(tree, path)
+    keys, within = found_at(tree, path), ".".join(path)
     plugin = found_at(tree, (*path, "plugin"))
-    if not isinstance(keys, Keys) or not isinstance(plugin, Scalar) or plugin.is_nothing:
-        return None
-    try:
-        source = registry.source(plugin.text, plugin.place)
-    except InputError as error:
-        problems.extend(error.problems)
-        return None
-    own = replace(keys.without("plugin"), place=plugin.place)
-    within = ".".join(path)
-    options = validate(source.options, own, problems, within=within, also_known=["plugin"])
-    instrument = instrument_choice(source.options, own, registry, problems, within=within)
-    return SourceChoice(source.identifier, options, plugin.place, instrument) if options else None
+    choice = choice_in(keys, "plugin", registry.source, problems, within=within)
+    instrument = None
+    with suppress(InputError):  # a source that there is not was refused above
+        if isinstance(keys, Keys) and isinstance(plugin, Scalar):
+            known = registry.source(plugin.text).options
+            instrument = instrument_choice(known, keys, registry, problems, within=within)
+    return SourceChoice(choice.identifier, choice.options, choice.place, instrument) if choice else None
 
 
 def standard_choices(tree: Keys, registry: Installed, problems: list[Problem]) -> Iterator[StandardChoice]:
@@ -200,7 +198,7 @@ def standard_choices(tree: Keys, registry: Installed, problems: list[Problem]) -
     evaluate = found_at(tree, ("evaluate",))
     first_named: dict[str, Place] = {}
     for item in evaluate.items if isinstance(evaluate, Items) else ():
-        keys = _with_identifier(item)
+        keys = group_naming("standard", item)
         named = keys.entries.get("standard")
         if named is None or not isinstance(named.value, Scalar) or named.value.is_nothing:
             continue
@@ -222,14 +220,7 @@ def standard_choices(tree: Keys, registry: Installed, problems: list[Problem]) -
             standard.options, own, problems, within="evaluate", also_known=["standard", "tolerances"]
         )
         if options:
-            yield StandardChoice(standard.identifier, options, {})
-
-
-def _with_identifier(item: Node) -> Keys:
-    """Return a standard's keys; a bare identifier stands for the key `standard`."""
-    if isinstance(item, Keys):
-        return item
-    return keys_of(item.place, (Entry("standard", item.place, item),))
+            yield StandardChoice(standard.identifier, options, place, {})
 
 
 def _unknown_tolerances(keys: Keys, standard: InstalledStandard) -> Iterator[Problem]:

@@ -18,7 +18,7 @@ from zlmreport.job.extends import SIMULATION, compose, refuse_other_format
 from zlmreport.job.installed import Installed
 from zlmreport.job.loading import axis_in_si
 from zlmreport.job.measurement_keys import AxisKeys
-from zlmreport.job.tree import Keys, Node, key_place, place_of
+from zlmreport.job.tree import Keys, found_at, key_place, place_of
 from zlmreport.job.types import JobPart, Text
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.provenance import SourceFile
@@ -176,20 +176,13 @@ def load_simulation(path: Path, registry: Installed, content: bytes | None = Non
     refuse_other_format(tree, SIMULATION)
     problems: list[Problem] = []
     keys = validate(SimulationKeys, tree, problems)
-    effects = effect_choices(_value(tree, "effects"), registry, problems, within="effects")
-    model = _value(tree, "model")
-    if isinstance(model, Keys):
-        effect_choices(_value(model, "effects"), registry, problems, within="model.effects")
+    effects = effect_choices(found_at(tree, ("effects",)), registry, problems, within="effects")
+    effect_choices(found_at(tree, ("model", "effects")), registry, problems, within="model.effects")
     if keys:
         problems.extend(_contradictions(keys, tree))
     if problems or keys is None:
         raise InputError(sorted(set(problems)))
     return SimulationFile(path, keys, axis_in_si(keys.axis), effects, composition.files[0], tree)
-
-
-def _value(tree: Keys, key: str) -> Node | None:
-    entry = tree.entries.get(key)
-    return entry.value if entry else None
 
 
 def _contradictions(keys: SimulationKeys, tree: Keys) -> Iterator[Problem]:
