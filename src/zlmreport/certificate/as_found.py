@@ -122,8 +122,6 @@ def beside_as_found(  # noqa: PLR0913, PLR0917 - two measurements of everything
         The sections of results as left.
     before, after
         Evaluations of the two measurements, by the same standards in the same order.
-    writer
-        Of the document.
     section
         Makes the section of results as found.
     """

@@ -123,10 +123,6 @@ def sources(job: Job, readings: Iterable[SourceFile], logo: SourceFile | None) -
 
     Parameters
     ----------
-    job
-        The checked job.
-    readings
-        The files of its measurements.
     logo
         The file of its laboratory's logo, if it has one.
     """

@@ -55,12 +55,8 @@ def build(  # noqa: PLR0913, PLR0917 - what a document is made of
 
     Parameters
     ----------
-    job
-        The checked job.
     evaluated
         At least one evaluation; all are of the same measurements.
-    plugins
-        Identifier and version of every plugin that took part.
     modelled
         The error model, studied; None where the job names none.
     as_found

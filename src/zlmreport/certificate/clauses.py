@@ -21,24 +21,12 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class MandatoryItem:
-    """An item that a calibration certificate must show.
+    """An item that a calibration certificate must show."""
 
-    Attributes
-    ----------
-    clause
-        Of ISO/IEC 17025:2017.
-    key
-        The job key that states it.
-    what
-        The item in words, as the message names it.
-    stated
-        Whether a job states it, or need not.
-    """
-
-    clause: str
-    key: str
-    what: str
-    stated: Callable[[JobKeys], object]
+    clause: str  #: Of ISO/IEC 17025:2017.
+    key: str  #: The job key that states it.
+    what: str  #: The item in words, as the message names it.
+    stated: Callable[[JobKeys], object]  #: Whether a job states it, or need not.
 
 
 MANDATORY_ITEMS = (

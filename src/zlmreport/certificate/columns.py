@@ -101,32 +101,16 @@ _WHOLE_LINES = 16
 
 @dataclass(frozen=True, slots=True)
 class TableLayout:
-    """How a table stands on a page, for every renderer.
+    """How a table stands on a page, for every renderer."""
 
-    Attributes
-    ----------
-    size
-        Its type size: ``regular``, ``dense`` or ``finest``.
-    widths
-        Of the columns, in per cent of the page's.
-    rooms
-        The same in em of the type.
-    lines
-        That its body takes, estimated.
-    apart
-        Which columns are words that follow a column of numbers: the two need a gap between them.
-    is_whole
-        Whether it is short enough to stay on one page.
-    in_fives
-        Whether its rows are read in fives, as in a book of tables, and pages break between the fives.
-    """
-
-    size: str
-    widths: tuple[float, ...]
-    rooms: tuple[float, ...]
-    lines: int
+    size: str  #: Its type size: ``regular``, ``dense`` or ``finest``.
+    widths: tuple[float, ...]  #: Of the columns, in per cent of the page's.
+    rooms: tuple[float, ...]  #: The same in em of the type.
+    lines: int  #: That its body takes, estimated.
+    #: Which columns are words that follow a column of numbers: the two need a gap between them.
     apart: tuple[bool, ...]
-    is_whole: bool
+    is_whole: bool  #: Whether it is short enough to stay on one page.
+    #: Whether its rows are read in fives, as in a book of tables, and pages break between the fives.
     in_fives: bool
 
 

@@ -201,24 +201,12 @@ def lines(address: str | None) -> tuple[str, ...]:
 
 @dataclass(frozen=True, slots=True)
 class PlaceOfWork:
-    """A place of work.
+    """A place of work."""
 
-    Attributes
-    ----------
-    kind
-        ``laboratory``, ``customer``, ``laboratory branch``, ``customer branch`` or ``other``.
-    address
-        In one line or several; empty where the job states none.
-    words
-        What the page says: whose place it is, and its address.
-    keys
-        The job keys that state it.
-    """
-
-    kind: str
-    address: str
-    words: Words
-    keys: tuple[str, ...]
+    kind: str  #: ``laboratory``, ``customer``, ``laboratory branch``, ``customer branch`` or ``other``.
+    address: str  #: In one line or several; empty where the job states none.
+    words: Words  #: What the page says: whose place it is, and its address.
+    keys: tuple[str, ...]  #: The job keys that state it.
 
 
 _KINDS = {

@@ -23,29 +23,17 @@ _ORDER = (Group.COMPOSITE, Group.SYSTEMATIC, Group.RANDOM)
 
 @dataclass(frozen=True, slots=True)
 class Forecast:
-    """The leading parameters of a standard, predicted for a corrected axis.
+    """The leading parameters of a standard, predicted for a corrected axis."""
 
-    Attributes
-    ----------
-    standard, designation
-        Identifier and as printed.
-    unit
-        In which deviations are printed.
-    quantities
-        The first parameter of each group: composite, systematic, random.
-    by_step : (steps, quantities) array
-        After each step of the model's history, m or rad; the first row is of the readings as they are.
-        NaN for what the test does not define.
-    by_table : (quantities,) array
-        With a table of the model, its rows at the targets, m or rad.
-    """
-
+    #: standard and designation: Identifier and as printed.
     standard: str
     designation: str
-    unit: Unit
-    quantities: tuple[Quantity, ...]
+    unit: Unit  #: In which deviations are printed.
+    quantities: tuple[Quantity, ...]  #: The first parameter of each group: composite, systematic, random.
+    #: (steps, quantities): After each step of the model's history, m or rad; the first row is of the readings
+    #: as they are. NaN for what the test does not define.
     by_step: FloatArray
-    by_table: FloatArray
+    by_table: FloatArray  #: (quantities,): With a table of the model, its rows at the targets, m or rad.
 
 
 def forecasts(
@@ -57,8 +45,6 @@ def forecasts(
     ----------
     standards
         Each with its own job keys.
-    study
-        The readings with their model.
     history
         The model, effect by effect.
     """

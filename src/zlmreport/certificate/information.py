@@ -80,10 +80,6 @@ def findings(
 
     Parameters
     ----------
-    asked
-        By the standard.
-    job
-        The job.
     measurements
         Its readings, with the temperatures that were logged beside them.
     budget

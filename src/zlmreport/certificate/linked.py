@@ -86,23 +86,12 @@ _IN_TIME = {ResidualTest.TIME_ORDER, ResidualTest.PERIOD_IN_TIME}
 
 @dataclass(frozen=True, slots=True)
 class Linked:
-    """Two graphs of the same readings, and the model's failures that point at them; plain values only.
+    """Two graphs of the same readings, and the model's failures that point at them; plain values only."""
 
-    Attributes
-    ----------
-    section
-        Key of the section that they belong to.
-    texts
-        What they say, by name, in the document's language.
-    graphs
-        What both draw, in the units of the page.
-    failures
-        Where the model fails: statement, axis that shows it, readings.
-    """
-
-    section: str
-    texts: Mapping[str, str]
-    graphs: Mapping[str, Any]
+    section: str  #: Key of the section that they belong to.
+    texts: Mapping[str, str]  #: What they say, by name, in the document's language.
+    graphs: Mapping[str, Any]  #: What both draw, in the units of the page.
+    #: Where the model fails: statement, axis that shows it, readings.
     failures: tuple[Mapping[str, Any], ...]
 
 
@@ -115,12 +104,6 @@ def linked(section: str, study: Study, whole: Fitted, diagnosis: Diagnosis, lang
         Key of the section that they belong to.
     study
         The readings, none set aside.
-    whole
-        The model fitted to them.
-    diagnosis
-        What it lacks.
-    language
-        Of the document.
     """
     return Linked(
         section,
@@ -154,10 +137,6 @@ def graphs(study: Study, whole: Fitted, language: Language) -> dict[str, Any]:
     ----------
     study
         The readings, none set aside.
-    whole
-        The model fitted to them.
-    language
-        Of titles.
     """
     observed, axis = study.observed, study.job.axis
     design = observed.design

@@ -25,13 +25,6 @@ class Logo:
 def read_logo(path: Path, place: Place) -> Logo:
     """Return the logo.
 
-    Parameters
-    ----------
-    path
-        The file.
-    place
-        Where the job names it, for messages.
-
     Raises
     ------
     AccessError
@@ -68,22 +61,13 @@ def read_logo(path: Path, place: Place) -> Logo:
 
 @dataclass(frozen=True, slots=True)
 class Picture:
-    """What a file says of the picture in it.
+    """What a file says of the picture in it."""
 
-    Attributes
-    ----------
-    media_type
-        ``image/png`` or ``image/jpeg``.
-    width, height
-        In pixels; 0 where the file does not say, and so is damaged.
-    for_printing_press
-        Whether its colours are those of inks (CMYK).
-    """
-
-    media_type: str
+    media_type: str  #: ``image/png`` or ``image/jpeg``.
+    #: width and height: In pixels; 0 where the file does not say, and so is damaged.
     width: int = 0
     height: int = 0
-    for_printing_press: bool = False
+    for_printing_press: bool = False  #: Whether its colours are those of inks (CMYK).
 
 
 def describe(content: bytes) -> Picture | None:

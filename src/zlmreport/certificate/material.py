@@ -23,44 +23,24 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Material:
-    """What a document is made of.
+    """What a document is made of."""
 
-    Attributes
-    ----------
-    job
-        The checked job.
-    evaluated
-        At least one evaluation; all are of the same measurements.
-    as_found
-        Evaluations of the axis before it was adjusted, by the same standards; empty where it was not.
-    doubts
-        Sentences on values that seem to be in another unit.
-    modelled
-        The error model, studied; None where the job names none.
-    described
-        What extensions say of their groups of job keys.
-    sources
-        The files that it is made from.
-    generator, plugins
-        Name and version of this program; identifier and version of every plugin that took part.
-    letterhead, title
-        What stands above everything.
-    writer
-        Of the document.
-    """
-
-    job: Job
-    evaluated: tuple[Evaluated, ...]
+    job: Job  #: The checked job.
+    evaluated: tuple[Evaluated, ...]  #: At least one evaluation; all are of the same measurements.
+    #: Evaluations of the axis before it was adjusted, by the same standards; empty where it was not.
     as_found: tuple[Evaluated, ...]
-    doubts: tuple[Words, ...]
-    modelled: Modelled | None
-    described: Sequence[Described]
-    sources: tuple[Source, ...]
+    doubts: tuple[Words, ...]  #: Sentences on values that seem to be in another unit.
+    modelled: Modelled | None  #: The error model, studied; None where the job names none.
+    described: Sequence[Described]  #: What extensions say of their groups of job keys.
+    sources: tuple[Source, ...]  #: The files that it is made from.
+    #: generator and plugins: Name and version of this program; identifier and version of every plugin that
+    #: took part.
     generator: str
     plugins: Mapping[str, str]
+    #: letterhead and title: What stands above everything.
     letterhead: Letterhead | None
     title: str
-    writer: Writer
+    writer: Writer  #: Of the document.
 
     @property
     def measurements(self) -> MeasurementSet:

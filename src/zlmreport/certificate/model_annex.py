@@ -109,30 +109,14 @@ _PLAUSIBILITY = {
 
 @dataclass(frozen=True, slots=True)
 class Modelled:
-    """The error model of a job, studied.
+    """The error model of a job, studied."""
 
-    Attributes
-    ----------
-    history
-        Its fits, effect by effect; the first without any.
-    diagnosis
-        What it lacks.
-    forecasts
-        What each standard would say of a corrected axis.
-    titles
-        What all installed effects are called, by identifier.
-    study
-        The model and the readings that it was held against.
-    experiment
-        What to measure next; None where nothing is to be decided.
-    """
-
-    history: tuple[Fitted, ...]
-    diagnosis: Diagnosis
-    forecasts: tuple[Forecast, ...]
-    titles: Mapping[str, Words]
-    study: Study
-    experiment: Experiment | None = None
+    history: tuple[Fitted, ...]  #: Its fits, effect by effect; the first without any.
+    diagnosis: Diagnosis  #: What it lacks.
+    forecasts: tuple[Forecast, ...]  #: What each standard would say of a corrected axis.
+    titles: Mapping[str, Words]  #: What all installed effects are called, by identifier.
+    study: Study  #: The model and the readings that it was held against.
+    experiment: Experiment | None = None  #: What to measure next; None where nothing is to be decided.
 
 
 def section(modelled: Modelled, writer: Writer) -> Section:
@@ -212,21 +196,11 @@ def _graphs(failures: Sequence[Failure], diagram: ModelDiagram) -> Iterator[Figu
 
 @dataclass(frozen=True, slots=True)
 class ModelTables:
-    """Writes the tables of one model.
+    """Writes the tables of one model."""
 
-    Attributes
-    ----------
-    writer
-        Of the document.
-    design
-        The test.
-    titles
-        What effects are called, by identifier.
-    """
-
-    writer: Writer
-    design: Design
-    titles: Mapping[str, Words]
+    writer: Writer  #: Of the document.
+    design: Design  #: The test.
+    titles: Mapping[str, Words]  #: What effects are called, by identifier.
 
     def equations(self, fitted: Fitted) -> Formulas:
         """Return the model: the deviation as a sum of effects."""

@@ -42,10 +42,6 @@ def section(
         What was read: the axis as left, and as found if it was adjusted.
     generator
         Name and version of this program.
-    plugins
-        Identifier and version of every plugin that took part.
-    writer
-        Of the document.
     """
     programs = Facts(
         (

@@ -36,8 +36,6 @@ def filled(text: str, job: Job, key: str) -> str:
         As the job states it at `key`.
     job
         The job; its texts, numbers and dates can be named.
-    key
-        Of the text, for messages.
 
     Raises
     ------

@@ -45,10 +45,6 @@ def section(measurements: MeasurementSet, writer: Writer, key: str = "measuremen
 
     Parameters
     ----------
-    measurements
-        The readings.
-    writer
-        Of the document.
     key
         The job key that names their source: marked if the readings are the customer's.
     """

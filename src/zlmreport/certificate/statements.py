@@ -160,10 +160,6 @@ def exclusion_notice(measurements: MeasurementSet, writer: Writer, key: str = _K
 
     Parameters
     ----------
-    measurements
-        The readings.
-    writer
-        Of the document.
     key
         The job key that names them: marked if that was the customer's decision.
     """

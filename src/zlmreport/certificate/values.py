@@ -28,18 +28,11 @@ _TOLD_APART = Words(
 
 @dataclass(frozen=True, slots=True)
 class Values:
-    """The columns of a table that say how large parameters are.
+    """The columns of a table that say how large parameters are."""
 
-    Attributes
-    ----------
-    writer
-        Writes them.
-    has_uncertainty, has_limits, has_interval
-        Whether any parameter in the table has an uncertainty, a limit, or an interval of the axis that is to
-        be shown: without one there is no column.
-    """
-
-    writer: Writer
+    writer: Writer  #: Writes them.
+    #: has_uncertainty, has_limits and has_interval: Whether any parameter in the table has an uncertainty, a
+    #: limit, or an interval of the axis that is to be shown: without one there is no column.
     has_uncertainty: bool
     has_limits: bool
     has_interval: bool = False

@@ -29,21 +29,11 @@ _COARSEST_TICK = 2
 
 @dataclass(frozen=True, slots=True)
 class Look:
-    """How a file looks from outside: as long as it looks the same, nobody wrote to it.
+    """How a file looks from outside: as long as it looks the same, nobody wrote to it."""
 
-    Attributes
-    ----------
-    size
-        In bytes.
-    modified
-        When it was last written, ns.
-    inode
-        Its number in the file system: a file that was put in its place has another.
-    """
-
-    size: int
-    modified: int
-    inode: int
+    size: int  #: In bytes.
+    modified: int  #: When it was last written, ns.
+    inode: int  #: Its number in the file system: a file that was put in its place has another.
 
     @classmethod
     def at(cls, path: Path) -> Self:
@@ -58,26 +48,16 @@ class Look:
 
 @dataclass(frozen=True, slots=True)
 class KnownFile:
-    """A file whose content is known.
+    """A file whose content is known."""
 
-    Attributes
-    ----------
-    role
-        ``job``, ``readings``, ``logo`` …; ``templates`` of the folder of them; of a certificate's own file,
-        its format's suffix.
-    path
-        Relative to the folder of the fleet file, or from the root; of a certificate's own file, relative to
-        the folder of certificates.
-    sha256
-        Digest of its bytes, hexadecimal.
-    look
-        When these bytes were in it; None where that is not sure.
-    """
-
+    #: ``job``, ``readings``, ``logo`` …; ``templates`` of the folder of them; of a certificate's own file,
+    #: its format's suffix.
     role: str
+    #: Relative to the folder of the fleet file, or from the root; of a certificate's own file, relative to
+    #: the folder of certificates.
     path: str
-    sha256: str
-    look: Look | None = None
+    sha256: str  #: Digest of its bytes, hexadecimal.
+    look: Look | None = None  #: When these bytes were in it; None where that is not sure.
 
     def as_json(self) -> list[Any]:
         """Return what a ledger keeps."""
@@ -111,24 +91,13 @@ def sha256_of(path: Path) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Basis:
-    """Everything that a certificate depends on.
+    """Everything that a certificate depends on."""
 
-    Attributes
-    ----------
-    files
-        The job, what it extends, readings, tables, pictures.
-    programs
-        The program and the plugins that took part, with their versions, as `program_versions` says.
-    formats
-        Identifiers of the renderers.
-    defaults
-        Digest of the defaults of the fleet; empty without any.
-    """
-
-    files: tuple[KnownFile, ...]
+    files: tuple[KnownFile, ...]  #: The job, what it extends, readings, tables, pictures.
+    #: The program and the plugins that took part, with their versions, as `program_versions` says.
     programs: Mapping[str, str]
-    formats: tuple[str, ...]
-    defaults: str = ""
+    formats: tuple[str, ...]  #: Identifiers of the renderers.
+    defaults: str = ""  #: Digest of the defaults of the fleet; empty without any.
 
     @property
     def digest(self) -> str:
@@ -155,15 +124,9 @@ class Basis:
 
 @dataclass(slots=True)
 class Disk:
-    """Files as they are tonight; each is looked at, and read, once.
+    """Files as they are tonight; each is looked at, and read, once."""
 
-    Attributes
-    ----------
-    folder
-        That relative paths are relative to.
-    """
-
-    folder: Path
+    folder: Path  #: That relative paths are relative to.
     _looks: dict[str, Look | None] = field(default_factory=dict)
     _digests: dict[str, str | None] = field(default_factory=dict)
 
@@ -199,10 +162,6 @@ def changes(basis: Basis, disk: Disk, now: Basis) -> Iterator[str]:
 
     Parameters
     ----------
-    basis
-        What it was made from.
-    disk
-        The files of tonight.
     now
         The programs, formats and defaults of tonight; formats are empty where the job itself names them, and
         files are looked for on the disk.

@@ -19,23 +19,16 @@ _LEAST = 3.0
 
 @dataclass(frozen=True, slots=True)
 class Cause:
-    """What changed with a step.
+    """What changed with a step."""
 
-    Attributes
-    ----------
-    since
-        Date of the first test after it.
-    effect, name, change, unit
-        The parameter of the error model that changed most against what is known of it; empty for none.
-    before, after
-        The instruments, where they are not the same; else empty.
-    """
-
-    since: date
+    since: date  #: Date of the first test after it.
+    #: effect, name, change and unit: The parameter of the error model that changed most against what is known
+    #: of it; empty for none.
     effect: str = ""
     name: str = ""
     change: float = 0.0
     unit: str = ""
+    #: before and after: The instruments, where they are not the same; else empty.
     before: str = ""
     after: str = ""
 
@@ -45,8 +38,6 @@ def cause_of(trend: Trend, effects: Iterable[Series]) -> Cause | None:
 
     Parameters
     ----------
-    trend
-        Of the parameter.
     effects
         Parameters of the error models of all axes over time.
     """
@@ -91,29 +82,20 @@ _COVERAGE = 0.95
 
 @dataclass(frozen=True, slots=True)
 class Shared:
-    """A parameter of the error model that machines of one type have in common.
+    """A parameter of the error model that machines of one type have in common."""
 
-    Attributes
-    ----------
-    type, axis
-        Manufacturer and model; name of the axis.
-    effect, name, unit
-        The parameter, as the results file has it.
-    mean, expanded_uncertainty
-        Of the latest values of all machines, with 95 % coverage: what another machine of the type is built
-        with.
-    machines
-        By their names.
-    """
-
+    #: type and axis: Manufacturer and model; name of the axis.
     type: str
     axis: str
+    #: effect, name and unit: The parameter, as the results file has it.
     effect: str
     name: str
     unit: str
+    #: mean and expanded_uncertainty: Of the latest values of all machines, with 95 % coverage: what another
+    #: machine of the type is built with.
     mean: float
     expanded_uncertainty: float
-    machines: tuple[str, ...]
+    machines: tuple[str, ...]  #: By their names.
 
 
 def shared(effects: Iterable[Series]) -> tuple[Shared, ...]:

@@ -138,18 +138,10 @@ _PATIENCE = 30
 
 @dataclass(frozen=True, slots=True)
 class Database:
-    """The database of a ledger, open.
+    """The database of a ledger, open."""
 
-    Attributes
-    ----------
-    engine
-        Of SQLAlchemy.
-    address
-        Path of an SQLite file, or a URL.
-    """
-
-    engine: Engine
-    address: str
+    engine: Engine  #: Of SQLAlchemy.
+    address: str  #: Path of an SQLite file, or a URL.
 
     @contextlib.contextmanager
     def transaction(self) -> Iterator[Connection]:

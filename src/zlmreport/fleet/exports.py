@@ -232,8 +232,6 @@ def priors(taught: Iterable[Taught], folder: Path) -> Iterator[Document]:
     ----------
     taught
         In the order of measurement; a test of a machine without a manufacturer and model teaches nobody.
-    folder
-        Of the files.
     """
     from zlmreport.model.priors import Lesson, as_text, learned  # noqa: PLC0415 - only where there is a model
 

@@ -29,18 +29,10 @@ _SUFFIX = ".zlmreport-new"
 
 @dataclass(frozen=True, slots=True)
 class Laid:
-    """Files that are on the disk under hidden names.
+    """Files that are on the disk under hidden names."""
 
-    Attributes
-    ----------
-    names
-        The hidden file of each, by the file that it becomes.
-    known
-        What the ledger keeps of them.
-    """
-
-    names: Mapping[Path, Path]
-    known: tuple[KnownFile, ...]
+    names: Mapping[Path, Path]  #: The hidden file of each, by the file that it becomes.
+    known: tuple[KnownFile, ...]  #: What the ledger keeps of them.
 
     def name(self) -> None:
         """Give the files their names."""
@@ -50,13 +42,6 @@ class Laid:
 @contextlib.contextmanager
 def laid(folder: Path, files: Iterable[Finished]) -> Iterator[Laid]:
     """Write files under hidden names, and push them to the disk; what gets no name within is removed.
-
-    Parameters
-    ----------
-    folder
-        Of certificates.
-    files
-        To be written.
 
     Raises
     ------
@@ -81,8 +66,6 @@ def tidy(folder: Path, known: Iterable[KnownFile]) -> int:
 
     Parameters
     ----------
-    folder
-        Of certificates.
     known
         The files that the ledger has taken over.
     """
@@ -133,34 +116,19 @@ class What(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Happened:
-    """What happened to a job in a night.
+    """What happened to a job in a night."""
 
-    Attributes
-    ----------
-    what
-        In a word.
-    job, number
-        As the ledger has them.
-    why
-        Why it was due.
-    files
-        That were written, relative to the folder of certificates.
-    problems
-        Why it failed.
-    conforms
-        Whether every stated limit is met; None without limits, where one is not decided, or not looked at.
-    is_upgrade
-        Whether it was made again for new programs alone, and states the same values: that is counted, and no
-        news.
-    """
-
-    what: What
+    what: What  #: In a word.
+    #: job and number: As the ledger has them.
     job: str
     number: str
-    why: str = ""
-    files: tuple[str, ...] = ()
-    problems: tuple[Problem, ...] = ()
+    why: str = ""  #: Why it was due.
+    files: tuple[str, ...] = ()  #: That were written, relative to the folder of certificates.
+    problems: tuple[Problem, ...] = ()  #: Why it failed.
+    #: Whether every stated limit is met; None without limits, where one is not decided, or not looked at.
     conforms: bool | None = None
+    #: Whether it was made again for new programs alone, and states the same values: that is counted, and no
+    #: news.
     is_upgrade: bool = False
 
 

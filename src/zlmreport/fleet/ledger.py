@@ -57,30 +57,14 @@ class NumberTakenError(Exception):
 
 @dataclass(frozen=True, slots=True)
 class Night:
-    """A night at work.
+    """A night at work."""
 
-    Attributes
-    ----------
-    database
-        Of the ledger.
-    fleet
-        Name of the fleet.
-    identity
-        Of the night in the ledger.
-    began
-        Date and time, ISO 8601 in UTC.
-    was_interrupted
-        Whether the night before never came to its end.
-    took_over
-        When the night began that was stuck, and was killed for this one; empty for none.
-    """
-
-    database: Database
-    fleet: str
-    identity: int
-    began: str
-    was_interrupted: bool
-    took_over: str = ""
+    database: Database  #: Of the ledger.
+    fleet: str  #: Name of the fleet.
+    identity: int  #: Of the night in the ledger.
+    began: str  #: Date and time, ISO 8601 in UTC.
+    was_interrupted: bool  #: Whether the night before never came to its end.
+    took_over: str = ""  #: When the night began that was stuck, and was killed for this one; empty for none.
 
     def add(self, entry: Entry, files: Sequence[KnownFile] = (), basis: Basis | None = None) -> None:
         """Add an entry that issues nothing: a draft or a failure."""
@@ -141,8 +125,6 @@ class Night:
 
         Parameters
         ----------
-        news
-            All that is so now.
         is_all
             Whether a condition that is not among them has ended.
         """
@@ -238,69 +220,37 @@ def _added(connection: Connection, row: Insert) -> int:
 
 @dataclass(frozen=True, slots=True)
 class Standing:
-    """What the ledger knows of a job: the last that became of it.
+    """What the ledger knows of a job: the last that became of it."""
 
-    Attributes
-    ----------
-    number, state, night, message
-        As `Entry` has them.
-    files
-        Its certificate's, or its draft's.
-    basis
-        What they were made from; None of a job that failed.
-    digest
-        Of its inputs, where it was stopped.
-    subject
-        Machine, axis, and date of the measurement.
-    """
-
+    #: number, state, night and message: As `Entry` has them.
     number: str
     state: State
     night: str
     message: str
-    files: tuple[KnownFile, ...]
-    basis: Basis | None
-    digest: str = ""
-    subject: Subject = field(default_factory=Subject)
+    files: tuple[KnownFile, ...]  #: Its certificate's, or its draft's.
+    basis: Basis | None  #: What they were made from; None of a job that failed.
+    digest: str = ""  #: Of its inputs, where it was stopped.
+    subject: Subject = field(default_factory=Subject)  #: Machine, axis, and date of the measurement.
 
 
 @dataclass(frozen=True, slots=True)
 class Issued:
-    """A certificate that was issued, whichever fleet it belongs to.
+    """A certificate that was issued, whichever fleet it belongs to."""
 
-    Attributes
-    ----------
-    fleet, job
-        For which it was made.
-    night
-        In which it was made.
-    files
-        Its files.
-    """
-
+    #: fleet and job: For which it was made.
     fleet: str
     job: str
-    night: str
+    night: str  #: In which it was made.
     files: tuple[KnownFile, ...]
 
 
 @dataclass(frozen=True, slots=True)
 class Taught:
-    """What a certificate teaches other tests.
+    """What a certificate teaches other tests."""
 
-    Attributes
-    ----------
-    subject
-        What it is about.
-    readings
-        Digests of its readings: two certificates of the same teach once.
-    lesson
-        As `zlmreport.model.priors.Lesson` gives it.
-    """
-
-    subject: Subject
-    readings: frozenset[str]
-    lesson: Mapping[str, Any]
+    subject: Subject  #: What it is about.
+    readings: frozenset[str]  #: Digests of its readings: two certificates of the same teach once.
+    lesson: Mapping[str, Any]  #: As `zlmreport.model.priors.Lesson` gives it.
 
 
 class Ledger:

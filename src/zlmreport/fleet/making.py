@@ -59,60 +59,31 @@ class Limits:
 
 @dataclass(frozen=True, slots=True)
 class Task:
-    """A certificate that is to be made.
+    """A certificate that is to be made."""
 
-    Attributes
-    ----------
-    fleet, content
-        The fleet file as it was read when the night began.
-    job
-        The job file.
-    issued
-        Digests of the files of the certificate that has this number already, by their suffixes; empty if none
-        has it.
-    folder
-        Where these are, relative to the folder of certificates.
-    plugins
-        Plugins in files of their own.
-    programs
-        Versions of the program and of all plugins, as the night began with them.
-    limits
-        What it may take.
-    stated
-        What the certificate states that has this number, where nothing but programs changed since; else None.
-    confine
-        The folder outside of which nothing is read or written; None without one.
-    """
-
+    #: fleet and content: The fleet file as it was read when the night began.
     fleet: Path
     content: bytes
-    job: Path
+    job: Path  #: The job file.
+    #: Digests of the files of the certificate that has this number already, by their suffixes; empty if none
+    #: has it.
     issued: Mapping[str, str]
-    folder: str
-    plugins: tuple[Path, ...]
-    programs: Mapping[str, str]
-    limits: Limits = Limits()
+    folder: str  #: Where these are, relative to the folder of certificates.
+    plugins: tuple[Path, ...]  #: Plugins in files of their own.
+    programs: Mapping[str, str]  #: Versions of the program and of all plugins, as the night began with them.
+    limits: Limits = Limits()  #: What it may take.
+    #: What the certificate states that has this number, where nothing but programs changed since; else None.
     stated: tuple[RecordedParameter, ...] | None = None
-    confine: Path | None = None
+    confine: Path | None = None  #: The folder outside of which nothing is read or written; None without one.
 
 
 @dataclass(frozen=True, slots=True)
 class Finished:
-    """A file that is to be on the disk.
+    """A file that is to be on the disk."""
 
-    Attributes
-    ----------
-    role
-        Suffix of its format: ``.pdf``.
-    path
-        Relative to the folder of certificates.
-    content
-        Its bytes.
-    """
-
-    role: str
-    path: str
-    content: bytes
+    role: str  #: Suffix of its format: ``.pdf``.
+    path: str  #: Relative to the folder of certificates.
+    content: bytes  #: Its bytes.
 
     @property
     def sha256(self) -> str:
@@ -122,32 +93,15 @@ class Finished:
 
 @dataclass(frozen=True, slots=True)
 class Made:
-    """A certificate, or its draft.
+    """A certificate, or its draft."""
 
-    Attributes
-    ----------
-    subject
-        What it is about.
-    basis
-        What it was made from.
-    files
-        Its files.
-    parameters
-        What it states.
-    is_draft
-        Whether its number was issued with another content.
-    seconds
-        How long it took.
-    lesson
-        What its readings teach other tests, for the ledger; None without a model that describes them.
-    """
-
-    subject: Subject
-    basis: Basis
+    subject: Subject  #: What it is about.
+    basis: Basis  #: What it was made from.
     files: tuple[Finished, ...]
-    parameters: tuple[RecordedParameter, ...]
-    is_draft: bool
-    seconds: float = 0.0
+    parameters: tuple[RecordedParameter, ...]  #: What it states.
+    is_draft: bool  #: Whether its number was issued with another content.
+    seconds: float = 0.0  #: How long it took.
+    #: What its readings teach other tests, for the ledger; None without a model that describes them.
     lesson: Mapping[str, Any] | None = None
 
 

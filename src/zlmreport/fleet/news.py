@@ -169,21 +169,11 @@ _CORE = ("plugin", "tells")
 
 @dataclass(frozen=True, slots=True)
 class Way:
-    """A way to tell people.
+    """A way to tell people."""
 
-    Attributes
-    ----------
-    notifier
-        Of a plugin.
-    options
-        Its own keys.
-    tells
-        What it is used for.
-    """
-
-    notifier: Notifier
-    options: Options
-    tells: frozenset[Occasion]
+    notifier: Notifier  #: Of a plugin.
+    options: Options  #: Its own keys.
+    tells: frozenset[Occasion]  #: What it is used for.
 
     @property
     def name(self) -> str:
@@ -210,18 +200,10 @@ class Way:
 
 @dataclass(slots=True)
 class Ways:
-    """All ways of a fleet; one that failed is not tried again in the same night.
+    """All ways of a fleet; one that failed is not tried again in the same night."""
 
-    Attributes
-    ----------
-    all
-        In the order of the fleet file.
-    failed
-        Those that nobody was reached by tonight.
-    """
-
-    all: tuple[Way, ...] = ()
-    failed: set[str] = field(default_factory=set)
+    all: tuple[Way, ...] = ()  #: In the order of the fleet file.
+    failed: set[str] = field(default_factory=set)  #: Those that nobody was reached by tonight.
 
     def of(self, occasion: Occasion) -> Iterator[Way]:
         """Yield those that tell of an occasion, and may still work."""

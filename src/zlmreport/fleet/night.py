@@ -79,21 +79,11 @@ class MissingError(AccessError):
 
 @dataclass(frozen=True, slots=True)
 class Order:
-    """How a night is spent, beside what the fleet file says.
+    """How a night is spent, beside what the fleet file says."""
 
-    Attributes
-    ----------
-    plugins
-        In files of their own.
-    workers
-        Number of processes, instead of the fleet file's.
-    seconds
-        After which no job is begun any more.
-    """
-
-    plugins: tuple[Path, ...] = ()
-    workers: int | None = None
-    seconds: float = math.inf
+    plugins: tuple[Path, ...] = ()  #: In files of their own.
+    workers: int | None = None  #: Number of processes, instead of the fleet file's.
+    seconds: float = math.inf  #: After which no job is begun any more.
 
 
 def spend(fleet: FleetFile, order: Order, watch: Watch) -> None:
@@ -101,10 +91,6 @@ def spend(fleet: FleetFile, order: Order, watch: Watch) -> None:
 
     Parameters
     ----------
-    fleet
-        The fleet file.
-    order
-        How it is spent.
     watch
         Is told what is due, and what happens.
 
@@ -225,27 +211,13 @@ def _notices(known: Evening, night: Night, gone: Sequence[str], last: PastNight 
 
 @dataclass(frozen=True, slots=True)
 class _Work:
-    """A night at work.
+    """A night at work."""
 
-    Attributes
-    ----------
-    night
-        In the ledger.
-    gone
-        Jobs whose files are gone.
-    last
-        When the night before began; empty for none.
-    ends
-        When no job is begun any more, by `time.monotonic`.
-    longest
-        The longest time that each job ever took, s.
-    """
-
-    night: Night
-    gone: Sequence[str]
-    last: str
-    ends: float
-    longest: Mapping[str, float]
+    night: Night  #: In the ledger.
+    gone: Sequence[str]  #: Jobs whose files are gone.
+    last: str  #: When the night before began; empty for none.
+    ends: float  #: When no job is begun any more, by `time.monotonic`.
+    longest: Mapping[str, float]  #: The longest time that each job ever took, s.
 
 
 def _spend(known: Evening, order: Order, witness: _Witness, work: _Work) -> None:

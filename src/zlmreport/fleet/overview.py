@@ -45,12 +45,6 @@ def overview(state: FleetState, language: Language, names: Names, files: str) ->
 
     Parameters
     ----------
-    state
-        Of the fleet.
-    language
-        Of the page.
-    names
-        Of standards and their symbols.
     files
         Folder of the certificates, relative to that of the page.
     """

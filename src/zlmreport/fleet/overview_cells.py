@@ -116,8 +116,6 @@ def small_graph(trend: Trend, period: Period, alternative: str) -> str:
     ----------
     trend
         What is shown. With a limit the graph is as high as the limit, or the largest value.
-    period
-        The time shown.
     alternative
         What the graph says, in words.
     """
@@ -230,27 +228,13 @@ _LEAST_P = 1e-4
 
 @dataclass(frozen=True, slots=True)
 class Cells:
-    """Writes cells in one language.
+    """Writes cells in one language."""
 
-    Attributes
-    ----------
-    language
-        Of the page.
-    names
-        Of standards and symbols.
-    period
-        That all graphs show.
-    files
-        Folder of the certificates, as seen from the page.
-    effects
-        Parameters of the error models of all axes over time.
-    """
-
-    language: Language
-    names: Names
-    period: Period
-    files: str
-    effects: Sequence[Series]
+    language: Language  #: Of the page.
+    names: Names  #: Of standards and symbols.
+    period: Period  #: That all graphs show.
+    files: str  #: Folder of the certificates, as seen from the page.
+    effects: Sequence[Series]  #: Parameters of the error models of all axes over time.
 
     def say(self, phrase: Words) -> str:
         """Return a phrase in the page's language."""

@@ -33,58 +33,26 @@ class Due(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Planned:
-    """A job of tonight.
+    """A job of tonight."""
 
-    Attributes
-    ----------
-    path
-        The job file.
-    job
-        The same, as the ledger names it.
-    due
-        What is to be done.
-    why
-        In words; empty if nothing is due.
-    number
-        Of its certificate, as far as it is known.
-    issued
-        The certificate that has the number already.
-    problems
-        Why it is refused.
-    """
-
-    path: Path
-    job: str
-    due: Due
-    why: str = ""
-    number: str = ""
-    issued: Issued | None = None
-    problems: tuple[Problem, ...] = ()
+    path: Path  #: The job file.
+    job: str  #: The same, as the ledger names it.
+    due: Due  #: What is to be done.
+    why: str = ""  #: In words; empty if nothing is due.
+    number: str = ""  #: Of its certificate, as far as it is known.
+    issued: Issued | None = None  #: The certificate that has the number already.
+    problems: tuple[Problem, ...] = ()  #: Why it is refused.
 
 
 @dataclass(frozen=True, slots=True)
 class Evening:
-    """What is known before a night.
+    """What is known before a night."""
 
-    Attributes
-    ----------
-    fleet
-        The fleet file.
-    jobs
-        Its job files.
-    standings
-        What the ledger knows of jobs, by their paths.
-    certificates
-        Every certificate that was issued, by its number.
-    now
-        Programs, formats and defaults of tonight.
-    """
-
-    fleet: FleetFile
-    jobs: Sequence[Path]
-    standings: Mapping[str, Standing]
-    certificates: Mapping[str, Issued]
-    now: Basis
+    fleet: FleetFile  #: The fleet file.
+    jobs: Sequence[Path]  #: Its job files.
+    standings: Mapping[str, Standing]  #: What the ledger knows of jobs, by their paths.
+    certificates: Mapping[str, Issued]  #: Every certificate that was issued, by its number.
+    now: Basis  #: Programs, formats and defaults of tonight.
 
     def job_of(self, path: Path) -> str:
         """Return a job file as the ledger names it."""

@@ -25,17 +25,10 @@ from zlmreport.verification.carrier import opened, read_file
 
 @dataclass(frozen=True, slots=True)
 class Rebuilt:
-    """What a ledger was made of.
+    """What a ledger was made of."""
 
-    Attributes
-    ----------
-    numbers
-        Of the certificates that it knows now.
-    problems
-        Of files that are named like a certificate of the fleet and could not be taken.
-    """
-
-    numbers: tuple[str, ...]
+    numbers: tuple[str, ...]  #: Of the certificates that it knows now.
+    #: Of files that are named like a certificate of the fleet and could not be taken.
     problems: tuple[Problem, ...]
 
 
@@ -44,10 +37,6 @@ def rebuild(fleet: FleetFile, registry: Registry, now: str) -> Rebuilt:
 
     Parameters
     ----------
-    fleet
-        The fleet file.
-    registry
-        Of plugins.
     now
         Date and time, ISO 8601 in UTC.
 

@@ -82,21 +82,11 @@ class Kind(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class News:
-    """One event.
+    """One event."""
 
-    Attributes
-    ----------
-    kind
-        Of the event.
-    subject
-        What makes it this event and no other.
-    text
-        For people, in one line.
-    """
-
-    kind: Kind
-    subject: str
-    text: str
+    kind: Kind  #: Of the event.
+    subject: str  #: What makes it this event and no other.
+    text: str  #: For people, in one line.
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,21 +99,11 @@ class Notice:
 
 @dataclass(frozen=True, slots=True)
 class PastNight:
-    """A run of a fleet.
+    """A run of a fleet."""
 
-    Attributes
-    ----------
-    began
-        With its offset from UTC.
-    ended
-        None for a run that is at work, or was interrupted.
-    notices
-        What concerned all of it.
-    """
-
-    began: datetime
-    ended: datetime | None
-    notices: tuple[Notice, ...] = ()
+    began: datetime  #: With its offset from UTC.
+    ended: datetime | None  #: None for a run that is at work, or was interrupted.
+    notices: tuple[Notice, ...] = ()  #: What concerned all of it.
 
     @property
     def seconds(self) -> float | None:
@@ -133,31 +113,16 @@ class PastNight:
 
 @dataclass(frozen=True, slots=True)
 class RecordedParameter:
-    """A parameter of a certificate, in the units of the results file.
+    """A parameter of a certificate, in the units of the results file."""
 
-    Attributes
-    ----------
-    standard, symbol
-        As the results file has them: ``iso230-2:2014``, ``A_fwd``.
-    value
-        Micrometres or arc seconds.
-    unit
-        ``um`` or ``arcsec``.
-    expanded_uncertainty
-        In the same unit; None where none is stated.
-    limit
-        In the same unit; None where the job states none.
-    conforms
-        None without a limit, or where the decision rule leaves it open.
-    """
-
+    #: standard and symbol: As the results file has them: ``iso230-2:2014``, ``A_fwd``.
     standard: str
     symbol: str
-    value: float
-    unit: str
-    expanded_uncertainty: float | None = None
-    limit: float | None = None
-    conforms: bool | None = None
+    value: float  #: Micrometres or arc seconds.
+    unit: str  #: ``um`` or ``arcsec``.
+    expanded_uncertainty: float | None = None  #: In the same unit; None where none is stated.
+    limit: float | None = None  #: In the same unit; None where the job states none.
+    conforms: bool | None = None  #: None without a limit, or where the decision rule leaves it open.
 
 
 def due_date(measured: str, interval: int | None) -> str:
@@ -182,8 +147,6 @@ def folder_of(keys: JobKeys, layout: str) -> PurePosixPath:
 
     Parameters
     ----------
-    keys
-        What the job says.
     layout
         Names of folders with placeholders, as `zlmreport.job.fleet` has them.
     """
@@ -212,31 +175,17 @@ def named(machine: str, axis: str) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Subject:
-    """What a job is about; empty where the job cannot be read, or does not say.
+    """What a job is about; empty where the job cannot be read, or does not say."""
 
-    Attributes
-    ----------
-    number
-        Of the certificate.
-    machine, axis
-        The machine's designation with its serial number, and the axis's name.
-    measured
-        Date of the measurement, ISO 8601.
-    interval
-        Days after which the job itself says that the axis is to be measured again.
-    instrument
-        With which it was measured.
-    type
-        The machine's manufacturer and model.
-    """
-
-    number: str = ""
+    number: str = ""  #: Of the certificate.
+    #: machine and axis: The machine's designation with its serial number, and the axis's name.
     machine: str = ""
     axis: str = ""
-    measured: str = ""
+    measured: str = ""  #: Date of the measurement, ISO 8601.
+    #: Days after which the job itself says that the axis is to be measured again.
     interval: int | None = None
-    instrument: str = ""
-    type: str = ""
+    instrument: str = ""  #: With which it was measured.
+    type: str = ""  #: The machine's manufacturer and model.
 
     @property
     def axis_key(self) -> tuple[str, str]:
@@ -265,36 +214,16 @@ class Subject:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Entry(Subject):
-    """One line of the ledger: what became of one job in one night, and what it is about.
+    """One line of the ledger: what became of one job in one night, and what it is about."""
 
-    Attributes
-    ----------
-    job
-        Path of the job file, relative to the fleet file's folder.
-    night
-        Date and time of the run of the fleet, ISO 8601 in UTC.
-    digest
-        Of everything that the certificate depends on; empty if it could not be formed.
-    state
-        What became of it.
-    message
-        Why it failed, or why it is a draft; empty otherwise.
-    files
-        Paths of its files, relative to the fleet's output folder.
-    parameters
-        What it states.
-    seconds
-        How long it took; None where nothing was made.
-    """
-
-    job: str
-    night: str
-    digest: str = ""
-    state: State
-    message: str = ""
-    files: tuple[str, ...] = ()
-    parameters: tuple[RecordedParameter, ...] = ()
-    seconds: float | None = None
+    job: str  #: Path of the job file, relative to the fleet file's folder.
+    night: str  #: Date and time of the run of the fleet, ISO 8601 in UTC.
+    digest: str = ""  #: Of everything that the certificate depends on; empty if it could not be formed.
+    state: State  #: What became of it.
+    message: str = ""  #: Why it failed, or why it is a draft; empty otherwise.
+    files: tuple[str, ...] = ()  #: Paths of its files, relative to the fleet's output folder.
+    parameters: tuple[RecordedParameter, ...] = ()  #: What it states.
+    seconds: float | None = None  #: How long it took; None where nothing was made.
 
 
 def parameters_of(certificate: Certificate) -> Iterator[RecordedParameter]:

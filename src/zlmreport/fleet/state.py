@@ -24,59 +24,28 @@ class Failure:
 
 @dataclass(frozen=True, slots=True)
 class Term:
-    """By when an axis is to be measured again.
+    """By when an axis is to be measured again."""
 
-    Attributes
-    ----------
-    entry
-        Its latest certificate.
-    due
-        The day.
-    is_over
-        Whether it was over when the last run began.
-    """
-
-    entry: Entry
-    due: date
-    is_over: bool
+    entry: Entry  #: Its latest certificate.
+    due: date  #: The day.
+    is_over: bool  #: Whether it was over when the last run began.
 
 
 @dataclass(frozen=True, slots=True)
 class FleetState:
-    """What an overview tells.
+    """What an overview tells."""
 
-    Attributes
-    ----------
-    name
-        Of the fleet.
-    night
-        The last run; None before the first.
-    jobs
-        How many jobs the fleet has.
-    made
-        How many of them the last run made.
-    failures, drafts
-        Jobs whose last entry is one, in the order of jobs.
-    certificates
-        That stand, in the order of measurement.
-    trends
-        Every parameter of every axis, machine by machine.
-    effects
-        Parameters of the error models over time, where jobs name effects.
-    terms
-        Of every axis that has one, the earliest first.
-    """
-
-    name: str
-    night: PastNight | None
-    jobs: int
-    made: int
+    name: str  #: Of the fleet.
+    night: PastNight | None  #: The last run; None before the first.
+    jobs: int  #: How many jobs the fleet has.
+    made: int  #: How many of them the last run made.
+    #: failures and drafts: Jobs whose last entry is one, in the order of jobs.
     failures: tuple[Failure, ...]
     drafts: tuple[Entry, ...]
-    certificates: tuple[Entry, ...]
-    trends: tuple[Trend, ...]
-    effects: tuple[Series, ...] = ()
-    terms: tuple[Term, ...] = ()
+    certificates: tuple[Entry, ...]  #: That stand, in the order of measurement.
+    trends: tuple[Trend, ...]  #: Every parameter of every axis, machine by machine.
+    effects: tuple[Series, ...] = ()  #: Parameters of the error models over time, where jobs name effects.
+    terms: tuple[Term, ...] = ()  #: Of every axis that has one, the earliest first.
 
     @property
     def notices(self) -> tuple[Notice, ...]:
@@ -138,18 +107,10 @@ class FleetState:
 
 @dataclass(frozen=True, slots=True)
 class Rules:
-    """What a fleet file says of its jobs.
+    """What a fleet file says of its jobs."""
 
-    Attributes
-    ----------
-    interval
-        Days after which an axis is to be measured again, if its job does not say.
-    is_retired
-        Whether a job is gone on purpose.
-    """
-
-    interval: int | None = None
-    is_retired: Callable[[str], bool] = lambda _: False
+    interval: int | None = None  #: Days after which an axis is to be measured again, if its job does not say.
+    is_retired: Callable[[str], bool] = lambda _: False  #: Whether a job is gone on purpose.
 
 
 def state_of(
@@ -163,16 +124,10 @@ def state_of(
 
     Parameters
     ----------
-    name
-        Of the fleet.
     entries
         The whole ledger, oldest first.
     jobs
         That the fleet has now: of one that it no longer has, only the certificates count.
-    night
-        The last run.
-    rules
-        Of the fleet file.
     """
     history = tuple(entries)
     latest = {entry.job: entry for entry in history}

@@ -26,43 +26,25 @@ from zlmreport.model.distributions import f_tail, normal_tail, t_quantile
 
 @dataclass(frozen=True, slots=True)
 class Calibration:
-    """One point of a series.
+    """One point of a series."""
 
-    Attributes
-    ----------
-    measured
-        Date of the measurement.
-    entry
-        The certificate.
-    parameter
-        What it states.
-    """
-
-    measured: date
-    entry: Entry
-    parameter: RecordedParameter
+    measured: date  #: Date of the measurement.
+    entry: Entry  #: The certificate.
+    parameter: RecordedParameter  #: What it states.
 
 
 @dataclass(frozen=True, slots=True)
 class Series:
-    """A parameter of one axis by one standard over time.
+    """A parameter of one axis by one standard over time."""
 
-    Attributes
-    ----------
-    machine, axis
-        As in the ledger.
-    standard, symbol, unit
-        As in the results file.
-    calibrations
-        In the order of measurement; at least one.
-    """
-
+    #: machine and axis: As in the ledger.
     machine: str
     axis: str
+    #: standard, symbol and unit: As in the results file.
     standard: str
     symbol: str
     unit: str
-    calibrations: tuple[Calibration, ...]
+    calibrations: tuple[Calibration, ...]  #: In the order of measurement; at least one.
 
     @property
     def latest(self) -> RecordedParameter:
@@ -157,28 +139,15 @@ _RESOLUTION = 1e-9
 
 @dataclass(frozen=True, slots=True)
 class Line:
-    """A straight line, about the weighted mean of its dates, where level and slope are not correlated.
+    """A straight line, about the weighted mean of its dates, where level and slope are not correlated."""
 
-    Attributes
-    ----------
-    origin
-        Mean date t̄, in days of the calendar (`date.toordinal`).
-    level
-        a: the line at t̄, µm or ″.
-    slope
-        b, per year.
-    level_variance, slope_variance
-        u²(a) and u²(b), from the scatter about the line.
-    degrees
-        Of freedom: n − 2.
-    """
-
-    origin: float
-    level: float
-    slope: float
+    origin: float  #: Mean date t̄, in days of the calendar (`date.toordinal`).
+    level: float  #: a: the line at t̄, µm or ″.
+    slope: float  #: b, per year.
+    #: level_variance and slope_variance: u²(a) and u²(b), from the scatter about the line.
     level_variance: float
     slope_variance: float
-    degrees: int
+    degrees: int  #: Of freedom: n − 2.
 
     def at(self, day: date) -> float:
         """Return the line at a date."""
@@ -199,18 +168,11 @@ class Line:
 
 @dataclass(frozen=True, slots=True)
 class Forecast:
-    """When a line meets a limit.
+    """When a line meets a limit."""
 
-    Attributes
-    ----------
-    expected
-        Where the line itself meets it.
-    earliest, latest
-        Where lines meet it that the calibrations leave possible (95 %); `latest` is None where that is more
-        than `MOST_YEARS_AHEAD` away.
-    """
-
-    expected: date
+    expected: date  #: Where the line itself meets it.
+    #: earliest and latest: Where lines meet it that the calibrations leave possible (95 %); `latest` is None
+    #: where that is more than `MOST_YEARS_AHEAD` away.
     earliest: date
     latest: date | None
 
@@ -242,12 +204,8 @@ def forecast(line: Line, limit: float, last: date) -> Forecast | None:
 
     Parameters
     ----------
-    line
-        Of the parameter.
     limit
         |y| ≤ TL, in the unit of the line.
-    last
-        Date of the last calibration.
 
     Returns
     -------

@@ -43,20 +43,11 @@ class Pool:
     A worker has one task at a time, so that it is known which one ended it. Such a task is tried once more,
     alone, when all others are done: then nobody else can have taken its memory. One that exceeds its time is
     killed with its worker, and not tried again.
-
-    Attributes
-    ----------
-    workers
-        How many.
-    plugins
-        Plugins in files of their own.
-    beat
-        Is called every few seconds, whatever the workers do.
     """
 
-    workers: int
-    plugins: tuple[Path, ...] = ()
-    beat: Callable[[], None] = lambda: None
+    workers: int  #: How many.
+    plugins: tuple[Path, ...] = ()  #: Plugins in files of their own.
+    beat: Callable[[], None] = lambda: None  #: Is called every few seconds, whatever the workers do.
     _staff: list[_Worker] = field(default_factory=list)
 
     def __enter__(self) -> Self:
@@ -215,21 +206,11 @@ class _Lost:
 
 @dataclass(slots=True)
 class Cluster:
-    """The workers of a scheduler; it is left as a context manager, which takes leave of them.
+    """The workers of a scheduler; it is left as a context manager, which takes leave of them."""
 
-    Attributes
-    ----------
-    scheduler
-        Its address: ``tcp://scheduler:8786``.
-    named_at
-        Where the fleet file names it.
-    beat
-        Is called every few seconds, whatever the workers do.
-    """
-
-    scheduler: str
-    named_at: Place
-    beat: Callable[[], None] = lambda: None
+    scheduler: str  #: Its address: ``tcp://scheduler:8786``.
+    named_at: Place  #: Where the fleet file names it.
+    beat: Callable[[], None] = lambda: None  #: Is called every few seconds, whatever the workers do.
     _client: Any = field(default=None)
 
     def __enter__(self) -> Self:

@@ -43,23 +43,14 @@ class ModelError(Exception):
 
 @dataclass(frozen=True, slots=True)
 class Term:
-    """An effect in a model.
+    """An effect in a model."""
 
-    Attributes
-    ----------
-    effect
-        The effect, in the form that the job asks for.
-    fixed
-        Values of parameters that are given and not estimated, SI, by name.
-    bounds
-        Between which parameters are estimated, SI, by name.
-    links
-        Parameters that equal one of another effect: its identifier and the name of its parameter, by name.
-    """
-
-    effect: Effect
+    effect: Effect  #: The effect, in the form that the job asks for.
+    #: Values of parameters that are given and not estimated, SI, by name.
     fixed: Mapping[str, float] = field(default_factory=dict)
+    #: Between which parameters are estimated, SI, by name.
     bounds: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    #: Parameters that equal one of another effect: its identifier and the name of its parameter, by name.
     links: Mapping[str, tuple[str, str]] = field(default_factory=dict)
 
     @property
@@ -104,15 +95,9 @@ class Term:
 
 @dataclass(frozen=True, slots=True)
 class AxisModel:
-    """The sum of effects that describes an axis.
+    """The sum of effects that describes an axis."""
 
-    Attributes
-    ----------
-    terms
-        The effects, in the order of the job.
-    """
-
-    terms: tuple[Term, ...]
+    terms: tuple[Term, ...]  #: The effects, in the order of the job.
 
     @property
     def identifiers(self) -> tuple[str, ...]:
@@ -267,8 +252,6 @@ def refuse_collisions(model: AxisModel, columns: Sequence[FloatArray]) -> None:
 
     Parameters
     ----------
-    model
-        The model.
     columns
         Its columns on the design, term by term, shape (N, k).
 
@@ -324,8 +307,6 @@ def chosen_terms(
 
     Parameters
     ----------
-    choices
-        As the file was loaded.
     find
         Returns an installed effect by its identifier.
     kind

@@ -34,34 +34,18 @@ Entry: TypeAlias = tuple[Effect, FloatArray]
 
 @dataclass(frozen=True, slots=True)
 class NotTestable:
-    """An effect that the test cannot show.
+    """An effect that the test cannot show."""
 
-    Attributes
-    ----------
-    effect
-        Its identifier.
-    reason
-        What it needs, or that the model imitates it.
-    """
-
-    effect: str
-    reason: Words
+    effect: str  #: Its identifier.
+    reason: Words  #: What it needs, or that the model imitates it.
 
 
 @dataclass(frozen=True, slots=True)
 class EffectsToTry:
-    """The effects that can be tried beside a model.
+    """The effects that can be tried beside a model."""
 
-    Attributes
-    ----------
-    forms
-        Every form of every effect.
-    not_testable
-        Effects that the test cannot show in any form.
-    """
-
-    forms: tuple[Effect, ...]
-    not_testable: tuple[NotTestable, ...]
+    forms: tuple[Effect, ...]  #: Every form of every effect.
+    not_testable: tuple[NotTestable, ...]  #: Effects that the test cannot show in any form.
 
 
 def effects_to_try(model: AxisModel, design: Design, effects: Iterable[Effect]) -> EffectsToTry:
@@ -107,46 +91,22 @@ def _imitated(model: AxisModel, effect: Effect) -> Words:
 
 @dataclass(frozen=True, slots=True)
 class Family:
-    """A form of an effect with every value of its searched parameters at which the plan can see it.
+    """A form of an effect with every value of its searched parameters at which the plan can see it."""
 
-    Attributes
-    ----------
-    effect
-        The effect, in this form.
-    thetas : (g, s) array
-        Values of the searched parameters, one row for each block of columns.
-    visible : (g,) array
-        Length of each block's visible part over that of the whole, 0 to 1.
-    """
-
-    effect: Effect
-    thetas: FloatArray
-    visible: FloatArray
+    effect: Effect  #: The effect, in this form.
+    thetas: FloatArray  #: (g, s): Values of the searched parameters, one row for each block of columns.
+    visible: FloatArray  #: (g,): Length of each block's visible part over that of the whole, 0 to 1.
 
 
 @dataclass(frozen=True, slots=True)
 class BlockGroup:
-    """All blocks of one width, those of a family side by side.
+    """All blocks of one width, those of a family side by side."""
 
-    Attributes
-    ----------
-    width
-        Columns of a block.
-    families
-        Their families, as a range of all families.
-    starts : (families,) integer array
-        The first block of each family, counted within the group.
-    columns
-        Their columns, as a range of all columns.
-    ranks : (blocks,) array
-        Columns of each block that are not zero.
-    """
-
-    width: int
-    families: slice
-    starts: IntArray
-    columns: slice
-    ranks: FloatArray
+    width: int  #: Columns of a block.
+    families: slice  #: Their families, as a range of all families.
+    starts: IntArray  #: (families,) integer: The first block of each family, counted within the group.
+    columns: slice  #: Their columns, as a range of all columns.
+    ranks: FloatArray  #: (blocks,): Columns of each block that are not zero.
 
     @property
     def blocks(self) -> int:
@@ -156,27 +116,15 @@ class BlockGroup:
 
 @dataclass(frozen=True, slots=True)
 class Bases:
-    """What all effects together could add to a model.
+    """What all effects together could add to a model."""
 
-    Attributes
-    ----------
-    families
-        Forms of effects that the plan can see, in the order of the widths of their blocks.
-    by_effect
-        For each effect, the places of its forms among the families.
-    invisible
-        Effects of which it sees no form: all they would add, the model has already.
-    groups
-        The blocks by width.
-    columns : (N, K) array
-        Error contrasts, orthonormal within each block.
-    """
-
+    #: Forms of effects that the plan can see, in the order of the widths of their blocks.
     families: tuple[Family, ...]
-    by_effect: tuple[tuple[int, ...], ...]
+    by_effect: tuple[tuple[int, ...], ...]  #: For each effect, the places of its forms among the families.
+    #: Effects of which it sees no form: all they would add, the model has already.
     invisible: tuple[Effect, ...]
-    groups: tuple[BlockGroup, ...]
-    columns: FloatArray
+    groups: tuple[BlockGroup, ...]  #: The blocks by width.
+    columns: FloatArray  #: (N, K): Error contrasts, orthonormal within each block.
 
     def roots(self, metric: Metric, shared: FloatArray) -> tuple[FloatArray, ...]:
         """Return for each group the inverse roots of its blocks' Gram matrices, shape (blocks, k, k).
@@ -207,10 +155,6 @@ def bases_of(design: Design, space: Contrasts, entries: Iterable[Entry], least_v
 
     Parameters
     ----------
-    design
-        The test.
-    space
-        The contrasts of the model.
     entries
         Forms of effects that can be tested on the design, those of one effect share its identifier; and the
         values of their searched parameters that are tried.

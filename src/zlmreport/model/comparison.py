@@ -46,40 +46,21 @@ def untold(_share: float) -> None:
 
 @dataclass(frozen=True, slots=True)
 class Scores:
-    """How effects and nameless shapes did on B sets of deviations.
+    """How effects and nameless shapes did on B sets of deviations."""
 
-    Attributes
-    ----------
-    ratios : (effects, B) array
-        LR of each effect, in its best form.
-    nameless_ratios : (nameless, B) array
-        LR of each nameless shape, its coefficients averaged over.
-    """
-
-    ratios: FloatArray
-    nameless_ratios: FloatArray
+    ratios: FloatArray  #: (effects, B): LR of each effect, in its best form.
+    nameless_ratios: FloatArray  #: (nameless, B): LR of each nameless shape, its coefficients averaged over.
 
 
 @dataclass(frozen=True, slots=True)
 class Criteria:
-    """−2 ln(likelihood) of one set of deviations under each φ, σ profiled out.
+    """−2 ln(likelihood) of one set of deviations under each φ, σ profiled out."""
 
-    Attributes
-    ----------
-    null : (f,) array
-        Of the model alone.
-    fits : (f, blocks) array
-        With each block of columns at its best coefficients; the blocks of a family side by side.
-    averages : (f, blocks) array
-        With the coefficients averaged over instead.
-    nameless : (φ and sizes, nameless) array
-        Of the nameless shapes, under some φ.
-    """
-
-    null: FloatArray
+    null: FloatArray  #: (f,): Of the model alone.
+    #: (f, blocks): With each block of columns at its best coefficients; the blocks of a family side by side.
     fits: FloatArray
-    averages: FloatArray
-    nameless: FloatArray
+    averages: FloatArray  #: (f, blocks): With the coefficients averaged over instead.
+    nameless: FloatArray  #: (φ and sizes, nameless): Of the nameless shapes, under some φ.
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,27 +75,13 @@ class _Trial:
 
 @dataclass(frozen=True, slots=True)
 class Comparison:
-    """Everything about a comparison that does not depend on what was measured.
+    """Everything about a comparison that does not depend on what was measured."""
 
-    Attributes
-    ----------
-    space
-        The contrasts of the base model.
-    grid : (f, parts) array
-        The values of φ that are tried.
-    bases
-        What the effects could add.
-    nameless
-        Shapes without a name.
-    prior : (f,) array
-        Probability of each φ before the test.
-    """
-
-    space: Contrasts
-    grid: FloatArray
-    bases: Bases
-    nameless: tuple[NamelessShape, ...]
-    prior: FloatArray
+    space: Contrasts  #: The contrasts of the base model.
+    grid: FloatArray  #: (f, parts): The values of φ that are tried.
+    bases: Bases  #: What the effects could add.
+    nameless: tuple[NamelessShape, ...]  #: Shapes without a name.
+    prior: FloatArray  #: (f,): Probability of each φ before the test.
     _squares: tuple[FloatArray, ...]
     _metrics: tuple[Metric, ...]
     _shared: FloatArray
@@ -139,8 +106,6 @@ class Comparison:
 
         Parameters
         ----------
-        design
-            The test.
         base : (N, q) array
             Columns of the base model, tangents of its searched parameters included.
         effects

@@ -30,21 +30,11 @@ _ROUNDING = 1e-13
 
 @dataclass(frozen=True, slots=True)
 class Metric:
-    """The inner product of error contrasts under one covariance: aᵀ·V⁻¹·b = aᵀb − (R·Zᵀa)ᵀ(R·Zᵀb).
+    """The inner product of error contrasts under one covariance: aᵀ·V⁻¹·b = aᵀb − (R·Zᵀa)ᵀ(R·Zᵀb)."""
 
-    Attributes
-    ----------
-    active : (a,) integer array
-        Columns of the factors that have a share in the covariance.
-    root : (a, a) array
-        R, of these alone.
-    log_determinant
-        ln|V| within the space of contrasts.
-    """
-
-    active: IntArray
-    root: FloatArray
-    log_determinant: float
+    active: IntArray  #: (a,) integer: Columns of the factors that have a share in the covariance.
+    root: FloatArray  #: (a, a): R, of these alone.
+    log_determinant: float  #: ln|V| within the space of contrasts.
 
     def coordinates(self, products: FloatArray) -> FloatArray:
         """Return R·Zᵀa from Zᵀa, shape (r, …)."""
@@ -53,27 +43,13 @@ class Metric:
 
 @dataclass(frozen=True, slots=True)
 class Contrasts:
-    """The space of error contrasts of a base model.
+    """The space of error contrasts of a base model."""
 
-    Attributes
-    ----------
-    base : (N, q) array
-        Orthonormal columns that span the model, each reading divided by √w.
-    scale : (N,) array
-        1/√w.
-    parts
-        The sources of shared scatter.
-    factors : (N, r) array
-        Their factors Z side by side, as contrasts.
-    gram : (r, r) array
-        ZᵀZ.
-    """
-
-    base: FloatArray
-    scale: FloatArray
-    parts: tuple[NoisePart, ...]
-    factors: FloatArray
-    gram: FloatArray
+    base: FloatArray  #: (N, q): Orthonormal columns that span the model, each reading divided by √w.
+    scale: FloatArray  #: (N,): 1/√w.
+    parts: tuple[NoisePart, ...]  #: The sources of shared scatter.
+    factors: FloatArray  #: (N, r): Their factors Z side by side, as contrasts.
+    gram: FloatArray  #: (r, r): ZᵀZ.
 
     @property
     def degrees(self) -> int:
@@ -137,8 +113,6 @@ def contrasts_of(base: FloatArray, parts: Sequence[NoisePart], weights: FloatArr
     ----------
     base : (N, q) array
         Columns of the model; those that depend on others count once.
-    parts
-        The sources of shared scatter.
     weights : (N,) array
         w, the variance of each reading over the mean one.
     """
@@ -160,8 +134,6 @@ def restricted_estimate(
 
     Parameters
     ----------
-    space
-        The contrasts of the model.
     contrasts : (N,) array
         Of the deviations.
     grid : (f, parts) array
@@ -192,21 +164,11 @@ def restricted_estimate(
 
 @dataclass(frozen=True, slots=True)
 class Whitener:
-    """The symmetric root of V⁻¹, with V = diag(w) + Z·diag(φ)·Zᵀ.
+    """The symmetric root of V⁻¹, with V = diag(w) + Z·diag(φ)·Zᵀ."""
 
-    Attributes
-    ----------
-    scale : (N,) array
-        1/√w.
-    modes : (N, r) array
-        Orthonormal directions in which readings scatter together.
-    excess : (r,) array
-        1 − 1/√(1 + λ), λ the variance of each mode over that of single readings.
-    """
-
-    scale: FloatArray
-    modes: FloatArray
-    excess: FloatArray
+    scale: FloatArray  #: (N,): 1/√w.
+    modes: FloatArray  #: (N, r): Orthonormal directions in which readings scatter together.
+    excess: FloatArray  #: (r,): 1 − 1/√(1 + λ), λ the variance of each mode over that of single readings.
 
     def __call__(self, columns: FloatArray) -> FloatArray:
         """Return W times columns over the readings, shape (N,) or (N, k)."""

@@ -117,8 +117,6 @@ def at_positions(design: Design, positions: FloatArray, approach: Approach) -> D
 
     Parameters
     ----------
-    design
-        The test.
     positions : (M,) array
         Within its travel, m or rad.
     approach
@@ -150,8 +148,6 @@ def outside_of_measured(name: str, unit: Unit, positions: FloatArray, span: tupl
 
     Parameters
     ----------
-    name
-        Of the axis.
     unit
         In which its positions are printed.
     positions : (M,) array
@@ -175,8 +171,6 @@ def of_position(order: int, span: tuple[float, float]) -> FloatArray:
 
     Parameters
     ----------
-    order
-        The highest power.
     span
         First and last position, m or rad.
     """

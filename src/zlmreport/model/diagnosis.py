@@ -74,70 +74,32 @@ class Verdict(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class ErrorNumbers:
-    """How far readings and model are apart.
+    """How far readings and model are apart."""
 
-    Attributes
-    ----------
-    rms
-        √(RSS/(N − q)), m or rad.
-    noise_rms
-        The noise floor σ_f, m or rad; None without repeats.
-    chi2_per_dof
-        RSS/((N − q)·σ_f²); None without a noise floor.
-    cross_validated_rms
-        Of runs predicted from the others, m or rad; None with a single run.
-    """
-
-    rms: float
-    noise_rms: float | None
-    chi2_per_dof: float | None
-    cross_validated_rms: float | None
+    rms: float  #: √(RSS/(N − q)), m or rad.
+    noise_rms: float | None  #: The noise floor σ_f, m or rad; None without repeats.
+    chi2_per_dof: float | None  #: RSS/((N − q)·σ_f²); None without a noise floor.
+    cross_validated_rms: float | None  #: Of runs predicted from the others, m or rad; None with a single run.
 
 
 @dataclass(frozen=True, slots=True)
 class Candidate:
-    """An effect that the model may lack.
+    """An effect that the model may lack."""
 
-    Attributes
-    ----------
-    effect
-        In the form that fits best.
-    p_value
-        Chance of so high a likelihood ratio without the effect, its own search allowed for.
-    p_value_is_extrapolated
-        Whether it lies beyond what was simulated.
-    probability
-        Among all effects, nameless shapes and no effect.
-    evidence
-        2·ln of the Bayes factor against the model as it is.
-    error
-        After adding it.
-    estimates
-        Its own parameters after adding it.
-    share
-        Of what the noise leaves unexplained, explained by it: 0 to 1; None without a noise floor.
-    explains
-        The same in words.
-    equals
-        Effects that the readings cannot tell from it.
-    discriminate_by
-        The measurement that would tell them; None where there is nothing to tell apart.
-    is_plausible
-        Whether its parameters can be what they would have to be.
-    """
-
-    effect: Effect
-    p_value: float
-    p_value_is_extrapolated: bool
-    probability: float
-    evidence: float
-    error: ErrorNumbers
-    estimates: tuple[Estimate, ...]
+    effect: Effect  #: In the form that fits best.
+    p_value: float  #: Chance of so high a likelihood ratio without the effect, its own search allowed for.
+    p_value_is_extrapolated: bool  #: Whether it lies beyond what was simulated.
+    probability: float  #: Among all effects, nameless shapes and no effect.
+    evidence: float  #: 2·ln of the Bayes factor against the model as it is.
+    error: ErrorNumbers  #: After adding it.
+    estimates: tuple[Estimate, ...]  #: Its own parameters after adding it.
+    #: Of what the noise leaves unexplained, explained by it: 0 to 1; None without a noise floor.
     share: float | None
-    explains: Words
-    equals: tuple[str, ...]
+    explains: Words  #: The same in words.
+    equals: tuple[str, ...]  #: Effects that the readings cannot tell from it.
+    #: The measurement that would tell them; None where there is nothing to tell apart.
     discriminate_by: Words | None
-    is_plausible: bool = True
+    is_plausible: bool = True  #: Whether its parameters can be what they would have to be.
 
     @property
     def identifier(self) -> str:
@@ -147,79 +109,35 @@ class Candidate:
 
 @dataclass(frozen=True, slots=True)
 class Unnamed:
-    """What is left without a name.
+    """What is left without a name."""
 
-    Attributes
-    ----------
-    shape
-        Along what it changes.
-    where
-        Where its largest part lies.
-    size
-        Its root mean square value, m or rad.
-    """
-
-    shape: Words
-    where: Words
-    size: float
+    shape: Words  #: Along what it changes.
+    where: Words  #: Where its largest part lies.
+    size: float  #: Its root mean square value, m or rad.
 
 
 @dataclass(frozen=True, slots=True)
 class Diagnosis:
-    """A model held against the readings of a test.
+    """A model held against the readings of a test."""
 
-    Attributes
-    ----------
-    fit
-        The model as it is.
-    error
-        How far it is from the readings.
-    verdict
-        What the diagnosis comes to.
-    p_value
-        Chance of such a comparison where nothing is missing.
-    tests
-        All tests of the residuals.
-    failures
-        Those that they did not pass, and flagged readings.
-    candidates
-        Effects that may be missing, best first, what is impossible last; none where the model is adequate.
-    implausible
-        Where only impossible ones are left, these, and no candidates.
-    further
-        Effects that are missing beside the first candidate, in the order in which they are found after it.
-    unnamed
-        What is left without a name; None unless the verdict is `UNEXPLAINED`.
-    not_testable
-        Effects that the test cannot show, and what they need.
-    not_excluded
-        Those among them that would look like the first candidate.
-    visibility
-        How much of each effect this plan can see.
-    outliers : (k,) integer array
-        Readings set aside, by their places in the measurement set.
-    remarks
-        What was assumed, and what was left out.
-    faults
-        What looks wrong in the data.
-    """
-
-    fit: Fit
-    error: ErrorNumbers
-    verdict: Verdict
-    p_value: float
-    tests: tuple[Failure, ...]
-    failures: tuple[Failure, ...]
+    fit: Fit  #: The model as it is.
+    error: ErrorNumbers  #: How far it is from the readings.
+    verdict: Verdict  #: What the diagnosis comes to.
+    p_value: float  #: Chance of such a comparison where nothing is missing.
+    tests: tuple[Failure, ...]  #: All tests of the residuals.
+    failures: tuple[Failure, ...]  #: Those that they did not pass, and flagged readings.
+    #: Effects that may be missing, best first, what is impossible last; none where the model is adequate.
     candidates: tuple[Candidate, ...]
-    implausible: tuple[Candidate, ...]
+    implausible: tuple[Candidate, ...]  #: Where only impossible ones are left, these, and no candidates.
+    #: Effects that are missing beside the first candidate, in the order in which they are found after it.
     further: tuple[str, ...]
-    unnamed: Unnamed | None
-    not_testable: tuple[NotTestable, ...]
-    not_excluded: tuple[str, ...]
-    visibility: tuple[Visibility, ...]
-    outliers: IntArray
-    remarks: tuple[Words, ...]
-    faults: tuple[Fault, ...] = ()
+    unnamed: Unnamed | None  #: What is left without a name; None unless the verdict is `UNEXPLAINED`.
+    not_testable: tuple[NotTestable, ...]  #: Effects that the test cannot show, and what they need.
+    not_excluded: tuple[str, ...]  #: Those among them that would look like the first candidate.
+    visibility: tuple[Visibility, ...]  #: How much of each effect this plan can see.
+    outliers: IntArray  #: (k,) integer: Readings set aside, by their places in the measurement set.
+    remarks: tuple[Words, ...]  #: What was assumed, and what was left out.
+    faults: tuple[Fault, ...] = ()  #: What looks wrong in the data.
 
 
 def diagnose(  # noqa: PLR0913 - what is known, what may be, and who is told
@@ -235,12 +153,6 @@ def diagnose(  # noqa: PLR0913 - what is known, what may be, and who is told
 
     Parameters
     ----------
-    model
-        The effects of the job.
-    observed
-        The readings.
-    effects
-        All that are installed.
     assumptions
         What the fits take for granted.
     expected

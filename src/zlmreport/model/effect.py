@@ -104,8 +104,6 @@ def unit_of(dimension: Dimension, kind: AxisKind, *, time_is_counted: bool = Fal
     ----------
     dimension
         What kind of quantity it is.
-    kind
-        Of the axis.
     time_is_counted
         Whether the design counts readings instead of seconds.
     """

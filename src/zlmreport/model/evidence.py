@@ -45,42 +45,22 @@ _ALIKE = 1e-6
 
 @dataclass(frozen=True, slots=True)
 class Evidence:
-    """How all explain one set of deviations.
+    """How all explain one set of deviations."""
 
-    Attributes
-    ----------
-    effects : (effects,) array
-        2·ln of each effect's Bayes factor against the model alone.
-    nameless : (nameless,) array
-        The same of the nameless shapes.
-    best
-        Of each effect, the form that fits best, and its searched parameters.
-    """
-
-    effects: FloatArray
-    nameless: FloatArray
+    effects: FloatArray  #: (effects,): 2·ln of each effect's Bayes factor against the model alone.
+    nameless: FloatArray  #: (nameless,): The same of the nameless shapes.
+    #: Of each effect, the form that fits best, and its searched parameters.
     best: tuple[tuple[Effect, FloatArray], ...]
 
 
 @dataclass(frozen=True, slots=True)
 class _Tried:
-    """A family on one set of deviations.
+    """A family on one set of deviations."""
 
-    Attributes
-    ----------
-    effect
-        Its form.
-    thetas : (g, s) array
-        Searched parameters that were tried.
-    weights : (g,) array
-        The part of the grid for which each stands.
-    fits, averages : (f, g) arrays
-        Its criteria.
-    """
-
-    effect: Effect
-    thetas: FloatArray
-    weights: FloatArray
+    effect: Effect  #: Its form.
+    thetas: FloatArray  #: (g, s): Searched parameters that were tried.
+    weights: FloatArray  #: (g,): The part of the grid for which each stands.
+    #: fits and averages: (f, g): Its criteria.
     fits: FloatArray
     averages: FloatArray
 
@@ -112,10 +92,6 @@ def evidence_of(
 
     Parameters
     ----------
-    comparison
-        The comparison.
-    design
-        The test.
     deviation : (N,) array
         x, m or rad.
     least_visible
@@ -208,33 +184,16 @@ def _average(criteria: FloatArray, weights: FloatArray | None = None) -> float:
 
 @dataclass(frozen=True, slots=True)
 class Ranked:
-    """An effect in the order of the comparison.
+    """An effect in the order of the comparison."""
 
-    Attributes
-    ----------
-    effect
-        In the form that fits best.
-    theta : (s,) array
-        Its searched parameters, near their best values.
-    ratio
-        Its likelihood ratio LR.
-    usual
-        The 95 % point of LR where nothing is missing.
-    evidence
-        2·ln of its Bayes factor against the model alone.
-    probability
-        Among all effects, nameless shapes and no effect, if each was as likely before the test.
-    p_value
-        Of its likelihood ratio, its own search allowed for.
-    """
-
-    effect: Effect
-    theta: FloatArray
-    ratio: float
-    usual: float
-    evidence: float
+    effect: Effect  #: In the form that fits best.
+    theta: FloatArray  #: (s,): Its searched parameters, near their best values.
+    ratio: float  #: Its likelihood ratio LR.
+    usual: float  #: The 95 % point of LR where nothing is missing.
+    evidence: float  #: 2·ln of its Bayes factor against the model alone.
+    #: Among all effects, nameless shapes and no effect, if each was as likely before the test.
     probability: float
-    p_value: PValue
+    p_value: PValue  #: Of its likelihood ratio, its own search allowed for.
 
     @property
     def identifier(self) -> str:
@@ -244,23 +203,13 @@ class Ranked:
 
 @dataclass(frozen=True, slots=True)
 class Ranking:
-    """The outcome of a comparison.
+    """The outcome of a comparison."""
 
-    Attributes
-    ----------
-    effects
-        The plainest of those that explain the readings best; then the others, best first.
-    shape
-        The best shape without a name; None where there is none.
-    shape_evidence
-        Its evidence.
-    impossible
-        Effects that would lead, but with values outside their plausible range.
-    """
-
+    #: The plainest of those that explain the readings best; then the others, best first.
     effects: tuple[Ranked, ...]
-    shape: Words | None
-    shape_evidence: float
+    shape: Words | None  #: The best shape without a name; None where there is none.
+    shape_evidence: float  #: Its evidence.
+    #: Effects that would lead, but with values outside their plausible range.
     impossible: tuple[Ranked, ...] = ()
 
     def without(self, design: Design, rejected: Sequence[Ranked], impossible: Sequence[Ranked]) -> Ranking:
@@ -268,10 +217,6 @@ class Ranking:
 
         Parameters
         ----------
-        design
-            The test.
-        rejected
-            Effects that are taken out.
         impossible
             Those among them whose estimates are physically impossible.
         """

@@ -63,28 +63,15 @@ class FaultKind(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Fault:
-    """Something that looks wrong in the data.
+    """Something that looks wrong in the data."""
 
-    Attributes
-    ----------
-    kind
-        What went wrong.
-    run
-        In which run; None where it is not one.
-    probability
-        That it is so, against the best effect; 1 for what the rows themselves show.
-    statement, remedy
-        What the data look like, and what to do, in sentences without a full stop.
-    explains
-        Whether it explains more than any effect: then no effect is a candidate.
-    """
-
-    kind: FaultKind
-    run: int | None
-    probability: float
+    kind: FaultKind  #: What went wrong.
+    run: int | None  #: In which run; None where it is not one.
+    probability: float  #: That it is so, against the best effect; 1 for what the rows themselves show.
+    #: statement and remedy: What the data look like, and what to do, in sentences without a full stop.
     statement: Words
     remedy: Words
-    explains: bool = False
+    explains: bool = False  #: Whether it explains more than any effect: then no effect is a candidate.
 
     @property
     def is_sure(self) -> bool:
@@ -112,8 +99,6 @@ def run_faults(fitted: Fit, rivals: Sequence[Fit] = (), shape_evidence: float = 
 
     Parameters
     ----------
-    fitted
-        The model.
     rivals
         The same with each of the best effects.
     shape_evidence
@@ -155,12 +140,8 @@ def lagging_sensors(fitted: Fit, rivals: Sequence[Fit], effects: Iterable[Effect
 
     Parameters
     ----------
-    fitted
-        The model.
     rivals
         The same with each of the best effects; nothing is said where none is better than nothing.
-    effects
-        That may be missing.
     """
     design, readings = fitted.design, len(fitted.deviation)
     floor = noise_floor(design, fitted.deviation)

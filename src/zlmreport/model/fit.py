@@ -35,40 +35,25 @@ _LARGEST_RATIO = 1e4
 
 @dataclass(frozen=True, slots=True)
 class Assumptions:
-    """What a fit takes for granted.
+    """What a fit takes for granted."""
 
-    Attributes
-    ----------
-    instrument
-        The error of the instrument, for the uncertainty of all that is estimated.
-    parts
-        Sources of shared scatter; None for those that the design can show.
-    weights : (N,) array or None
-        Variance of each reading over the mean one; None to see whether the readings scatter unequally.
-    """
-
+    #: The error of the instrument, for the uncertainty of all that is estimated.
     instrument: InstrumentError = field(default_factory=InstrumentError)
+    #: Sources of shared scatter; None for those that the design can show.
     parts: tuple[NoisePart, ...] | None = None
+    #: (N,) array or None: Variance of each reading over the mean one; None to see whether the readings
+    #: scatter unequally.
     weights: FloatArray | None = None
 
 
 @dataclass(frozen=True, slots=True)
 class Prediction:
-    """The deviation that the model gives where nobody measured.
+    """The deviation that the model gives where nobody measured."""
 
-    Attributes
-    ----------
-    deviation : (M,) array
-        m or rad.
-    standard_uncertainty : (M,) array
-        Of the model's value, not of a single reading to come; m or rad.
-    coverage_factor : (M,) array
-        k for 95 %.
-    """
-
-    deviation: FloatArray
+    deviation: FloatArray  #: (M,): m or rad.
+    #: (M,): Of the model's value, not of a single reading to come; m or rad.
     standard_uncertainty: FloatArray
-    coverage_factor: FloatArray
+    coverage_factor: FloatArray  #: (M,): k for 95 %.
 
     @property
     def expanded_uncertainty(self) -> FloatArray:
@@ -78,38 +63,20 @@ class Prediction:
 
 @dataclass(frozen=True, slots=True)
 class Fit:
-    """A fitted model.
+    """A fitted model."""
 
-    Attributes
-    ----------
-    model, design
-        What was fitted to which readings.
-    deviation, fitted : (N,) arrays
-        x and the model's value, m or rad.
-    assumptions
-        What was taken for granted.
-    estimates
-        All parameters, in the order of the model.
-    noise
-        What scatters.
-    solution
-        The parameters as arrays.
-    places
-        The searched parameters that vary continuously.
-    uncertainties
-        What the uncertainty of any value follows from.
-    """
-
+    #: model and design: What was fitted to which readings.
     model: AxisModel
     design: Design
+    #: deviation and fitted: (N,): x and the model's value, m or rad.
     deviation: FloatArray
     fitted: FloatArray
-    assumptions: Assumptions
-    estimates: tuple[Estimate, ...]
-    noise: Noise
-    solution: Solution
-    places: tuple[Place, ...]
-    uncertainties: Uncertainties
+    assumptions: Assumptions  #: What was taken for granted.
+    estimates: tuple[Estimate, ...]  #: All parameters, in the order of the model.
+    noise: Noise  #: What scatters.
+    solution: Solution  #: The parameters as arrays.
+    places: tuple[Place, ...]  #: The searched parameters that vary continuously.
+    uncertainties: Uncertainties  #: What the uncertainty of any value follows from.
 
     @property
     def residual(self) -> FloatArray:
@@ -172,14 +139,8 @@ def fit(
 
     Parameters
     ----------
-    model
-        The effects.
-    design
-        The test.
     deviation : (N,) array
         x, m or rad.
-    assumptions
-        What is taken for granted.
     start
         Searched parameters near their best values; the whole grid is searched if they are not given.
 
@@ -312,8 +273,6 @@ def cross_validated_rms(
 
     Parameters
     ----------
-    model, design, deviation
-        What is fitted to what.
     thetas
         Searched parameters of the whole test; refined anew without each run.
     """

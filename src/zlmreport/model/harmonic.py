@@ -25,21 +25,14 @@ _DESCRIPTIONS = {
 
 @dataclass(frozen=True, slots=True)
 class Harmonic:
-    """A harmonic as people read it.
+    """A harmonic as people read it."""
 
-    Attributes
-    ----------
-    order
-        h: 1 for the fundamental.
-    amplitude, amplitude_uncertainty
-        A ≥ 0 and its standard uncertainty, SI.
-    phase, phase_uncertainty
-        φ of A·sin(hψ + φ), −π < φ ≤ π, and its standard uncertainty, rad. A phase means nothing where the
-        amplitude is within its uncertainty; the uncertainties are those of a linear propagation.
-    """
-
-    order: int
+    order: int  #: h: 1 for the fundamental.
+    #: amplitude and amplitude_uncertainty: A ≥ 0 and its standard uncertainty, SI.
     amplitude: float
+    #: phase and phase_uncertainty: φ of A·sin(hψ + φ), −π < φ ≤ π, and its standard uncertainty, rad. A phase
+    #: means nothing where the amplitude is within its uncertainty; the uncertainties are those of a linear
+    #: propagation.
     phase: float
     amplitude_uncertainty: float
     phase_uncertainty: float
@@ -89,8 +82,6 @@ def harmonics(
 
     Parameters
     ----------
-    parameters
-        Of one effect.
     values : (k,) array
         Their estimates, SI.
     covariance : (k, k) array

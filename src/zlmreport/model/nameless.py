@@ -30,34 +30,19 @@ _LEAST_VISIBLE = 1e-3
 
 @dataclass(frozen=True, slots=True)
 class NamelessShape:
-    """A shape without a name.
+    """A shape without a name."""
 
-    Attributes
-    ----------
-    shape
-        In words.
-    features : (N, f) array
-        Error contrasts whose random combination is the shape, of mean variance one.
-    """
-
-    shape: Words
+    shape: Words  #: In words.
+    #: (N, f): Error contrasts whose random combination is the shape, of mean variance one.
     features: FloatArray
 
 
 @dataclass(frozen=True, slots=True)
 class ShapeModes:
-    """The nameless shapes under one φ, turned so that their coefficients are independent.
+    """The nameless shapes under one φ, turned so that their coefficients are independent."""
 
-    Attributes
-    ----------
-    turn : (nameless, f, f) array
-        From products with the features to products with the modes.
-    strengths : (nameless, f) array
-        What the readings know of each mode.
-    """
-
-    turn: FloatArray
-    strengths: FloatArray
+    turn: FloatArray  #: (nameless, f, f): From products with the features to products with the modes.
+    strengths: FloatArray  #: (nameless, f): What the readings know of each mode.
 
 
 def nameless_shapes(design: Design, space: Contrasts) -> tuple[NamelessShape, ...]:
@@ -95,21 +80,11 @@ def nameless_shapes(design: Design, space: Contrasts) -> tuple[NamelessShape, ..
 
 @dataclass(frozen=True, slots=True)
 class ShapeGroup:
-    """The shapes of one number of features: padded to the widest, many targets would not fit in memory.
+    """The shapes of one number of features: padded to the widest, many targets would not fit in memory."""
 
-    Attributes
-    ----------
-    shapes : (g,) integer array
-        Their places among all shapes.
-    places : (g, f) integer array
-        Of their features among the columns of all shapes side by side.
-    gram : (g, f, f) array
-        Products of each shape's features among themselves.
-    """
-
-    shapes: IntArray
-    places: IntArray
-    gram: FloatArray
+    shapes: IntArray  #: (g,) integer: Their places among all shapes.
+    places: IntArray  #: (g, f) integer: Of their features among the columns of all shapes side by side.
+    gram: FloatArray  #: (g, f, f): Products of each shape's features among themselves.
 
 
 def side_by_side(
@@ -134,12 +109,8 @@ def modes(metric: Metric, shared: FloatArray, group: ShapeGroup) -> ShapeModes:
 
     Parameters
     ----------
-    metric
-        The inner product.
     shared : (r, K) array
         Products of the noise's factors and the features.
-    group
-        The shapes.
     """
     coordinates = metric.coordinates(shared)[:, group.places].transpose(1, 0, 2)
     strengths, vectors = np.linalg.eigh(group.gram - coordinates.transpose(0, 2, 1) @ coordinates)

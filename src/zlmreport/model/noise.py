@@ -68,18 +68,10 @@ _RATIOS = {
 
 @dataclass(frozen=True, slots=True)
 class NoisePart:
-    """One source of shared scatter.
+    """One source of shared scatter."""
 
-    Attributes
-    ----------
-    source
-        What is shared.
-    factor : (N, r) array
-        Z, scaled so that Z·Zᵀ has ones on its diagonal.
-    """
-
-    source: NoiseSource
-    factor: FloatArray
+    source: NoiseSource  #: What is shared.
+    factor: FloatArray  #: (N, r): Z, scaled so that Z·Zᵀ has ones on its diagonal.
 
     @property
     def ratios(self) -> tuple[float, ...]:
@@ -89,21 +81,11 @@ class NoisePart:
 
 @dataclass(frozen=True, slots=True)
 class Noise:
-    """The noise of a test, as estimated.
+    """The noise of a test, as estimated."""
 
-    Attributes
-    ----------
-    sigma
-        σ, the repeatability of a single reading, m or rad.
-    ratios
-        φ_j by source; sources that the design cannot show are not there.
-    weights : (N,) array
-        w, the variance of each reading over the mean one.
-    """
-
-    sigma: float
-    ratios: Mapping[NoiseSource, float]
-    weights: FloatArray
+    sigma: float  #: σ, the repeatability of a single reading, m or rad.
+    ratios: Mapping[NoiseSource, float]  #: φ_j by source; sources that the design cannot show are not there.
+    weights: FloatArray  #: (N,): w, the variance of each reading over the mean one.
 
     @property
     def span(self) -> tuple[float, float]:

@@ -26,41 +26,24 @@ LEVEL = 0.05
 
 @dataclass(frozen=True, slots=True)
 class PValue:
-    """The chance of a value so large where nothing is missing.
+    """The chance of a value so large where nothing is missing."""
 
-    Attributes
-    ----------
-    value
-        Counted among the simulated tests, or extrapolated beyond them.
-    is_extrapolated
-        Whether it is less than the simulated tests can show, and comes from a gamma tail fitted to them.
-    """
-
-    value: float
+    value: float  #: Counted among the simulated tests, or extrapolated beyond them.
+    #: Whether it is less than the simulated tests can show, and comes from a gamma tail fitted to them.
     is_extrapolated: bool
 
 
 @dataclass(frozen=True, slots=True)
 class NullDistribution:
-    """The comparison where nothing is missing.
+    """The comparison where nothing is missing."""
 
-    Attributes
-    ----------
-    ratios : (effects, B) array
-        LR of each effect in each simulated test.
-    nameless_ratios : (nameless, B) array
-        The same of the nameless shapes.
-    usual, usual_of_nameless : (effects,), (nameless,) arrays
-        q, the 95 % points: what each candidate reaches by its own search.
-    threshold
-        T, the 95 % point of the largest excess over these, of all by_effect.
-    """
-
-    ratios: FloatArray
-    nameless_ratios: FloatArray
+    ratios: FloatArray  #: (effects, B): LR of each effect in each simulated test.
+    nameless_ratios: FloatArray  #: (nameless, B): The same of the nameless shapes.
+    #: usual and usual_of_nameless: (effects,), (nameless,): q, the 95 % points: what each candidate reaches
+    #: by its own search.
     usual: FloatArray
     usual_of_nameless: FloatArray
-    threshold: float
+    threshold: float  #: T, the 95 % point of the largest excess over these, of all by_effect.
 
     def excess(self, scores: Scores) -> FloatArray:
         """Return M, the largest excess of any candidate over what it usually reaches, shape (B,)."""
@@ -93,8 +76,6 @@ def simulate_null(
 
     Parameters
     ----------
-    comparison
-        The comparison.
     design
         The test; its content alone seeds the simulation: the same test gives the same digits.
     ratios : (parts,) array

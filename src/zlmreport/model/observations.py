@@ -73,24 +73,12 @@ _GOLDEN = (5.0**0.5 - 1.0) / 2.0
 
 @dataclass(frozen=True, slots=True)
 class Observations:
-    """What the error model works on.
+    """What the error model works on."""
 
-    Attributes
-    ----------
-    design
-        The readings that are there, but for their deviations.
-    deviation : (N,) array
-        x, m or rad; no NaN.
-    reading : (N,) integer array
-        The place of each among all readings of the measurement set.
-    remarks
-        What was assumed, and what was left out.
-    """
-
-    design: Design
-    deviation: FloatArray
-    reading: IntArray
-    remarks: tuple[Words, ...]
+    design: Design  #: The readings that are there, but for their deviations.
+    deviation: FloatArray  #: (N,): x, m or rad; no NaN.
+    reading: IntArray  #: (N,) integer: The place of each among all readings of the measurement set.
+    remarks: tuple[Words, ...]  #: What was assumed, and what was left out.
 
     def without(self, readings: IntArray) -> Observations:
         """Return the observations without some readings, named by their places here."""
@@ -230,21 +218,11 @@ def _doubts(name: str, log: FloatArray, noise: float, variation: float) -> Itera
 
 @dataclass(frozen=True, slots=True)
 class Smoothed:
-    """A log, smoothed.
+    """A log, smoothed."""
 
-    Attributes
-    ----------
-    values : (N,) array
-        The smooth course at the readings, in the unit of the log.
-    noise
-        Standard deviation of the log about it.
-    variation
-        Standard deviation of the smooth course itself.
-    """
-
-    values: FloatArray
-    noise: float
-    variation: float
+    values: FloatArray  #: (N,): The smooth course at the readings, in the unit of the log.
+    noise: float  #: Standard deviation of the log about it.
+    variation: float  #: Standard deviation of the smooth course itself.
 
 
 def smoothed(moments: FloatArray, log: FloatArray) -> Smoothed:

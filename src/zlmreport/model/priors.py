@@ -40,17 +40,11 @@ _NAMES: Mapping[NoiseSource, SourceName] = {
 
 @dataclass(frozen=True, slots=True)
 class Expected:
-    """What is expected of a test before its readings are looked at.
+    """What is expected of a test before its readings are looked at."""
 
-    Attributes
-    ----------
-    ratios
-        Of a source of shared scatter, ratios φ and their probabilities, shape (2, k).
-    sizes
-        Root mean square size of an effect, by its identifier, m or rad.
-    """
-
+    #: Of a source of shared scatter, ratios φ and their probabilities, shape (2, k).
     ratios: Mapping[NoiseSource, FloatArray] = field(default_factory=dict)
+    #: Root mean square size of an effect, by its identifier, m or rad.
     sizes: Mapping[str, float] = field(default_factory=dict)
 
     @classmethod
@@ -87,25 +81,15 @@ class Expected:
 
 @dataclass(frozen=True, slots=True)
 class Lesson:
-    """What one test teaches whose model describes its readings.
+    """What one test teaches whose model describes its readings."""
 
-    Attributes
-    ----------
-    kind
-        Of its axis.
-    sizes
-        Root mean square size of each effect that the rest of the model cannot imitate, micrometres or arc
-        seconds.
-    levels
-        The ratios φ that are tried of each source that the test can tell, rising.
-    likelihoods
-        Of every combination of them, shape (f,), the largest 1.
-    """
-
-    kind: AxisKind
+    kind: AxisKind  #: Of its axis.
+    #: Root mean square size of each effect that the rest of the model cannot imitate, micrometres or arc
+    #: seconds.
     sizes: Mapping[str, float]
+    #: The ratios φ that are tried of each source that the test can tell, rising.
     levels: Mapping[NoiseSource, Sequence[float]]
-    likelihoods: FloatArray
+    likelihoods: FloatArray  #: Of every combination of them, shape (f,), the largest 1.
 
     @classmethod
     def of(cls, fitted: Fit) -> Self:

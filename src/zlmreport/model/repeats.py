@@ -41,21 +41,11 @@ _SEED = 20_261_118
 
 @dataclass(frozen=True, slots=True)
 class Repeats:
-    """The deviations within their cells.
+    """The deviations within their cells."""
 
-    Attributes
-    ----------
-    cell : (N,) integer array
-        Index of the cell of each reading.
-    count : (cells,) integer array
-        Readings in each cell.
-    centred : (N,) array
-        Each deviation less the mean of its cell, m or rad.
-    """
-
-    cell: IntArray
-    count: IntArray
-    centred: FloatArray
+    cell: IntArray  #: (N,) integer: Index of the cell of each reading.
+    count: IntArray  #: (cells,) integer: Readings in each cell.
+    centred: FloatArray  #: (N,): Each deviation less the mean of its cell, m or rad.
 
     @property
     def degrees(self) -> int:
@@ -122,8 +112,6 @@ def noise_floor(design: Design, deviation: FloatArray) -> float | None:
 
     Parameters
     ----------
-    design
-        The test.
     deviation : (N,) array
         x, m or rad.
     """
@@ -165,21 +153,11 @@ _WORDS = {
 
 @dataclass(frozen=True, slots=True)
 class SpreadTest:
-    """A test of equal scatter, on absolute residuals: Levene's by groups, or their slope along the axis.
+    """A test of equal scatter, on absolute residuals: Levene's by groups, or their slope along the axis."""
 
-    Attributes
-    ----------
-    factor
-        By what the readings are grouped.
-    p_value
-        Of equal scatter.
-    widest
-        The label of the group that scatters most: target index, direction or run.
-    """
-
-    factor: SpreadFactor
-    p_value: float
-    widest: int
+    factor: SpreadFactor  #: By what the readings are grouped.
+    p_value: float  #: Of equal scatter.
+    widest: int  #: The label of the group that scatters most: target index, direction or run.
 
     @property
     def is_refuted(self) -> bool:
@@ -291,8 +269,6 @@ def _drift_free(design: Design, values: FloatArray, variance: FloatArray | None 
 
     Parameters
     ----------
-    design
-        The test.
     values : (N, B) array
         Deviations of B sets.
     variance : (N,) array or None
@@ -359,18 +335,10 @@ _FEWEST_REPEATS = 3
 
 @dataclass(frozen=True, slots=True)
 class Outliers:
-    """Readings that stand off.
+    """Readings that stand off."""
 
-    Attributes
-    ----------
-    readings : (k,) integer array
-        Their places, in the order of time.
-    p_value
-        Chance that any of so many normal readings stands off so far; 1 if none does.
-    """
-
-    readings: IntArray
-    p_value: float
+    readings: IntArray  #: (k,) integer: Their places, in the order of time.
+    p_value: float  #: Chance that any of so many normal readings stands off so far; 1 if none does.
 
 
 def outliers(design: Design, deviation: FloatArray) -> Outliers:
@@ -378,8 +346,6 @@ def outliers(design: Design, deviation: FloatArray) -> Outliers:
 
     Parameters
     ----------
-    design
-        The test.
     deviation : (N,) array
         x, m or rad.
     """

@@ -72,8 +72,6 @@ def report(
 
     Parameters
     ----------
-    diagnosis
-        The diagnosis.
     language
         Of its sentences; names and verdicts are the same in every language.
     experiment

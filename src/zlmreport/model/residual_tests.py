@@ -273,8 +273,6 @@ def _strongest_wave(
 
     Parameters
     ----------
-    residuals
-        The residuals.
     where : (N,) array
         Position or time.
     most

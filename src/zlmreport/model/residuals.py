@@ -44,31 +44,17 @@ class ResidualTest(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Failure:
-    """A test that the residuals did not pass.
+    """A test that the residuals did not pass."""
 
-    Attributes
-    ----------
-    test
-        Which.
-    p_value
-        Chance of such residuals if the model held.
-    where
-        The place, the time, the run or the condition: what stands in brackets after the statement.
-    statement
-        What the residuals do, in a sentence without a full stop.
-    readings : (k,) integer array
-        The readings that `where` names, by their places in the design; none where all show it, or where they
-        were set aside before.
-    condition
-        Of the test against a logged condition, the name of that; else empty.
-    """
-
-    test: ResidualTest
-    p_value: float
+    test: ResidualTest  #: Which.
+    p_value: float  #: Chance of such residuals if the model held.
+    #: The place, the time, the run or the condition: what stands in brackets after the statement.
     where: Words
-    statement: Words
+    statement: Words  #: What the residuals do, in a sentence without a full stop.
+    #: (k,) integer: The readings that `where` names, by their places in the design; none where all show it,
+    #: or where they were set aside before.
     readings: IntArray = field(default_factory=lambda: read_only_integers([]), compare=False)
-    condition: str = ""
+    condition: str = ""  #: Of the test against a logged condition, the name of that; else empty.
 
 
 _TITLES = {
@@ -92,24 +78,12 @@ _TITLES = {
 
 @dataclass(frozen=True, slots=True)
 class Residuals:
-    """The residuals of a fitted model.
+    """The residuals of a fitted model."""
 
-    Attributes
-    ----------
-    fit
-        The model.
-    whiten
-        Makes readings independent under the noise of the test.
-    base : (N, q) array
-        Orthonormal columns that span the whitened model.
-    independent : (N,) array
-        The whitened residuals.
-    """
-
-    fit: Fit
-    whiten: Whitener
-    base: FloatArray
-    independent: FloatArray
+    fit: Fit  #: The model.
+    whiten: Whitener  #: Makes readings independent under the noise of the test.
+    base: FloatArray  #: (N, q): Orthonormal columns that span the whitened model.
+    independent: FloatArray  #: (N,): The whitened residuals.
 
     @property
     def design(self) -> Design:

@@ -35,21 +35,14 @@ _IMITATED = 1e-7
 
 @dataclass(frozen=True, slots=True)
 class Place:
-    """A searched parameter that varies continuously.
+    """A searched parameter that varies continuously."""
 
-    Attributes
-    ----------
-    term, column
-        Index of its term, and of it among the θ of that term.
-    spacing
-        Distance of neighbours in the grid about it.
-    least, most
-        The ends of the grid: beyond, a relaxation becomes a constant, and a wave a straight line.
-    """
-
+    #: term and column: Index of its term, and of it among the θ of that term.
     term: int
     column: int
-    spacing: float
+    spacing: float  #: Distance of neighbours in the grid about it.
+    #: least and most: The ends of the grid: beyond, a relaxation becomes a constant, and a wave a straight
+    #: line.
     least: float
     most: float
 
@@ -67,24 +60,12 @@ class Place:
 
 @dataclass(frozen=True, slots=True)
 class Solution:
-    """The linear parameters for one θ.
+    """The linear parameters for one θ."""
 
-    Attributes
-    ----------
-    thetas
-        θ of every term.
-    coefficients
-        γ of every term, the given ones included.
-    columns : (N, k) array
-        Whitened columns of those that were solved.
-    residual : (N,) array
-        Whitened.
-    """
-
-    thetas: Thetas
-    coefficients: tuple[FloatArray, ...]
-    columns: FloatArray
-    residual: FloatArray
+    thetas: Thetas  #: θ of every term.
+    coefficients: tuple[FloatArray, ...]  #: γ of every term, the given ones included.
+    columns: FloatArray  #: (N, k): Whitened columns of those that were solved.
+    residual: FloatArray  #: (N,): Whitened.
 
     @property
     def squares(self) -> float:
@@ -94,20 +75,13 @@ class Solution:
 
 @dataclass(frozen=True, slots=True)
 class Problem:
-    """A model to be fitted to deviations.
+    """A model to be fitted to deviations."""
 
-    Attributes
-    ----------
-    model, design, deviation
-        What is fitted to what.
-    whiten
-        Makes readings independent.
-    """
-
+    #: model, design and deviation: What is fitted to what.
     model: AxisModel
     design: Design
     deviation: FloatArray
-    whiten: Callable[[FloatArray], FloatArray]
+    whiten: Callable[[FloatArray], FloatArray]  #: Makes readings independent.
 
     def solution(self, thetas: Thetas) -> Solution:
         """Return the linear parameters for one θ."""

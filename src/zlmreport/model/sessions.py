@@ -35,13 +35,7 @@ _MEANING = Words(
 
 
 class SessionZeros(Effect):
-    """The zero of each session after the first, against that of the first.
-
-    Parameters
-    ----------
-    sessions
-        How many there are.
-    """
+    """The zero of each session after the first, against that of the first."""
 
     identifier = "session-zero"
     title = Words(en="Zero of each session", de="Nullpunkt jeder Messung")
@@ -74,8 +68,6 @@ def held_together(own: Observations, others: Sequence[tuple[str, Observations]])
 
     Parameters
     ----------
-    own
-        Those of the job.
     others
         The further sessions, each with a name for the remarks.
 

@@ -37,27 +37,13 @@ _INEXACT_MISFIT, _INEXACT_MODEL = 0.01, 0.002
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """A comparison beside one model.
+    """A comparison beside one model."""
 
-    Attributes
-    ----------
-    fit
-        The model.
-    visible
-        How much of each effect the plan can see beside it.
-    noise
-        Held to what noise may be.
-    ranking
-        The order of the effects.
-    p_value
-        Chance of such a comparison where nothing is missing.
-    """
-
-    fit: Fit
-    visible: tuple[Visibility, ...]
-    noise: Noise
-    ranking: Ranking
-    p_value: PValue
+    fit: Fit  #: The model.
+    visible: tuple[Visibility, ...]  #: How much of each effect the plan can see beside it.
+    noise: Noise  #: Held to what noise may be.
+    ranking: Ranking  #: The order of the effects.
+    p_value: PValue  #: Chance of such a comparison where nothing is missing.
 
     @property
     def something_is_missing(self) -> bool:
@@ -91,10 +77,6 @@ def compared(
 
     Parameters
     ----------
-    fitted
-        The model.
-    effects
-        That may be missing.
     first
         The model with which a diagnosis began, where effects have been added on trial since.
     expected

@@ -63,31 +63,16 @@ class Study:
 
     Its methods raise `InputError` at the place in the job where an effect stands that makes no sense on these
     readings.
-
-    Attributes
-    ----------
-    job
-        The job.
-    measurements
-        Its readings.
-    model
-        Its effects, after the zeros of further sessions.
-    observed
-        Its readings as the model sees them, none set aside.
-    assumptions
-        What fits take for granted: the error of the instrument, as the job states it.
-    sessions
-        The readings of the job's further sessions.
-    together
-        The readings of all sessions below one another; without others, those of the job.
     """
 
     job: Job
-    measurements: MeasurementSet
-    model: AxisModel
-    observed: Observations
+    measurements: MeasurementSet  #: Its readings.
+    model: AxisModel  #: Its effects, after the zeros of further sessions.
+    observed: Observations  #: Its readings as the model sees them, none set aside.
+    #: What fits take for granted: the error of the instrument, as the job states it.
     assumptions: Assumptions
-    sessions: tuple[MeasurementSet, ...]
+    sessions: tuple[MeasurementSet, ...]  #: The readings of the job's further sessions.
+    #: The readings of all sessions below one another; without others, those of the job.
     together: Observations
 
     @classmethod
@@ -104,10 +89,6 @@ class Study:
         ----------
         job
             A job whose effects are installed.
-        measurements
-            Its readings.
-        effects
-            All that are installed.
         sessions
             The readings of the further sessions that the job names.
         """
@@ -239,10 +220,6 @@ def addition(
         ``backlash``, or ``polynomial: {order: 5}`` as in a job, or the name of a formula of its candidates.
     job
         To whose model it is to be added.
-    registry, effects
-        What is installed.
-    place
-        Where the person names it, for messages.
 
     Raises
     ------
@@ -298,12 +275,8 @@ def corrected(measurements: MeasurementSet, observed: Observations, fitted: Fit)
 
     Parameters
     ----------
-    measurements
-        The readings.
     observed
         The same as the model sees them, none set aside.
-    fitted
-        The model.
     """
     left = measurements.deviation.copy()
     taken = []
@@ -359,21 +332,11 @@ def one_way(fitted: Fit) -> Iterator[tuple[Approach, FloatArray, FloatArray]]:
 
 @dataclass(frozen=True, slots=True)
 class Wave:
-    """A harmonic of a periodic effect.
+    """A harmonic of a periodic effect."""
 
-    Attributes
-    ----------
-    effect
-        Identifier of the effect.
-    harmonic
-        Its amplitude and phase with standard uncertainties, SI.
-    coverage_factor
-        k for 95 %, of both.
-    """
-
-    effect: str
-    harmonic: Harmonic
-    coverage_factor: float
+    effect: str  #: Identifier of the effect.
+    harmonic: Harmonic  #: Its amplitude and phase with standard uncertainties, SI.
+    coverage_factor: float  #: k for 95 %, of both.
 
 
 def waves(fitted: Fit) -> tuple[Wave, ...]:

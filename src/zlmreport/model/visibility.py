@@ -25,29 +25,18 @@ _VALUES = 12
 
 @dataclass(frozen=True, slots=True)
 class Visibility:
-    """How much of an effect a plan can see.
+    """How much of an effect a plan can see."""
 
-    Attributes
-    ----------
-    effect
-        Its identifier.
-    share
-        Root mean square of what the model cannot imitate, over that of the effect about its mean: 0 to 1.
-        Where θ is searched, the median over its values. 0 for an effect that the plan cannot see at all.
-    smallest_rms
-        Root mean square value over all readings of the smallest effect that is found half of the time, m or
-        rad; infinite where it is never found.
-    smallest
-        For an effect of one linear parameter, this and its smallest value found half of the time, SI.
-    reason
-        Why it cannot be tested at all; None if it can.
-    """
-
-    effect: str
+    effect: str  #: Its identifier.
+    #: Root mean square of what the model cannot imitate, over that of the effect about its mean: 0 to 1.
+    #: Where θ is searched, the median over its values. 0 for an effect that the plan cannot see at all.
     share: float
+    #: Root mean square value over all readings of the smallest effect that is found half of the time, m or
+    #: rad; infinite where it is never found.
     smallest_rms: float
+    #: For an effect of one linear parameter, this and its smallest value found half of the time, SI.
     smallest: tuple[Parameter, float] | None = None
-    reason: Words | None = None
+    reason: Words | None = None  #: Why it cannot be tested at all; None if it can.
 
     @property
     def is_hidden(self) -> bool:
@@ -66,8 +55,6 @@ def plan_visibility(
         The effects that are taken for granted; their searched parameters at the first of their values.
     design
         The plan: a visit list with times and conditions as they are expected.
-    effects
-        All that are installed.
     sigma
         Repeatability of a single reading, m or rad.
     """
@@ -94,8 +81,6 @@ def visibility(
     ----------
     comparison, null
         Of the model, and what chance gives in it.
-    design
-        The test.
     ratios : (parts,) array
         φ̂.
     sigma

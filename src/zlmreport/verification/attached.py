@@ -68,18 +68,10 @@ class Results(_Lenient):
 
 @dataclass(frozen=True, slots=True)
 class Stated:
-    """A results file.
+    """A results file."""
 
-    Attributes
-    ----------
-    tree
-        All that it says.
-    results
-        What is understood of it.
-    """
-
-    tree: dict[str, Any] = field(repr=False)
-    results: Results
+    tree: dict[str, Any] = field(repr=False)  #: All that it says.
+    results: Results  #: What is understood of it.
 
 
 def stated_by(carrier: Carrier) -> Stated | None:
@@ -121,18 +113,10 @@ _LONGEST_NAME = 255
 
 @dataclass(frozen=True, slots=True)
 class Layout:
-    """Files in a folder that is gone when the work is done.
+    """Files in a folder that is gone when the work is done."""
 
-    Attributes
-    ----------
-    job
-        The job file.
-    names
-        What each file is called in messages, by where it lies.
-    """
-
-    job: Path
-    names: Mapping[str, str]
+    job: Path  #: The job file.
+    names: Mapping[str, str]  #: What each file is called in messages, by where it lies.
 
     def problems(self, error: ZlmreportError) -> tuple[Problem, ...]:
         """Return what went wrong with the files by their own names."""
@@ -201,8 +185,6 @@ def compare(
     ----------
     sources
         What the certificate states that it was made from.
-    carried
-        What it carries, by name.
     again
         What it carries when it is made again, by name; None if it cannot be.
     """
@@ -254,8 +236,6 @@ def digital_findings(carried: Mapping[str, Carried], schema: Path) -> Iterator[F
 
     Parameters
     ----------
-    carried
-        The attachments by their names.
     schema
         A folder with PTB's ``dcc.xsd`` and what it imports.
 

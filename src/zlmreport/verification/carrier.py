@@ -48,27 +48,13 @@ class Carried:
 
 @dataclass(frozen=True, slots=True)
 class Carrier:
-    """An opened PDF.
+    """An opened PDF."""
 
-    Attributes
-    ----------
-    place
-        The file, for messages.
-    content
-        Its bytes.
-    reader
-        The opened PDF, a `pypdf.PdfReader`.
-    carried
-        Its attachments, by name.
-    metadata
-        The entries of its information dictionary.
-    """
-
-    place: Place
-    content: bytes = field(repr=False)
-    reader: Any
-    carried: dict[str, Carried]
-    metadata: dict[str, str]
+    place: Place  #: The file, for messages.
+    content: bytes = field(repr=False)  #: Its bytes.
+    reader: Any  #: The opened PDF, a `pypdf.PdfReader`.
+    carried: dict[str, Carried]  #: Its attachments, by name.
+    metadata: dict[str, str]  #: The entries of its information dictionary.
 
     @property
     def creator(self) -> str:
@@ -224,8 +210,6 @@ def unpacked(stream: Any, most: int) -> bytes:
 
     Parameters
     ----------
-    stream
-        The stream.
     most
         Bytes that it may unpack to.
 

@@ -32,21 +32,11 @@ def is_number(value: object) -> bool:
 
 @dataclass(frozen=True, slots=True)
 class Finding:
-    """A statement and its verdict.
+    """A statement and its verdict."""
 
-    Attributes
-    ----------
-    subject
-        What it is about: ``page 3``, ``y-axis.csv``.
-    verdict
-        Whether it holds.
-    detail
-        Why not, or by what.
-    """
-
-    subject: str
-    verdict: Verdict
-    detail: Words | str = ""
+    subject: str  #: What it is about: ``page 3``, ``y-axis.csv``.
+    verdict: Verdict  #: Whether it holds.
+    detail: Words | str = ""  #: Why not, or by what.
 
     @classmethod
     def of(cls, subject: str, difference: str) -> Finding:
@@ -62,22 +52,14 @@ def first_of(told: Sequence[str], most: int) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Value:
-    """A value of the results file beside the one that is computed again.
+    """A value of the results file beside the one that is computed again."""
 
-    Attributes
-    ----------
-    path
-        Where it stands: ``("evaluations", "iso230-2:2014", "parameters", "A", "value")``.
-    stated, recomputed
-        In the units of the results file; None where one of them is absent.
-    verdict
-        Whether they agree.
-    """
-
+    #: Where it stands: ``("evaluations", "iso230-2:2014", "parameters", "A", "value")``.
     path: tuple[str, ...]
+    #: stated and recomputed: In the units of the results file; None where one of them is absent.
     stated: object
     recomputed: object
-    verdict: Verdict
+    verdict: Verdict  #: Whether they agree.
 
     @property
     def is_number(self) -> bool:
@@ -98,39 +80,18 @@ class Identity:
 
 @dataclass(frozen=True, slots=True)
 class Verification:
-    """All that was found of a certificate.
+    """All that was found of a certificate."""
 
-    Attributes
-    ----------
-    identity
-        Of the certificate.
-    signature
-        Of the file; open if it is not signed.
-    files
-        The attached files against what the certificate states of them.
-    values
-        Every value of the results file against the readings, evaluated again.
-    pages
-        Each page against the page as it is printed again.
-    document
-        What else the file holds: metadata, bookmarks, structure with the alternative texts.
-    remarks
-        What limits the comparison.
-    is_signed
-        Whether there is a signature, be it intact or not.
-    is_trusted
-        Whether it is intact, and made with a certificate that is trusted.
-    """
-
-    identity: Identity
-    signature: Finding
-    files: tuple[Finding, ...] = ()
-    values: tuple[Value, ...] = ()
-    pages: tuple[Finding, ...] = ()
+    identity: Identity  #: Of the certificate.
+    signature: Finding  #: Of the file; open if it is not signed.
+    files: tuple[Finding, ...] = ()  #: The attached files against what the certificate states of them.
+    values: tuple[Value, ...] = ()  #: Every value of the results file against the readings, evaluated again.
+    pages: tuple[Finding, ...] = ()  #: Each page against the page as it is printed again.
+    #: What else the file holds: metadata, bookmarks, structure with the alternative texts.
     document: tuple[Finding, ...] = ()
-    remarks: tuple[Words, ...] = field(default=())
-    is_signed: bool = False
-    is_trusted: bool = False
+    remarks: tuple[Words, ...] = field(default=())  #: What limits the comparison.
+    is_signed: bool = False  #: Whether there is a signature, be it intact or not.
+    is_trusted: bool = False  #: Whether it is intact, and made with a certificate that is trusted.
 
     @property
     def outcome(self) -> Outcome:

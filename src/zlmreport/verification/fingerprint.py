@@ -30,8 +30,6 @@ class Fingerprints:
     ----------
     pages
         Numbers of the pages by the numbers of their objects: a part that leads to a page does not hold it.
-    place
-        The document, for messages.
     """
 
     def __init__(self, pages: Mapping[int, int], place: Place) -> None:

@@ -32,21 +32,11 @@ class ForeignError(ValueError):
 
 @dataclass(frozen=True, slots=True)
 class Mark:
-    """Something that is drawn.
+    """Something that is drawn."""
 
-    Attributes
-    ----------
-    what
-        What it is: the glyph, the kind of line, the picture, and how it is coloured.
-    scale
-        Its size, or the width of its line.
-    place
-        Where it stands: x and y of each of its points, in points of the page.
-    """
-
-    what: tuple[Any, ...]
-    scale: tuple[float, ...] = ()
-    place: tuple[float, ...] = ()
+    what: tuple[Any, ...]  #: What it is: the glyph, the kind of line, the picture, and how it is coloured.
+    scale: tuple[float, ...] = ()  #: Its size, or the width of its line.
+    place: tuple[float, ...] = ()  #: Where it stands: x and y of each of its points, in points of the page.
 
     def is_as(self, other: Mark) -> bool:
         """Whether the same is drawn: another place is no other mark, and another shape is."""
@@ -120,8 +110,6 @@ def marks(page: Any, digest: Callable[[Any], str], known_fonts: dict[str, Any]) 
 
     Parameters
     ----------
-    page
-        The page.
     digest
         Returns the digest of an object of its document.
     known_fonts

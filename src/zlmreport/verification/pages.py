@@ -38,19 +38,13 @@ _NOT_COMPARED = shape.OF_SIGNATURES | {"/AF", "/EmbeddedFiles", "/Names", "/Page
 
 @dataclass(frozen=True, slots=True)
 class Compared:
-    """What came of two documents.
+    """What came of two documents."""
 
-    Attributes
-    ----------
-    pages, document
-        The findings.
-    is_drawn_alike
-        Whether some page is the same, stroke for stroke. If none is, other libraries printed the document, or
-        every page is altered: then each mark of each page is compared.
-    """
-
+    #: pages and document: The findings.
     pages: tuple[Finding, ...]
     document: tuple[Finding, ...]
+    #: Whether some page is the same, stroke for stroke. If none is, other libraries printed the document, or
+    #: every page is altered: then each mark of each page is compared.
     is_drawn_alike: bool
 
 

@@ -30,8 +30,6 @@ def compare(content: bytes, again: bytes, is_alike: Sequence[bool]) -> dict[int,
 
     Parameters
     ----------
-    content, again
-        Two PDFs.
     is_alike
         For each page whether both draw stroke for stroke alike; otherwise marks may be off by a pixel.
     """

@@ -44,8 +44,6 @@ def compare(carrier: Carrier, known: Collection[Trait], *, is_signed: bool) -> F
 
     Parameters
     ----------
-    carrier
-        The document.
     known
         How the one printed again is built.
     is_signed

@@ -24,8 +24,6 @@ def compare(stated: Any, recomputed: Any, *, same_programs: bool) -> tuple[Value
 
     Parameters
     ----------
-    stated, recomputed
-        The files' trees.
     same_programs
         Whether both come from the same releases. Otherwise readings, parameters and limits are compared;
         words, uncertainties, what only this release states, and whatever else differs are left open.

@@ -44,20 +44,11 @@ _NO_SCRIPT = Words(
 
 @dataclass(frozen=True, slots=True)
 class Workbench:
-    """The answers for one job.
+    """The answers for one job."""
 
-    Attributes
-    ----------
-    bench
-        The job.
-    comparison
-        Other tests of its axis beside it.
-    diagnoses, commands
-        Made beside, each in a process of its own.
-    """
-
-    bench: Bench
-    comparison: Comparison
+    bench: Bench  #: The job.
+    comparison: Comparison  #: Other tests of its axis beside it.
+    #: diagnoses and commands: Made beside, each in a process of its own.
     diagnoses: Diagnoses
     commands: Commands
 
@@ -270,8 +261,6 @@ def serve(workbench: Workbench, port: int, ready: Callable[[str], None], *, open
 
     Parameters
     ----------
-    workbench
-        What answers.
     port
         On which; 0 for any free one.
     ready

@@ -25,36 +25,16 @@ _OF_ROTARY = MappingProxyType({"screw_pitch": Words(en="Pitch of the gear", de="
 
 @dataclass(frozen=True, slots=True)
 class Asked:
-    """A length that the job does not state.
+    """A length that the job does not state."""
 
-    Attributes
-    ----------
-    key
-        Its key in the job's `axis`.
-    name
-        What people call it.
-    unit
-        Symbol of its unit in the job: mm or degrees.
-    effects
-        Identifiers of the effects that can be tried once it is stated.
-    """
-
-    key: str
-    name: Words
-    unit: str
-    effects: tuple[str, ...]
+    key: str  #: Its key in the job's `axis`.
+    name: Words  #: What people call it.
+    unit: str  #: Symbol of its unit in the job: mm or degrees.
+    effects: tuple[str, ...]  #: Identifiers of the effects that can be tried once it is stated.
 
 
 def asked(loaded: Loaded, effects: Sequence[Effect]) -> tuple[Asked, ...]:
-    """Return the lengths that would let more effects be tried, the most effects first.
-
-    Parameters
-    ----------
-    loaded
-        The job with its readings.
-    effects
-        All that are installed.
-    """
+    """Return the lengths that would let more effects be tried, the most effects first."""
     design, axis = loaded.study.observed.design, loaded.job.axis
     present = set(loaded.study.model.identifiers)
     waiting = [each for each in effects if each.identifier not in present and each.untestable(design)]

@@ -31,24 +31,13 @@ _KEPT_FITS = 64
 
 @dataclass(frozen=True, slots=True)
 class Loaded:
-    """The job as it stands in its files.
-
-    Attributes
-    ----------
-    job
-        The job.
-    study
-        Its readings with its model.
-    basis
-        Names what the readings follow from: all but the model.
-    stamp
-        Names the state of all files behind it: another state, another stamp; empty for a job that is not
-        written yet.
-    """
+    """The job as it stands in its files."""
 
     job: Job
-    study: Study
-    basis: str
+    study: Study  #: Its readings with its model.
+    basis: str  #: Names what the readings follow from: all but the model.
+    #: Names the state of all files behind it: another state, another stamp; empty for a job that is not
+    #: written yet.
     stamp: str = ""
 
     @property
@@ -79,20 +68,11 @@ class _Readings:
 
 @dataclass(slots=True)
 class Bench:
-    """A job file that is worked on.
+    """A job file that is worked on."""
 
-    Attributes
-    ----------
-    path
-        The job file.
-    registry
-        The installed plugins.
-    lock
-        Held while the job is read or changed: pages ask from several threads.
-    """
-
-    path: Path
-    registry: Registry
+    path: Path  #: The job file.
+    registry: Registry  #: The installed plugins.
+    #: Held while the job is read or changed: pages ask from several threads.
     lock: RLock = field(default_factory=RLock)
     _loaded: Loaded | None = None
     _readings: _Readings | None = None

@@ -62,41 +62,20 @@ class NothingToUndoError(Exception):
 
 
 class Request(BaseModel):
-    """A click, as the page sends it.
-
-    Attributes
-    ----------
-    based_on
-        SHA-256 of the job file that the page showed.
-    action
-        One of `ACTIONS`.
-    effect
-        Of add and remove, fix and free: an effect; of add as in a job, with its keys.
-    parameter
-        Of fix and free.
-    value
-        Of fix: in the unit of the page.
-    stated
-        Of state: values by the keys that the page asks for, in the units of the job.
-    readings
-        Of exclude the places of readings in the measurement set.
-    listed
-        Of include the place of the reading in the job's list.
-    reason
-        Of exclude.
-    """
+    """A click, as the page sends it."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
-    based_on: ShortText
-    action: ShortText
-    effect: ShortText = ""
-    parameter: ShortText = ""
-    value: float | None = None
+    based_on: ShortText  #: SHA-256 of the job file that the page showed.
+    action: ShortText  #: One of `ACTIONS`.
+    effect: ShortText = ""  #: Of add and remove, fix and free: an effect; of add as in a job, with its keys.
+    parameter: ShortText = ""  #: Of fix and free.
+    value: float | None = None  #: Of fix: in the unit of the page.
+    #: Of state: values by the keys that the page asks for, in the units of the job.
     stated: dict[ShortText, float | ShortText] = {}
-    readings: tuple[int, ...] = ()
-    listed: int = -1
-    reason: ShortText = ""
+    readings: tuple[int, ...] = ()  #: Of exclude the places of readings in the measurement set.
+    listed: int = -1  #: Of include the place of the reading in the job's list.
+    reason: ShortText = ""  #: Of exclude.
 
 
 @dataclass(frozen=True, slots=True)

@@ -27,47 +27,27 @@ ShortText = Annotated[str, StringConstraints(max_length=500)]
 
 
 class Wanted(BaseModel):
-    """What a page wants made, as it sends it.
-
-    Attributes
-    ----------
-    formats
-        Of the certificate: identifiers of renderers.
-    controller
-        Of the table and its confirmation: for which control.
-    step
-        Of the table: between its rows, mm or degrees; the targets without it.
-    unconfirmed
-        Of the table: whether a format that nobody tried on its control may be written.
-    effects
-        Of the experiment: those that it is to tell apart.
-    after
-        Of the confirmation: the file of the second test's job, in the folder of this one.
-    """
+    """What a page wants made, as it sends it."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
-    formats: tuple[ShortText, ...] = ()
-    controller: ShortText = ""
+    formats: tuple[ShortText, ...] = ()  #: Of the certificate: identifiers of renderers.
+    controller: ShortText = ""  #: Of the table and its confirmation: for which control.
+    #: Of the table: between its rows, mm or degrees; the targets without it.
     step: float | None = Field(None, gt=0, allow_inf_nan=False)
+    #: Of the table: whether a format that nobody tried on its control may be written.
     unconfirmed: bool = False
-    effects: tuple[ShortText, ...] = ()
+    effects: tuple[ShortText, ...] = ()  #: Of the experiment: those that it is to tell apart.
+    #: Of the confirmation: the file of the second test's job, in the folder of this one.
     after: ShortText = ""
 
 
 @dataclass(slots=True)
 class Commands:
-    """The commands of a page, each in a process of its own.
+    """The commands of a page, each in a process of its own."""
 
-    Attributes
-    ----------
-    bench
-        The job.
-    making
-        What is under way or done, by its name: ``certificate``, ``table``, ``confirmation``, ``experiment``.
-    """
-
-    bench: Bench
+    bench: Bench  #: The job.
+    #: What is under way or done, by its name: ``certificate``, ``table``, ``confirmation``, ``experiment``.
     making: Mapping[str, Making]
     _aside: TemporaryDirectory[str] | None = None
     _lock: Lock = field(default_factory=Lock)
@@ -171,15 +151,7 @@ def siblings(path: Path) -> list[str]:
 
 
 def offered(bench: Bench, loaded: Loaded, language: Language) -> dict[str, Any]:
-    """Return what a page offers to have made.
-
-    Parameters
-    ----------
-    bench, loaded
-        The job.
-    language
-        Of the page.
-    """
+    """Return what a page offers to have made."""
     job, registry = loaded.job, bench.registry
     chosen = set(job.keys.output.formats)
     return {

@@ -52,18 +52,10 @@ class _Test:
 
 @dataclass(slots=True)
 class Comparison:
-    """The tests that are laid over that of the job on the bench.
+    """The tests that are laid over that of the job on the bench."""
 
-    Attributes
-    ----------
-    bench
-        The job that is worked on.
-    others
-        Jobs with other tests of its axis; nothing is written into them.
-    """
-
-    bench: Bench
-    others: Sequence[Bench]
+    bench: Bench  #: The job that is worked on.
+    others: Sequence[Bench]  #: Jobs with other tests of its axis; nothing is written into them.
     _as_found: dict[str, tuple[MeasurementSet, tuple[Evaluated, ...]]] = field(default_factory=dict)
 
     @classmethod

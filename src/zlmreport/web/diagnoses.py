@@ -35,21 +35,11 @@ _COMMAND = (sys.executable, "-m", "zlmreport.web.diagnoses")
 
 @dataclass(slots=True)
 class Diagnoses:
-    """The diagnosis of a job, made beside the pages.
+    """The diagnosis of a job, made beside the pages."""
 
-    Attributes
-    ----------
-    path
-        The job file.
-    answers
-        Diagnoses that were made before.
-    plugins
-        Files that are plugins, from the command line.
-    """
-
-    path: Path
-    answers: Answers
-    plugins: Sequence[Path] = ()
+    path: Path  #: The job file.
+    answers: Answers  #: Diagnoses that were made before.
+    plugins: Sequence[Path] = ()  #: Files that are plugins, from the command line.
     _worker: subprocess.Popen[str] | None = None
     _asked: str = ""
     _began: float = 0.0

@@ -91,8 +91,6 @@ def sketch(effect: Effect, design: Design, language: Language) -> dict[str, Any]
         The effect; its searched parameters are in the middle of their values.
     design
         Of the test at hand; a complete one is taken instead if that cannot show the effect.
-    language
-        Of the words.
     """
     reason = effect.untestable(design)
     words = _HERE.given(unit=design.axis.deviation_unit.symbol)

@@ -48,18 +48,10 @@ _NO_TOKEN = Words(
 
 @dataclass(frozen=True, slots=True)
 class Door:
-    """Where the workbench listens, and what opens it.
+    """Where the workbench listens, and what opens it."""
 
-    Attributes
-    ----------
-    port
-        On the loopback address.
-    token
-        In the address that the terminal prints, and then in the cookie.
-    """
-
-    port: int
-    token: str
+    port: int  #: On the loopback address.
+    token: str  #: In the address that the terminal prints, and then in the cookie.
 
     @classmethod
     def at(cls, port: int) -> Door:
@@ -96,8 +88,6 @@ class Guard:
 
     Parameters
     ----------
-    app
-        The application.
     door
         Where it listens, and what opens it.
     """

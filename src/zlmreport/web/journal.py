@@ -25,34 +25,22 @@ REDO = "redo"
 
 @dataclass(frozen=True, slots=True)
 class Entry:
-    """One change of the job.
+    """One change of the job."""
 
-    Attributes
-    ----------
-    at
-        When, ISO 8601 with the offset of the local time.
-    action
-        What was done: ``add``, ``remove``, ``fix``, ``free``, ``exclude``, ``include``, ``state``, ``undo``
-        or ``redo``.
-    subject
-        To what: an effect, a parameter, a key of the job, a reading as ``target direction run``; of an undo
-        or redo the step that it is about, ``add backlash``.
-    before, after
-        SHA-256 of the job file.
-    rms_before, rms_after
-        Error of the model, µm or ″.
-    replaced
-        The job file as it was, base64.
-    """
-
-    at: str
+    at: str  #: When, ISO 8601 with the offset of the local time.
+    #: What was done: ``add``, ``remove``, ``fix``, ``free``, ``exclude``, ``include``, ``state``, ``undo`` or
+    #: ``redo``.
     action: str
+    #: To what: an effect, a parameter, a key of the job, a reading as ``target direction run``; of an undo or
+    #: redo the step that it is about, ``add backlash``.
     subject: str
+    #: before and after: SHA-256 of the job file.
     before: str
     after: str
+    #: rms_before and rms_after: Error of the model, µm or ″.
     rms_before: float
     rms_after: float
-    replaced: str
+    replaced: str  #: The job file as it was, base64.
 
     @property
     def content(self) -> bytes:
@@ -62,15 +50,9 @@ class Entry:
 
 @dataclass(frozen=True, slots=True)
 class Journal:
-    """The record beside a job.
+    """The record beside a job."""
 
-    Attributes
-    ----------
-    path
-        Of the record.
-    """
-
-    path: Path
+    path: Path  #: Of the record.
 
     @classmethod
     def beside(cls, job: Path) -> Journal:

@@ -22,27 +22,13 @@ _INSTRUMENT_U = "instrument.expanded_uncertainty"
 
 @dataclass(frozen=True, slots=True)
 class Field:
-    """Something that the job does not state.
+    """Something that the job does not state."""
 
-    Attributes
-    ----------
-    key
-        Its key in the job.
-    name
-        What people call it.
-    form
-        How it is written.
-    unit
-        Symbol of the unit of a number.
-    reason
-        The key that says instead why it is negligible; empty where it cannot be.
-    """
-
-    key: str
-    name: Words
-    form: Literal["text", "date", "number", "place"] = "text"
-    unit: str = ""
-    reason: str = ""
+    key: str  #: Its key in the job.
+    name: Words  #: What people call it.
+    form: Literal["text", "date", "number", "place"] = "text"  #: How it is written.
+    unit: str = ""  #: Symbol of the unit of a number.
+    reason: str = ""  #: The key that says instead why it is negligible; empty where it cannot be.
 
 
 #: Of the items that clause 7.8 demands, by the keys that its check names.

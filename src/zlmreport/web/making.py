@@ -32,23 +32,12 @@ _ENDED = "zlmreport ended unexpectedly"
 
 @dataclass(frozen=True, slots=True)
 class Made:
-    """What a command came to.
+    """What a command came to."""
 
-    Attributes
-    ----------
-    files
-        What it wrote.
-    problems
-        What stood against it, each with its place.
-    values
-        What else it says, as its JSON has it.
-    sheet
-        The sheet beside a certificate, to be looked at first; None where there is none.
-    """
-
-    files: tuple[Path, ...] = ()
-    problems: tuple[str, ...] = ()
-    values: dict[str, Any] = field(default_factory=dict)
+    files: tuple[Path, ...] = ()  #: What it wrote.
+    problems: tuple[str, ...] = ()  #: What stood against it, each with its place.
+    values: dict[str, Any] = field(default_factory=dict)  #: What else it says, as its JSON has it.
+    #: The sheet beside a certificate, to be looked at first; None where there is none.
     sheet: Path | None = None
 
     def pages(self) -> dict[str, Path]:
@@ -86,18 +75,10 @@ def _lines(complaints: str) -> tuple[str, ...]:
 
 @dataclass(slots=True)
 class Making:
-    """One command of a job, run from its page.
+    """One command of a job, run from its page."""
 
-    Attributes
-    ----------
-    read
-        Returns what the command came to, by its output and its complaints.
-    plugins
-        Files that are plugins, from the command line.
-    """
-
-    read: Callable[[str, str], Made]
-    plugins: Sequence[Path] = ()
+    read: Callable[[str, str], Made]  #: Returns what the command came to, by its output and its complaints.
+    plugins: Sequence[Path] = ()  #: Files that are plugins, from the command line.
     _process: subprocess.Popen[str] | None = None
     _stamp: str = ""
     _began: float = 0.0
@@ -109,8 +90,6 @@ class Making:
 
         Parameters
         ----------
-        stamp
-            Names the state.
         arguments
             As on the terminal; ``--json`` is added.
         """

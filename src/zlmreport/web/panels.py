@@ -32,24 +32,12 @@ from zlmreport.web.bench import Loaded
 
 @dataclass(frozen=True, slots=True)
 class Panels:
-    """Writes the panels of a page in one language.
+    """Writes the panels of a page in one language."""
 
-    Attributes
-    ----------
-    loaded
-        The job with its readings.
-    registry
-        The installed plugins.
-    whole
-        The whole model.
-    language
-        Of the page.
-    """
-
-    loaded: Loaded
-    registry: Registry
-    whole: Fitted
-    language: Language
+    loaded: Loaded  #: The job with its readings.
+    registry: Registry  #: The installed plugins.
+    whole: Fitted  #: The whole model.
+    language: Language  #: Of the page.
 
     @property
     def design(self) -> Design:

@@ -26,18 +26,10 @@ _KEPT = 200
 
 @dataclass(frozen=True, slots=True)
 class Answers:
-    """Diagnoses by the content of the files that they were made from.
+    """Diagnoses by the content of the files that they were made from."""
 
-    Attributes
-    ----------
-    folder
-        Where they lie; None for memory alone.
-    program
-        Names the program and the effects that make them.
-    """
-
-    folder: Path | None
-    program: str
+    folder: Path | None  #: Where they lie; None for memory alone.
+    program: str  #: Names the program and the effects that make them.
     _known: dict[str, Any] = field(default_factory=dict)
 
     @classmethod

@@ -41,17 +41,7 @@ _SHOWN = 30
 
 
 def view(bench: Bench, loaded: Loaded, language: Language) -> dict[str, Any]:
-    """Return the page of a job.
-
-    Parameters
-    ----------
-    bench
-        Where it lies.
-    loaded
-        As it was read.
-    language
-        Of the page.
-    """
+    """Return the page of a job."""
     whole = bench.whole(loaded)
     panels = Panels(loaded, bench.registry, whole, language)
     entries = Journal.beside(bench.path).entries()
@@ -102,12 +92,8 @@ def before_and_after(bench: Bench, loaded: Loaded, step: str, language: Language
 
     Parameters
     ----------
-    bench, loaded
-        The job.
     step
         The number of an effect of the model, from 1; or an effect that is not in it, as a job names it.
-    language
-        Of the page.
 
     Raises
     ------
@@ -131,8 +117,6 @@ def closer(bench: Bench, loaded: Loaded, ends: tuple[float, float]) -> dict[str,
 
     Parameters
     ----------
-    bench, loaded
-        The job.
     ends
         Of the part: positions in the unit of the page.
 
