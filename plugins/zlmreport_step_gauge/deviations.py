@@ -44,15 +44,6 @@ class Deviations:
 def deviations_of(probed: Probed, set_up: GaugeSetUp, place: Place, *, is_corrected: bool) -> Deviations:
     """Return the deviations of a test.
 
-    Parameters
-    ----------
-    set_up
-        The gauge, its location, the probe, the temperatures.
-    place
-        The file, for what has no line of its own.
-    is_corrected
-        Whether the points are those of the surface.
-
     Raises
     ------
     InputError
@@ -214,8 +205,6 @@ def radius_of(
 
     Parameters
     ----------
-    set_up
-        What is stated of the probe.
     along : (face, cycle) array
         Where the centres lie along the gauge, m.
     actual : (face,) array

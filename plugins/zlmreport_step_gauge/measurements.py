@@ -273,8 +273,6 @@ def measurement_set(  # noqa: PLR0913 - what a set is made of
     ----------
     probed, deviations
         The points, and what they come to.
-    axis
-        The axis, or line, under test.
     targets
         Whether faces or blocks are target positions.
     origin

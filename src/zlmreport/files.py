@@ -163,13 +163,6 @@ def cache_folder(environment: Mapping[str, str] = os.environ) -> Path | None:
 def beside(contents: Mapping[Path, bytes], hidden: Callable[[Path], Path]) -> Iterator[Mapping[Path, Path]]:
     """Write files under hidden names, and push them to the disk; what gets no name within is removed.
 
-    Parameters
-    ----------
-    contents
-        What each file is to hold.
-    hidden
-        The name of each until then, in the same folder.
-
     Yields
     ------
     Mapping

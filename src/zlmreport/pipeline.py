@@ -205,15 +205,7 @@ def standards(job: Job, registry: Registry) -> list[tuple[Standard, Any]]:
 
 
 def run(job: Job, registry: Registry, signer: Signer | None = None, showing: Showing = _unseen) -> Outcome:
-    """Make every file of a job, in memory: a failure at any step leaves nothing behind.
-
-    Parameters
-    ----------
-    signer
-        Signs each PDF when it is finished; without one, the same job gives the same bytes.
-    showing
-        Shows how far a diagnosis is.
-    """
+    """Make every file of a job, in memory: a failure at any step leaves nothing behind."""
     renderers = [registry.renderer(identifier) for identifier in job.formats]
     with _garbage_collected_once():
         certificate = compose(job, registry, showing=showing)

@@ -52,13 +52,6 @@ Key = tuple[int, int]
 class Journal:
     """A journal that is open; leave it as a context manager.
 
-    Parameters
-    ----------
-    result
-        Where the table will stand in the end.
-    path
-        The whole path, whose points it takes.
-
     Attributes
     ----------
     done

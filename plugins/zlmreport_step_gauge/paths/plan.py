@@ -86,12 +86,8 @@ def plan_path(  # noqa: PLR0913 - a gauge, where it lies, and how, for whom
 
     Parameters
     ----------
-    section
-        The part of it that is probed.
     size
         Width and height of the blocks, m.
-    place
-        Where the path is asked for.
 
     Raises
     ------

@@ -137,8 +137,6 @@ class Follower:
 
         Parameters
         ----------
-        visit
-            The visit, or None.
         late
             How long ago the stop was, s; without it, it was seen by this follower.
         """

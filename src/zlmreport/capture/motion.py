@@ -75,13 +75,7 @@ class Turn(NamedTuple):
 
 
 class Programme:
-    """The motion of the plan: where it turns round between two visits, and how long it takes.
-
-    Parameters
-    ----------
-    settings
-        The feed, and the rest at each target.
-    """
+    """The motion of the plan: where it turns round between two visits, and how long it takes."""
 
     def __init__(self, visits: Sequence[ListedVisit], settings: Settings) -> None:
         self.visits = tuple(visits)

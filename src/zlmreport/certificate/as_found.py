@@ -116,14 +116,8 @@ def beside_as_found(  # noqa: PLR0913, PLR0917 - two measurements of everything
 
     Parameters
     ----------
-    keys
-        What the job says of the axis as found.
-    as_left
-        The sections of results as left.
     before, after
         Evaluations of the two measurements, by the same standards in the same order.
-    section
-        Makes the section of results as found.
     """
     state_before, state_after = NAMES[keys.work]
     yield _comparison(keys, before, after, writer)

@@ -119,13 +119,7 @@ class Source:
 
 
 def sources(job: Job, readings: Iterable[SourceFile], logo: SourceFile | None) -> tuple[Source, ...]:
-    """Return every file that a certificate is made from, the job file first.
-
-    Parameters
-    ----------
-    logo
-        The file of its laboratory's logo, if it has one.
-    """
+    """Return every file that a certificate is made from, the job file first."""
     stated = frozenset(each.text for each in scalars(job.tree))
     found: dict[tuple[str, str], tuple[Role, SourceFile]] = {}
 

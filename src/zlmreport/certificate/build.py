@@ -61,10 +61,6 @@ def build(  # noqa: PLR0913, PLR0917 - what a document is made of
         The error model, studied; None where the job names none.
     as_found
         Evaluations of the axis before it was adjusted, by the same standards; empty where it was not.
-    describe
-        Returns what extensions say of their groups of job keys.
-    generator
-        The program and its release, as the document names them.
     """
     certificate = job.keys.certificate
     measurements = evaluated[0].evaluation.measurements

@@ -39,15 +39,7 @@ class Forecast:
 def forecasts(
     standards: Iterable[tuple[EvaluatingStandard, Any]], study: Study, history: Sequence[Fitted]
 ) -> tuple[Forecast, ...]:
-    """Return the forecast by each standard.
-
-    Parameters
-    ----------
-    standards
-        Each with its own job keys.
-    history
-        The model, effect by effect.
-    """
+    """Return the forecast by each standard."""
     tests = [corrected(study.measurements, study.observed, each.fit) for each in history]
     tests.append(compensated(FittedModel(study.measurements, study.observed, history[-1].fit)))
     statistics = position_statistics(np.stack([test.deviations() for test in tests]))

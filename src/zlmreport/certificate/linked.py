@@ -100,8 +100,6 @@ def linked(section: str, study: Study, whole: Fitted, diagnosis: Diagnosis, lang
 
     Parameters
     ----------
-    section
-        Key of the section that they belong to.
     study
         The readings, none set aside.
     """

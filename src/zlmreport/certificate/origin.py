@@ -36,12 +36,8 @@ def section(
 
     Parameters
     ----------
-    sources
-        All files that the document was made from.
     measurements
         What was read: the axis as left, and as found if it was adjusted.
-    generator
-        Name and version of this program.
     """
     programs = Facts(
         (

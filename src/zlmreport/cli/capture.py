@@ -189,19 +189,6 @@ def capture(  # noqa: PLR0913 - whom, what, with what, shown where, and how to g
 ) -> None:
     """Capture the test of a job to its end.
 
-    Parameters
-    ----------
-    assignment
-        What it asks to be captured.
-    registry
-        The plugins: one is the instrument.
-    display
-        Shows what happens, and may have an operator who sees to something.
-    path
-        The job file, for the command that goes on.
-    resume
-        Whether to go on with a journal.
-
     Raises
     ------
     AccessError

@@ -229,13 +229,7 @@ def _void(void: Sequence[ListedVisit], writer: AxisWriter) -> str:
 
 
 def what_to_do(progress: Progress, writer: AxisWriter, event: Event | None = None) -> list[str]:
-    """Return what an operator does, step by step, before the capture goes on.
-
-    Parameters
-    ----------
-    event
-        What stopped it; None if nothing did.
-    """
+    """Return what an operator does, step by step, before the capture goes on."""
     visit = progress.next
     attempt = f", attempt {progress.attempt}" if progress.attempt > 1 else ""
     begin = "go on with" if progress.taken else "start"

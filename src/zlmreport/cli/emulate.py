@@ -81,8 +81,6 @@ def put_on_line(
         Of the command: ``link`` or ``port``, and ``fault``.
     announce
         Returns what is printed once the line is there, from its address.
-    beat
-        Called many times a second.
     heard
         Called with it from when somebody reads the instrument.
     """

@@ -134,13 +134,7 @@ def duration(seconds: float) -> str:
 
 
 class Progress:
-    """A bar in the last line of a terminal; on any other stream there is none.
-
-    Parameters
-    ----------
-    total
-        Number of certificates that are due.
-    """
+    """A bar in the last line of a terminal; on any other stream there is none."""
 
     def __init__(self, stream: TextIO, total: int) -> None:
         self._stream = stream

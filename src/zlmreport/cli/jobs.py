@@ -57,19 +57,7 @@ def do_all(
     *,
     fail_on_nonconformity: bool = False,
 ) -> int:
-    """Work on every job that has no mistake so far, and return the worst exit code.
-
-    Parameters
-    ----------
-    loaded
-        The jobs of the command line.
-    lines
-        What people read of one that is done.
-    options
-        Of the command line: ``quiet`` and ``json``.
-    fail_on_nonconformity
-        Whether a limit that is not met counts as a failure.
-    """
+    """Work on every job that has no mistake so far, and return the worst exit code."""
     results = []
     printed = False
     for checked in refuse_shared_files(loaded):

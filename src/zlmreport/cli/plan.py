@@ -323,10 +323,6 @@ def chosen_programs(
     ----------
     named
         Identifiers on the command line, parted by commas; None if there are none.
-    folder
-        Where files go; None for nowhere.
-    find
-        Finds the installed writers of their kind.
 
     Raises
     ------
@@ -355,8 +351,6 @@ def program_files(
 
     Parameters
     ----------
-    folder, number
-        Of the plan; they name the files.
     subject
         Returns what the programs are written of, asked for at a place.
 

@@ -48,8 +48,6 @@ def confirm(basis: Basis, after: ErrorCurve, table: CompensationTable, place: Pl
     ----------
     basis
         What is known of the axis from the first test; between its targets, too.
-    after
-        The second test, with the table active.
 
     Raises
     ------

@@ -84,12 +84,6 @@ def forecast(
 
     Parameters
     ----------
-    basis
-        What is known of the axis.
-    meant, decoded
-        The table, and what the control makes of its files.
-    active
-        What was active during the test and is replaced; None for nothing.
     budget
         Of the set-up with which both tests are done; None where nothing is known of it.
     """

@@ -66,16 +66,8 @@ def grid_of(
 
     Parameters
     ----------
-    basis
-        What the table is made from.
-    place
-        Where the table is asked for.
     step
         Distance of the rows, m or rad; None for the rule.
-    is_equidistant
-        Whether the control takes no other grid.
-    most_rows
-        What the control takes; None for any number.
 
     Raises
     ------
@@ -163,8 +155,6 @@ def make(  # noqa: PLR0913, PLR0917 - of what, on which grid, for whom
 
     Parameters
     ----------
-    basis
-        What is known of the axis.
     axis, number, place
         The axis with the table that was active; the name of the job; where the table is asked for.
     step

@@ -155,8 +155,6 @@ def doubts(
     ----------
     values
         Parameters with their values, m or rad; none of them NaN.
-    axis
-        For the units of the sentences.
     """
     farthest = reach(statistics)
     for quantity, value in values:

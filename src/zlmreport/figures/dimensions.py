@@ -148,8 +148,6 @@ def beside_targets(
 
     Parameters
     ----------
-    spans
-        What is measured, each at one target.
     marks, lines : (N, 2) arrays
         Points that a dimension should not cover, and points along lines that its label should not.
     """

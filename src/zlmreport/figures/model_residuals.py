@@ -215,8 +215,6 @@ def fall_chart(history: Sequence[Fitted], missing: Candidate | None = None) -> F
 
     Parameters
     ----------
-    history
-        Fits, effect by effect.
     missing
         What the model lacks: a last bar shows the error with it.
     """

@@ -219,15 +219,7 @@ _NAME = Words(en="{measurement}, {direction}:", de="{measurement}, {direction}:"
 
 
 def comparison_graph(before: Evaluation, after: Evaluation, names: tuple[Words, Words]) -> Figure:
-    """Return the graph.
-
-    Parameters
-    ----------
-    before, after
-        Evaluations of the two measurements of one axis, by any standard.
-    names
-        What the two measurements are called.
-    """
+    """Return the graph."""
     both = tuple(zip((before, after), names, strict=True))
     sentences = [graph_in_words(after)]
     for evaluation, name in both:

@@ -84,16 +84,10 @@ def value_scales(
 
     Parameters
     ----------
-    panels
-        The values drawn in each panel.
     part
         Of the span, left free at both ends.
     most
         Largest number of ticks; of a flat graph more, so that there are three.
-    sign
-        The decimal sign of the labels.
-    alike
-        Whether all have the same span, so that lengths compare by eye.
     """
     limits = [with_zero(*extremes(values)) for values in panels]
     longest = max((upper - lower for lower, upper in limits), default=0.0)
@@ -137,8 +131,6 @@ def position_scale(
         Of the axis, in points.
     room
         Between the outermost targets and the ends of the axis, in points.
-    sign
-        The decimal sign of the labels.
     width_of
         Returns the width of a label in points.
     """

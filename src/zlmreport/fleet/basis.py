@@ -205,13 +205,6 @@ def program_versions(
     """Return the version of the program and of every plugin: its release, and a digest of its code.
 
     The digest is what tells a plugin that is still being written from what it was yesterday.
-
-    Parameters
-    ----------
-    environment
-        As `zlmreport.plugins.find_plugins` reads it.
-    files
-        Plugins in files of their own.
     """
     packages: dict[str, set[str]] = {OWN: set(_OWN_PACKAGES)}
     releases: dict[str, str] = {}
@@ -284,12 +277,8 @@ def files_behind(
 
     Parameters
     ----------
-    certificate
-        It names what its readers say that they read.
     named
         Of `named_files`, before the work on it began.
-    job, fleet
-        The checked job and the fleet file.
     begun
         When the work on it began, s: a file written after that may be another than the one that was read.
     """

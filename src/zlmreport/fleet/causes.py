@@ -34,13 +34,7 @@ class Cause:
 
 
 def cause_of(trend: Trend, effects: Iterable[Series]) -> Cause | None:
-    """Return what a step came with; None without a step.
-
-    Parameters
-    ----------
-    effects
-        Parameters of the error models of all axes over time.
-    """
+    """Return what a step came with; None without a step."""
     step, calibrations = trend.step, trend.series.calibrations
     if step is None or trend.course is None:
         return None
@@ -104,11 +98,6 @@ def shared(effects: Iterable[Series]) -> tuple[Shared, ...]:
     The machines' latest values are held against zero by Student's t; how much they scatter is told by
     themselves. Over all parameters of all types Holm's method is used: that any of them is named by accident
     has a chance of 1 %.
-
-    Parameters
-    ----------
-    effects
-        Parameters of the error models of all axes over time.
     """
     found: defaultdict[tuple[str, str, str, str], dict[str, Calibration]] = defaultdict(dict)
     for each in effects:

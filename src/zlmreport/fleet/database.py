@@ -303,13 +303,6 @@ _KEY = int.from_bytes(hashlib.sha256(b"zlmreport fleet").digest()[:8], "big", si
 def locked(database: Database, holder: str) -> Iterator[None]:
     """Hold the lock of a ledger.
 
-    Parameters
-    ----------
-    database
-        The ledger's.
-    holder
-        Who holds it, for the message to whoever comes second.
-
     Raises
     ------
     AccessError

@@ -62,13 +62,7 @@ def laid(folder: Path, files: Iterable[Finished]) -> Iterator[Laid]:
 
 
 def tidy(folder: Path, known: Iterable[KnownFile]) -> int:
-    """End what an interrupted night left half done, and return the number of files that got their names.
-
-    Parameters
-    ----------
-    known
-        The files that the ledger has taken over.
-    """
+    """End what an interrupted night left half done, and return the number of files that got their names."""
     digests = {file.path: file.sha256 for file in known}
     named = 0
     for hidden in _hidden(folder):

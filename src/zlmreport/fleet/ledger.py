@@ -266,8 +266,6 @@ class Ledger:
 
         Parameters
         ----------
-        address
-            Path of an SQLite file, or the URL of a database.
         fleet
             Name of the fleet: several may share one ledger.
         create
@@ -399,8 +397,6 @@ class Ledger:
         ----------
         began
             Date and time, ISO 8601 in UTC.
-        fleet_file
-            For the message to whoever comes second.
 
         One of this host that has given no sign of life for `STUCK` is killed, and this one takes its place.
 

@@ -89,11 +89,6 @@ class Order:
 def spend(fleet: FleetFile, order: Order, watch: Watch) -> None:
     """Make all that is due.
 
-    Parameters
-    ----------
-    watch
-        Is told what is due, and what happens.
-
     Raises
     ------
     InputError

@@ -116,8 +116,6 @@ def small_graph(trend: Trend, period: Period, alternative: str) -> str:
     ----------
     trend
         What is shown. With a limit the graph is as high as the limit, or the largest value.
-    alternative
-        What the graph says, in words.
     """
     calibrations = trend.series.calibrations
     frame = _Frame(period, *_span(calibrations))

@@ -114,8 +114,6 @@ def course(values: Sequence[float], fleet: Scatter, share: float = 1.0) -> Cours
     ----------
     values
         In the order of measurement, one at the least.
-    fleet
-        What all axes together know of the scatter.
     share
         Of the chance for a false alarm, where an axis has several parameters.
     """
@@ -152,10 +150,6 @@ def stands_out(before: Sequence[float], value: float, fleet: Scatter, share: flo
 
     Parameters
     ----------
-    before
-        Since the last step.
-    value
-        Of the test.
     fleet, share
         As `course` has them.
     """
@@ -218,8 +212,6 @@ def chances(values: Sequence[float], fleet: Scatter) -> Chances:
     ----------
     values
         Two or more.
-    fleet
-        What all axes together know of the scatter.
     """
     number = len(values)
     lines = [[0.0] * index + [1.0] * (number - index) for index in range(1, number)]

@@ -71,13 +71,7 @@ def standing(entries: Iterable[Entry]) -> tuple[Entry, ...]:
 
 
 def series_of(certificates: Iterable[Entry]) -> tuple[Series, ...]:
-    """Return every parameter of every axis over time, machine by machine.
-
-    Parameters
-    ----------
-    certificates
-        Those that stand, in the order of measurement.
-    """
+    """Return every parameter of every axis over time, machine by machine."""
     found: defaultdict[tuple[str, str, str, str, str], list[Calibration]] = defaultdict(list)
     for entry in certificates:
         measured = date.fromisoformat(entry.measured)

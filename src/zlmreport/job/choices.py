@@ -63,13 +63,7 @@ def group_naming(key: str, item: Node) -> Keys:
 def instrument_choice(
     source: type[Options], keys: Keys, registry: Installed, problems: list[Problem], *, within: str
 ) -> Choice | None:
-    """Return the live instrument that the keys of a data source name; None if they name none.
-
-    Parameters
-    ----------
-    source
-        The keys that the data source knows.
-    """
+    """Return the live instrument that the keys of a data source name; None if they name none."""
     fields = keys_in(source).items()
     key = next((key for key, field in fields if model_in(field.annotation) is LiveInstrumentKeys), "")
     group = found_at(keys, (key,))
@@ -248,8 +242,6 @@ def program_choices(
     ----------
     listed
         The list; anything else has been refused before, and gives none.
-    find
-        Finds the installed writers of their kind.
     problems
         Where mistakes are added: two that would write the same file among them.
     """
@@ -286,11 +278,6 @@ def programs_by_name(
     names: Sequence[str], named_at: Place, stated: Sequence[Choice], find: Find
 ) -> tuple[Choice, ...]:
     """Return programs that somebody names instead of those of a job, with the keys that it states.
-
-    Parameters
-    ----------
-    find
-        Finds the installed writers of their kind.
 
     Raises
     ------

@@ -44,8 +44,6 @@ def validate(
 
     Parameters
     ----------
-    model
-        The keys that there are, with types and descriptions.
     also_known
         Keys that belong to the group and are not the model's, for messages.
     """

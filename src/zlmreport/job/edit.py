@@ -110,11 +110,6 @@ def edit_effects(
 ) -> Edit:
     """Return the change of a job that adds an effect at the end of its model, or takes effects out.
 
-    Parameters
-    ----------
-    remove
-        Identifiers of effects to take out.
-
     Raises
     ------
     InputError
@@ -137,8 +132,6 @@ def edit_list(
 
     Parameters
     ----------
-    path, job, registry
-        The job file, as it was loaded, and the installed plugins.
     is_meant
         Whether a job with the change says in that list what is meant; in all else it must be as before.
 

@@ -150,8 +150,6 @@ def edit_keys(
 
     Parameters
     ----------
-    path, job, registry
-        The job file, as it was loaded, and the installed plugins.
     stated
         The values by their keys, as ``customer.name``; numbers in the units of the job.
     units

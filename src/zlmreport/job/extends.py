@@ -133,8 +133,6 @@ def compose(path: Path, content: bytes | None = None, defaults: Defaults | None 
 
     Parameters
     ----------
-    content
-        What it is to hold, instead of what it holds: to see what a change would come to.
     defaults
         Keys that it builds on as if it extended a file of them.
 

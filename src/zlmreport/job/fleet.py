@@ -245,8 +245,6 @@ def load_fleet(
 
     Parameters
     ----------
-    content
-        Its bytes, where they were read already.
     extensions
         Returns the groups of job keys that plugins add; asked only for what the core does not know.
 

@@ -218,8 +218,6 @@ class Formula:
         ----------
         readings
             Of each variable and each column that stands in it, SI but temperatures in °C, shape (N,).
-        searched
-            The searched parameters, SI.
         """
         known: dict[str, FloatArray | float] = {**readings, **searched}
         count = max((np.size(each) for each in readings.values()), default=1)

@@ -54,8 +54,6 @@ def load(
 
     Parameters
     ----------
-    formats
-        Identifiers of installed renderers, instead of those that the job names.
     content
         What the job file is to hold, instead of what it holds: to see what a change would come to.
     defaults
@@ -268,11 +266,6 @@ def _formats(
 
 def chosen_formats(named: Iterable[tuple[str, Place]], registry: Installed) -> tuple[str, ...]:
     """Return the identifiers of output formats.
-
-    Parameters
-    ----------
-    named
-        Identifiers, each with the place where it is named.
 
     Raises
     ------

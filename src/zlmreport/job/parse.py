@@ -115,11 +115,6 @@ def _place(before: str, file: str) -> Place:
 def parse(content: bytes, file: str) -> Keys:
     """Return the keys of a job file.
 
-    Parameters
-    ----------
-    content
-        The file's bytes.
-
     Raises
     ------
     InputError

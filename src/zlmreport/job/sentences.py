@@ -151,8 +151,6 @@ def problem(mistake: Mistake, model: type[BaseModel], within: str, also_known: C
         What describes the keys: a message quotes its descriptions and examples.
     within
         The dotted path of the model's keys in the job.
-    also_known
-        Keys beside the model's own that belong to the same group.
     """
     field = field_at(model, mistake.path)
     name = _dotted(within, mistake.path)

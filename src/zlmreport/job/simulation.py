@@ -159,11 +159,6 @@ class SimulationFile:
 def load_simulation(path: Path, registry: Installed, content: bytes | None = None) -> SimulationFile:
     """Read a simulation file and check all that can be checked without simulating.
 
-    Parameters
-    ----------
-    content
-        What the file is to hold, instead of what it holds.
-
     Raises
     ------
     InputError

@@ -250,11 +250,6 @@ def _kinds(effect: Effect) -> dict[str, tuple[Dimension, bool]]:
 def refuse_collisions(model: AxisModel, columns: Sequence[FloatArray]) -> None:
     """Refuse a model whose columns depend on each other.
 
-    Parameters
-    ----------
-    columns
-        Its columns on the design, term by term, shape (N, k).
-
     Raises
     ------
     ModelError
@@ -303,15 +298,7 @@ def chosen_effect(choice: EffectChoice, find: Callable[[str], Effect], kind: Axi
 def chosen_terms(
     choices: Iterable[EffectChoice], find: Callable[[str], Effect], kind: AxisKind
 ) -> tuple[Term, ...]:
-    """Return the effects that a file names, in the forms that it asks for.
-
-    Parameters
-    ----------
-    find
-        Returns an installed effect by its identifier.
-    kind
-        Of the axis, for the units.
-    """
+    """Return the effects that a file names, in the forms that it asks for."""
     return tuple(_term(choice, find, kind) for choice in choices)
 
 

@@ -108,8 +108,6 @@ class Comparison:
         ----------
         base : (N, q) array
             Columns of the base model, tangents of its searched parameters included.
-        effects
-            That can be tested on the design.
         weights : (N,) array
             w, the variance of each reading over the mean one.
         least_visible
@@ -190,8 +188,6 @@ class Comparison:
             m or rad.
         known
             Standard deviation of a noise of known size that stands beside σ, m or rad.
-        told
-            Is told the share that is done.
         """
         sets = deviations.shape[1]
         null = np.full(sets, np.inf)

@@ -36,10 +36,6 @@ def curve_positions(fitted: Fit, approach: Approach, span: tuple[float, float] |
 
     Parameters
     ----------
-    fitted
-        The model.
-    approach
-        A direction in which it was measured.
     span
         The part of the travel that is drawn, m or rad; without it all that was measured.
     """
@@ -56,10 +52,6 @@ def effect_positions(
 
     Parameters
     ----------
-    effect, theta
-        The effect and its searched parameters.
-    design, approach
-        A test, and a direction in which it was measured.
     span
         The part of the travel that is drawn, m or rad.
     """

@@ -119,8 +119,6 @@ def at_positions(design: Design, positions: FloatArray, approach: Approach) -> D
     ----------
     positions : (M,) array
         Within its travel, m or rad.
-    approach
-        A direction in which it was measured.
     """
     count = len(positions)
     own = design.session == 0
@@ -148,8 +146,6 @@ def outside_of_measured(name: str, unit: Unit, positions: FloatArray, span: tupl
 
     Parameters
     ----------
-    unit
-        In which its positions are printed.
     positions : (M,) array
         m or rad.
     span

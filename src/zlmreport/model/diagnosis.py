@@ -151,15 +151,6 @@ def diagnose(  # noqa: PLR0913 - what is known, what may be, and who is told
 ) -> Diagnosis:
     """Hold a model against the readings of a test, and try every effect that might be missing.
 
-    Parameters
-    ----------
-    assumptions
-        What the fits take for granted.
-    expected
-        What earlier tests say of noise and sizes of effects.
-    told
-        Is told the share that is done, ever more.
-
     Raises
     ------
     ModelError

@@ -102,8 +102,6 @@ def unit_of(dimension: Dimension, kind: AxisKind, *, time_is_counted: bool = Fal
 
     Parameters
     ----------
-    dimension
-        What kind of quantity it is.
     time_is_counted
         Whether the design counts readings instead of seconds.
     """

@@ -104,10 +104,6 @@ def variance_of_variance(space: Contrasts, noise: Noise, weighted: FloatArray) -
 
     Parameters
     ----------
-    space
-        The contrasts of the model.
-    noise
-        As estimated.
     weighted : (N, p) array
         V⁻¹J(JᵀV⁻¹J)⁻¹: the weight of each reading in each parameter.
     """

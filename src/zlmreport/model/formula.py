@@ -35,13 +35,6 @@ _MEANING = Words(en="parameter of {formula}", de="Parameter von {formula}")
 class FormulaEffect(Effect):
     """An effect that is written as a formula in a file.
 
-    Parameters
-    ----------
-    keys
-        As the file says it.
-    kind
-        Of the axis.
-
     Raises
     ------
     FormulaError

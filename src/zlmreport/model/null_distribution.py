@@ -82,8 +82,6 @@ def simulate_null(
         φ̂.
     posterior : (f,) array or None
         Probability of each φ of the comparison's grid, where it is to be averaged over instead.
-    told
-        Is told the share that is done.
     """
     scores = comparison.scores(_simulated(comparison, design, ratios, posterior), told=told)
     usual = np.quantile(scores.ratios, 1 - LEVEL, axis=1)

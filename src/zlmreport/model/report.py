@@ -72,8 +72,6 @@ def report(
 
     Parameters
     ----------
-    language
-        Of its sentences; names and verdicts are the same in every language.
     experiment
         What tells the first candidate from its equals, with these under the key ``effects``.
     """

@@ -277,8 +277,6 @@ def _strongest_wave(
         Position or time.
     most
         Periods within the test that the readings can tell.
-    known
-        Periods that are exact, and not looked for.
     """
     extent = float(np.ptp(where))
     counts = np.arange(_FEWEST_PERIODS, min(most, _MOST_PERIODS), 1 / _STEPS_PER_PERIOD)

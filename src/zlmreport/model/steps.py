@@ -81,8 +81,6 @@ def compared(
         The model with which a diagnosis began, where effects have been added on trial since.
     expected
         What earlier tests say, sizes in units of σ.
-    told
-        Is told the share that is done.
     """
     design, deviation = fitted.design, fitted.open_deviation
     entered = effects_to_try(fitted.model, design, effects)

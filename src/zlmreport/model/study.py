@@ -87,8 +87,6 @@ class Study:
 
         Parameters
         ----------
-        job
-            A job whose effects are installed.
         sessions
             The readings of the further sessions that the job names.
         """
@@ -218,8 +216,6 @@ def addition(
     ----------
     text
         ``backlash``, or ``polynomial: {order: 5}`` as in a job, or the name of a formula of its candidates.
-    job
-        To whose model it is to be added.
 
     Raises
     ------

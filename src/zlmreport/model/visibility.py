@@ -79,8 +79,6 @@ def visibility(
 
     Parameters
     ----------
-    comparison, null
-        Of the model, and what chance gives in it.
     ratios : (parts,) array
         φ̂.
     sigma

@@ -58,10 +58,6 @@ def side_by_side(lines: Sequence[Line], approach: Approach, second: str = "R") -
     ----------
     lines
         In any order.
-    approach
-        A direction in which all of them were measured.
-    second
-        Name of the second axis.
     """
     kept = [_one_way(line, approach) for line in lines]
     designs = [each.design for each in kept]

@@ -165,11 +165,6 @@ def surface(readings: Readings, instrument: InstrumentError) -> Surface:
 
     The orders are 3, or less by one than the number of positions or lines where these are fewer than four.
 
-    Parameters
-    ----------
-    instrument
-        Its error, common to all readings.
-
     Raises
     ------
     ModelError

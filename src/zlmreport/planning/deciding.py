@@ -87,8 +87,6 @@ def deciding_experiment(
     study
         Of its readings; None if there are none yet: then the effects are taken to be three times as large as
         the repeatability that the plan expects.
-    standards
-        Of the job, for a plan without readings.
 
     Raises
     ------
@@ -253,15 +251,7 @@ def deciding_number(job: Job) -> str:
 
 
 def deciding_text(experiment: Experiment, job: Job, extends: str) -> str:
-    """Return the job of an experiment as the text of its file, ``<number>-decide.yaml``.
-
-    Parameters
-    ----------
-    job
-        The job that left the question open.
-    extends
-        The path of its file, from the folder of the new one.
-    """
+    """Return the job of an experiment as the text of its file, ``<number>-decide.yaml``."""
     statement = experiment.statement.in_language(Language.ENGLISH)
     lines = [f"# {sentence.strip()}." for sentence in statement.rstrip(".").split(". ")]
     return "\n".join([*lines, *_lines(deciding_job(experiment, job, extends), "")]) + "\n"

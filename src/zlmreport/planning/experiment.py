@@ -223,15 +223,7 @@ def next_experiment(  # noqa: PLR0913 - what is asked, what is known, what may b
     *,
     told: Told = untold,
 ) -> Experiment:
-    """Return the cheapest plan that decides a question; the best one if none is sure to.
-
-    Parameters
-    ----------
-    plan
-        Of the test that left it open.
-    told
-        Is told the share of the plans that are simulated; how many there will be shows on the way.
-    """
+    """Return the cheapest plan that decides a question; the best one if none is sure to."""
     looked = partial(_glance, question, expected, seed)
     plan = within_travel(question.axis, _of_moderate_size(plan))
     changes = tuple(further_changes(question.axis, plan, seed, _period(question)))

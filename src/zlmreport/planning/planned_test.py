@@ -65,13 +65,6 @@ class PlannedTest:
 def planned_test(job: Job, standards: Sequence[PlannedStandard], effects: Sequence[Effect]) -> PlannedTest:
     """Return what can be said of a job's test before it is done.
 
-    Parameters
-    ----------
-    job
-        The job; its readings need not exist.
-    standards
-        The standards that it names, each with its own keys.
-
     Raises
     ------
     InputError

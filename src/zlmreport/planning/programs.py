@@ -191,13 +191,6 @@ def _moving(stops: Iterable[ProgramStop]) -> Iterator[ProgramStop]:
 def motion_of(number: str, axis: Axis, plan: Plan, place: Place) -> Motion:
     """Return the motion of a plan.
 
-    Parameters
-    ----------
-    plan
-        Targets, method, runs, overrun, feed and dwell, in SI.
-    place
-        Where the part program is asked for.
-
     Raises
     ------
     InputError

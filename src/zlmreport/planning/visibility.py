@@ -92,8 +92,6 @@ def effects_seen(
     ----------
     model
         The effects that are taken for granted, all of which the test determines.
-    design
-        The plan with the conditions that are expected.
 
     Notes
     -----
@@ -163,13 +161,7 @@ class Remedy:
 def remedies(
     seen_effects: Sequence[SeenEffect], model: AxisModel, axis: Axis, proposal: Proposal
 ) -> dict[str, Remedy]:
-    """Return what to do about each effect that a plan hides, by its identifier, where something helps.
-
-    Parameters
-    ----------
-    model
-        The effects that the job takes for granted.
-    """
+    """Return what to do about each effect that a plan hides, by its identifier, where something helps."""
     plan, expected = proposal.plan, proposal.expected
     blurred = [each for each in seen_effects if each.sight in {Sight.HIDDEN, Sight.TOO_SMALL}]
     found: dict[str, Remedy] = {}

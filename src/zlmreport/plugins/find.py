@@ -29,13 +29,7 @@ _FILE = "plugins.json"
 
 
 class Memory:
-    """What plugins offered before.
-
-    Parameters
-    ----------
-    path
-        The file; None for none.
-    """
+    """What plugins offered before."""
 
     def __init__(self, path: Path | None) -> None:
         self._path = path

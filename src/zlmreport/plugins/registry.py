@@ -70,8 +70,6 @@ class Registry:
     ----------
     candidates
         All of them. One of which nobody knows what it offers is loaded at once, any other when it is needed.
-    disabled
-        Names of plugins that the environment switches off.
 
     Raises
     ------

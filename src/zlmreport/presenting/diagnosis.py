@@ -102,13 +102,7 @@ class DiagnosisRows:
     def of(
         cls, diagnosis: Diagnosis, language: Language, titles: Mapping[str, Words] | None = None
     ) -> DiagnosisRows:
-        """Return a diagnosis.
-
-        Parameters
-        ----------
-        titles
-            What effects are called, by identifier; without them, candidates have none.
-        """
+        """Return a diagnosis."""
         axis = diagnosis.fit.design.axis
         serious = serious_candidates(diagnosis)
 

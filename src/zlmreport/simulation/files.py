@@ -43,11 +43,6 @@ _DIRECTIONS = {Approach.POSITIVE: "+", Approach.NEGATIVE: "-"}
 def description_of(file: SimulationFile, find: Callable[[str], Effect]) -> Description:
     """Return what a simulation file describes.
 
-    Parameters
-    ----------
-    find
-        Returns an installed effect by its identifier.
-
     Raises
     ------
     InputError
@@ -181,13 +176,7 @@ def _searched(term: Term, description: Description) -> Iterator[tuple[str, str]]
 
 
 def readings_table(measurements: MeasurementSet, remarks: Sequence[str]) -> str:
-    """Return the readings as a table that the data source ``laser-csv`` reads.
-
-    Parameters
-    ----------
-    remarks
-        Lines for the head of the file: where the readings come from.
-    """
+    """Return the readings as a table that the data source ``laser-csv`` reads."""
     axis = measurements.axis
     target = axis.position_unit.from_si(measurements.target_positions)[measurements.target]
     deviation = axis.deviation_unit.from_si(measurements.deviation)
@@ -237,15 +226,7 @@ def job_text(file: SimulationFile, folder: Path, readings: str) -> str:
 
 
 def live_job_text(file: SimulationFile, folder: Path, plan: Plan, source: Mapping[str, Any]) -> str:
-    """Return a job that captures the readings of an emulated machine from an instrument, and models them.
-
-    Parameters
-    ----------
-    folder
-        Where the job will stand: tables of the axis are named from there.
-    source
-        The keys of the job's source.
-    """
+    """Return a job that captures the readings of an emulated machine from an instrument, and models them."""
     unit = file.axis.position_unit
     targets = unit.from_si(plan.targets).round(_MEANT_DIGITS).tolist()
     lines = [

@@ -111,10 +111,6 @@ def observed(description: Description, design: Design, systematic: FloatArray) -
 
     Parameters
     ----------
-    description
-        With its noise, its logs and its seed.
-    design
-        Of `design_of`.
     systematic : (N,) array
         The deviation without noise, m or rad.
     """
@@ -231,8 +227,6 @@ def emulated_machine(description: Description, lead: float) -> EmulatedMachine:
 
     Parameters
     ----------
-    description
-        The axis, its plan and all that makes it err.
     lead
         How long the axis rests before its program begins, s.
 

@@ -34,10 +34,6 @@ def air_contributions(job: Job, measurements: MeasurementSet, length: float) -> 
 
     Parameters
     ----------
-    job
-        That states the ranges of error of the measured conditions.
-    measurements
-        With the conditions that were logged.
     length
         L, m.
     """

@@ -140,8 +140,6 @@ def laid_out(sources: Sequence[StatedSource], carried: Mapping[str, Carried]) ->
 
     Parameters
     ----------
-    sources
-        The files that a certificate states, the job first.
     carried
         The attachments, by name: each is a name and no path.
     """
@@ -183,8 +181,6 @@ def compare(
 
     Parameters
     ----------
-    sources
-        What the certificate states that it was made from.
     again
         What it carries when it is made again, by name; None if it cannot be.
     """

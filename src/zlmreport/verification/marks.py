@@ -110,8 +110,6 @@ def marks(page: Any, digest: Callable[[Any], str], known_fonts: dict[str, Any]) 
 
     Parameters
     ----------
-    digest
-        Returns the digest of an object of its document.
     known_fonts
         The glyphs of fonts that were met, by their digests; it is added to.
 

@@ -40,15 +40,7 @@ _OBJECTS = re.compile(rb"\s*(xref\b|\d+\s+\d+\s+obj\b)")
 
 
 def compare(carrier: Carrier, known: Collection[Trait], *, is_signed: bool) -> Finding:
-    """Return whether a document is built of nothing but what the one printed again is built of.
-
-    Parameters
-    ----------
-    known
-        How the one printed again is built.
-    is_signed
-        Whether it bears a signature, so that it may have what belongs to one.
-    """
+    """Return whether a document is built of nothing but what the one printed again is built of."""
     told = [
         *_around(carrier.content),
         *strangers(carrier.reader, is_signed=is_signed),

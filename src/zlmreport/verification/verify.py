@@ -92,14 +92,10 @@ def verify(
     ----------
     path
         A PDF that this program made, signed or not.
-    registry
-        The plugins that evaluate and print again.
     dcc_schema
         A folder with PTB's schema, to check an attached digital certificate by it and by PTB's rules.
     trusted
         Certificates of signers or of authorities, as `zlmreport.signing.state` reads them.
-    require_signature
-        Whether it must bear an intact signature that is trusted.
 
     Raises
     ------

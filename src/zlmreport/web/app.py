@@ -263,10 +263,6 @@ def serve(workbench: Workbench, port: int, ready: Callable[[str], None], *, open
     ----------
     port
         On which; 0 for any free one.
-    ready
-        Is told the address as soon as somebody may open it.
-    open_browser
-        Whether to open it at once.
     """
     try:
         with _listening(port) as listener:

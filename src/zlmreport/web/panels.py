@@ -84,13 +84,7 @@ class Panels:
         ]
 
     def fall(self, history: Sequence[Fitted]) -> dict[str, Any]:
-        """Return how the error fell, effect by effect, down to the noise floor.
-
-        Parameters
-        ----------
-        history
-            The fits of no effect, of the first, of the first two ….
-        """
+        """Return how the error fell, effect by effect, down to the noise floor."""
         unit = self.design.axis.deviation_unit
         largest = max(each.error.rms for each in history) or 1.0
         names = ["", *self.whole.fit.model.identifiers]

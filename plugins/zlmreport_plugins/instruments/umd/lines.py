@@ -130,8 +130,6 @@ class LowSpeed:
 
     Parameters
     ----------
-    model
-        The display that should be talking.
     temperatures
         The names of what its two temperature sensors measure.
     """

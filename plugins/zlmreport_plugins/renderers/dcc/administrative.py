@@ -251,8 +251,6 @@ def state(when: str, work: str | None, writer: Writer) -> ET.Element | None:
         ``before`` or ``after``.
     work
         ``adjustment`` or ``repair``.
-    writer
-        In the certificate's language.
     """
     if work is None:
         return None

@@ -252,8 +252,6 @@ class StreamCanvas:
     ----------
     stream
         WeasyPrint's stream; its state belongs to this canvas alone.
-    font_config
-        The document's fonts.
     """
 
     def __init__(self, stream: Any, font_config: Any) -> None:

@@ -29,8 +29,6 @@ def mend(pdf: Any, link_texts: Mapping[str, str]) -> None:
     ----------
     pdf
         A pydyf PDF, complete but for its trailer.
-    link_texts
-        What is said of a link, by its target.
     """
     root = _dereferenced(pdf, pdf.catalog["StructTreeRoot"])
     elements = list(_elements(pdf, root))

@@ -193,13 +193,7 @@ def notes(edition: Edition) -> tuple[Words, ...]:
 
 
 class Iso230Part2:
-    """ISO 230-2 in one edition.
-
-    Parameters
-    ----------
-    edition
-        A row of the table of editions.
-    """
+    """ISO 230-2 in one edition."""
 
     title = Words(
         "Accuracy and repeatability of positioning of numerically controlled axes",

@@ -93,13 +93,7 @@ def notes(guideline: Guideline) -> tuple[Words, ...]:
 
 
 class VdiGuideline:
-    """VDI/DGQ 3441 or VDI/VDE 2617.
-
-    Parameters
-    ----------
-    guideline
-        A row of the table of guidelines.
-    """
+    """VDI/DGQ 3441 or VDI/VDE 2617."""
 
     position_index = "j"
     options = Options
