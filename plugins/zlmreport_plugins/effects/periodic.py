@@ -65,7 +65,51 @@ class HarmonicOptions(Options):
     )
 
 
-class ScrewPitch(Effect):
+def _period(notation: str, meaning: Words) -> tuple[Parameter]:
+    return (Parameter("period", notation, Dimension.POSITION, meaning, 0.0),)
+
+
+class _KnownPeriod(Effect):
+    """What waves share whose period the job states: it is known, and not searched."""
+
+    #: The key of the axis that states it.
+    stated_as = "screw_pitch"
+
+    def grid(self, design: Design) -> FloatArray:
+        """Return the period that the job states."""
+        return np.array([[getattr(design.axis, self.stated_as)]], dtype=np.float64)
+
+    def expected(self, axis: Axis) -> dict[str, float]:
+        """Return the period."""
+        period = getattr(axis, self.stated_as)
+        return {} if period is None else {"period": period}
+
+
+class _Harmonics(_KnownPeriod):
+    """Such a wave by position, with the harmonics that its keys choose."""
+
+    options = HarmonicOptions
+    largest: float  #: Amplitude that is plausible, m or rad.
+
+    def __init__(self, settings: HarmonicOptions | None = None) -> None:
+        self.settings = settings or HarmonicOptions()
+        self.orders = self.settings.harmonics
+        self.linear = harmonic_parameters(self.orders, self.largest)
+
+    def with_settings(self, settings: HarmonicOptions) -> Effect:
+        """Return the effect with the stated harmonics."""
+        return type(self)(settings)
+
+    def forms(self) -> tuple[Effect, ...]:
+        """Return the combinations of harmonics that a contest tries."""
+        return tuple(type(self)(HarmonicOptions(harmonics=orders)) for orders in COMBINATIONS)
+
+    def columns(self, design: Design, theta: FloatArray) -> FloatArray:
+        """Return sine and cosine of each harmonic."""
+        return harmonic_columns(2 * np.pi * design.position / theta[0], self.orders)
+
+
+class ScrewPitch(_Harmonics):
     """A periodic error of the ball screw, its bearing or its coupling: it repeats with every turn.
 
     Targets at whole pitches all see the same phase and do not see it at all; ISO 230-2 asks for random
@@ -75,15 +119,7 @@ class ScrewPitch(Effect):
     identifier = "screw-pitch"
     title = Words(en="Periodic error of the screw", de="Periodischer Steigungsfehler der Spindel")
     equation = "Σ A_{h}·sin(2π·h·P/p_{0} + φ_{h})"
-    searched = (
-        Parameter(
-            "period",
-            "p_{0}",
-            Dimension.POSITION,
-            Words(en="pitch of the screw", de="Steigung der Spindel"),
-            0.0,
-        ),
-    )
+    searched = _period("p_{0}", Words(en="pitch of the screw", de="Steigung der Spindel"))
     shape = Shape.POSITION
     look = Words(
         en="The residuals repeat with the pitch: folded at it, they lie on one wave.",
@@ -99,39 +135,14 @@ class ScrewPitch(Effect):
         "beseitigt es.",
     )
     confusions = (Confusion("periodic", experiments.FINE_RUN),)
-    options = HarmonicOptions
-
-    def __init__(self, settings: HarmonicOptions | None = None) -> None:
-        self.settings = settings or HarmonicOptions()
-        self.orders = self.settings.harmonics
-        self.linear = harmonic_parameters(self.orders, _LARGEST_OF_PITCH)
-
-    def with_settings(self, settings: HarmonicOptions) -> Effect:
-        """Return the effect with the stated harmonics."""
-        return ScrewPitch(settings)
-
-    def forms(self) -> tuple[Effect, ...]:
-        """Return the combinations of harmonics that a contest tries."""
-        return tuple(ScrewPitch(HarmonicOptions(harmonics=orders)) for orders in COMBINATIONS)
+    largest = _LARGEST_OF_PITCH
 
     def untestable(self, design: Design) -> Words | None:
         """Demand a linear axis, its pitch, and a travel of one turn."""
         return needs_linear_axis(design) or needs_whole_period(design, design.axis.screw_pitch, _SCREW_PITCH)
 
-    def grid(self, design: Design) -> FloatArray:
-        """Return the pitch that the job states: it is known."""
-        return np.array([[design.axis.screw_pitch]], dtype=np.float64)
 
-    def columns(self, design: Design, theta: FloatArray) -> FloatArray:
-        """Return sine and cosine of each harmonic."""
-        return harmonic_columns(2 * np.pi * design.position / theta[0], self.orders)
-
-    def expected(self, axis: Axis) -> dict[str, float]:
-        """Return the pitch."""
-        return {} if axis.screw_pitch is None else {"period": axis.screw_pitch}
-
-
-class DirectionalPitch(Effect):
+class DirectionalPitch(_KnownPeriod):
     """A wobbling axial bearing or a bent screw: the reversal value itself repeats with the pitch.
 
     Nothing else known does so; a fine run over two pitches shows it. It cannot be seen at whole pitches.
@@ -141,14 +152,8 @@ class DirectionalPitch(Effect):
     title = Words(en="Periodic lost motion of the screw", de="Periodische Umkehrspanne der Spindel")
     equation = "d·A·sin(2π·P/p_{0} + φ)"
     linear = harmonic_parameters([1], _LARGEST_OF_DIRECTION)
-    searched = (
-        Parameter(
-            "period",
-            "p_{0}",
-            Dimension.POSITION,
-            Words(en="pitch of the screw or gear", de="Steigung der Spindel oder Teilung des Getriebes"),
-            0.0,
-        ),
+    searched = _period(
+        "p_{0}", Words(en="pitch of the screw or gear", de="Steigung der Spindel oder Teilung des Getriebes")
     )
     shape = Shape.DIRECTION
     look = Words(
@@ -170,20 +175,12 @@ class DirectionalPitch(Effect):
             design, design.axis.screw_pitch, _SCREW_PITCH
         )
 
-    def grid(self, design: Design) -> FloatArray:
-        """Return the pitch that the job states: it is known."""
-        return np.array([[design.axis.screw_pitch]], dtype=np.float64)
-
     def columns(self, design: Design, theta: FloatArray) -> FloatArray:
         """Return sine and cosine, with the sign of the approach."""
         return design.direction[:, np.newaxis] * harmonic_columns(2 * np.pi * design.position / theta[0], [1])
 
-    def expected(self, axis: Axis) -> dict[str, float]:
-        """Return the pitch."""
-        return {} if axis.screw_pitch is None else {"period": axis.screw_pitch}
 
-
-class EncoderInterpolation(Effect):
+class EncoderInterpolation(_Harmonics):
     """Offset, unequal amplitudes and phase of an encoder's two signals: an error within each signal period.
 
     Makers state 1 % to 2 % of the signal period: 0.2 µm to 0.4 µm at 20 µm. The period is exact in the
@@ -195,15 +192,8 @@ class EncoderInterpolation(Effect):
     identifier = "encoder-interpolation"
     title = Words(en="Interpolation error of the encoder", de="Interpolationsabweichung des Messsystems")
     equation = "Σ A_{h}·sin(2π·h·P/Λ_{s} + φ_{h})"
-    searched = (
-        Parameter(
-            "period",
-            "Λ_{s}",
-            Dimension.POSITION,
-            Words(en="signal period of the scale", de="Signalperiode des Maßstabs"),
-            0.0,
-        ),
-    )
+    searched = _period("Λ_{s}", Words(en="signal period of the scale", de="Signalperiode des Maßstabs"))
+    stated_as = "signal_period"
     shape = Shape.POSITION
     look = Words(
         en="The residuals look like noise over the travel; folded at the signal period they lie on a wave.",
@@ -218,36 +208,11 @@ class EncoderInterpolation(Effect):
         "reinigen, Spalt und Neigung einstellen, Amplitude, Offset und Phase der Signale abgleichen. "
         "Keine Tabelle einer Steuerung ist fein genug dafür.",
     )
-    options = HarmonicOptions
-
-    def __init__(self, settings: HarmonicOptions | None = None) -> None:
-        self.settings = settings or HarmonicOptions()
-        self.orders = self.settings.harmonics
-        self.linear = harmonic_parameters(self.orders, _LARGEST_OF_SIGNAL)
-
-    def with_settings(self, settings: HarmonicOptions) -> Effect:
-        """Return the effect with the stated harmonics."""
-        return EncoderInterpolation(settings)
-
-    def forms(self) -> tuple[Effect, ...]:
-        """Return the combinations of harmonics that a contest tries."""
-        return tuple(EncoderInterpolation(HarmonicOptions(harmonics=orders)) for orders in COMBINATIONS)
+    largest = _LARGEST_OF_SIGNAL
 
     def untestable(self, design: Design) -> Words | None:
         """Demand the signal period, and a travel that holds one."""
         return needs_whole_period(design, design.axis.signal_period, _SIGNAL_PERIOD)
-
-    def grid(self, design: Design) -> FloatArray:
-        """Return the signal period that the job states: it is known."""
-        return np.array([[design.axis.signal_period]], dtype=np.float64)
-
-    def columns(self, design: Design, theta: FloatArray) -> FloatArray:
-        """Return sine and cosine of each harmonic."""
-        return harmonic_columns(2 * np.pi * design.position / theta[0], self.orders)
-
-    def expected(self, axis: Axis) -> dict[str, float]:
-        """Return the signal period."""
-        return {} if axis.signal_period is None else {"period": axis.signal_period}
 
 
 class Periodic(Effect):
@@ -261,15 +226,7 @@ class Periodic(Effect):
     title = Words(en="Periodic error of unknown period", de="Periodische Abweichung unbekannter Periode")
     equation = "A·sin(2π·P/Λ + φ)"
     linear = harmonic_parameters([1], _LARGEST_OF_ANY)
-    searched = (
-        Parameter(
-            "period",
-            "Λ",
-            Dimension.POSITION,
-            Words(en="period along the axis", de="Periode längs der Achse"),
-            0.0,
-        ),
-    )
+    searched = _period("Λ", Words(en="period along the axis", de="Periode längs der Achse"))
     shape = Shape.POSITION
     look = Words(
         en="The residuals repeat along the axis, the same in both directions.",

@@ -38,6 +38,10 @@ _OF_MATERIALS = Words(
     "hat 10 bis 12",
 )
 
+_TIME_CONSTANT = Parameter(
+    "time_constant", "τ", Dimension.TIME, Words(en="time constant", de="Zeitkonstante"), 60.0, 14_400.0
+)
+
 LOGS = STATE_OF_AIR
 
 
@@ -197,16 +201,7 @@ class ThermalGrowth(Effect):
             500e-6,
         ),
     )
-    searched = (
-        Parameter(
-            "time_constant",
-            "τ",
-            Dimension.TIME,
-            Words(en="time constant", de="Zeitkonstante"),
-            60.0,
-            14_400.0,
-        ),
-    )
+    searched = (_TIME_CONSTANT,)
     shape = Shape.TIME
     look = Words(
         en="The residuals fan out over the position while time passes, ever slower.",
@@ -258,16 +253,7 @@ class ThermalDrift(Effect):
             500e-6,
         ),
     )
-    searched = (
-        Parameter(
-            "time_constant",
-            "τ",
-            Dimension.TIME,
-            Words(en="time constant", de="Zeitkonstante"),
-            60.0,
-            14_400.0,
-        ),
-    )
+    searched = (_TIME_CONSTANT,)
     shape = Shape.TIME
     look = Words(
         en="The residuals move with time, at all positions alike, ever slower.",
