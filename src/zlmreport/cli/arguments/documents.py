@@ -52,11 +52,9 @@ def main_job(commands: Mapping[str, str]) -> CommandParser:
         help="sign the PDF with the key in a PKCS#12 file (ID.p12) or a token (pkcs11:…); its password is "
         f"asked for, or stands in the environment variable {SIGN_PASSWORD}",
     )
-    parser.add_argument("--quiet", action="store_true", help="print nothing but mistakes")
-    parser.add_argument("--json", action="store_true", help=JSON_HELP)
-    parser.add_argument(
-        "--fail-on-nonconformity", action="store_true", help="exit with 1 if a stated limit is not met"
-    )
+    parser.flag("--quiet", "print nothing but mistakes")
+    parser.flag("--json", JSON_HELP)
+    parser.flag("--fail-on-nonconformity", "exit with 1 if a stated limit is not met")
     return parser
 
 
@@ -77,8 +75,8 @@ def check(command: str) -> CommandParser:
         "example:\n  zlmreport check x-axis.yaml",
     )
     add_jobs(parser)
-    parser.add_argument("--quiet", action="store_true", help="print nothing but mistakes")
-    parser.add_argument("--json", action="store_true", help=JSON_HELP)
+    parser.flag("--quiet", "print nothing but mistakes")
+    parser.flag("--json", JSON_HELP)
     return parser
 
 
@@ -165,18 +163,14 @@ def verify(command: str) -> CommandParser:
         "compared here",
     )
     parser.add_argument("certificate", metavar="FILE.pdf", type=Path, help="certificate, signed or not")
-    parser.add_argument("--json", action="store_true", help="print every finding as JSON")
+    parser.flag("--json", "print every finding as JSON")
     parser.add_argument(
         "--trusted",
         metavar="CERT.pem|FOLDER",
         type=Path,
         help="certificates of signers or authorities that are trusted (default: the user's configuration)",
     )
-    parser.add_argument(
-        "--require-signature",
-        action="store_true",
-        help="only what bears an intact signature that is trusted holds",
-    )
+    parser.flag("--require-signature", "only what bears an intact signature that is trusted holds")
     parser.add_argument(
         "--dcc-schema",
         metavar="DIR",
@@ -220,7 +214,7 @@ def model(command: str) -> CommandParser:
     parser.add_argument(
         "-o", "--output", metavar="FILE", type=Path, help="of learn: the file; without it, it is printed"
     )
-    parser.add_argument("--json", action="store_true", help="print the values in full precision as JSON")
+    parser.flag("--json", "print the values in full precision as JSON")
     return parser
 
 
@@ -260,9 +254,7 @@ def surface(command: str) -> CommandParser:
         help="a point: positions of the axis under test and of the second one, mm (--at=-20,130 for one that "
         "is negative); may be given several times",
     )
-    parser.add_argument(
-        "--json", action="store_true", help="print the values in full precision as JSON (zlmreport/surface/1)"
-    )
+    parser.flag("--json", "print the values in full precision as JSON (zlmreport/surface/1)")
     return parser
 
 
@@ -281,9 +273,7 @@ def fleet(command: str) -> CommandParser:
         "work on it; 4 done, but jobs failed, or something is missing that should be there",
     )
     _add_fleet(parser)
-    parser.add_argument(
-        "--dry-run", action="store_true", help="say what would be done, and why; make and write nothing"
-    )
+    parser.flag("--dry-run", "say what would be done, and why; make and write nothing")
     parser.add_argument(
         "--workers", metavar="N", type=_workers, help="number of processes, instead of the fleet file's"
     )
@@ -293,9 +283,9 @@ def fleet(command: str) -> CommandParser:
         type=_minutes,
         help="begin no job after that; the rest is the next night's",
     )
-    parser.add_argument("--quiet", action="store_true", help="print nothing but failures")
-    parser.add_argument("--json", action="store_true", help="print what became of every job as JSON")
-    parser.add_argument("--log-json", action="store_true", help="log each job as a line of JSON")
+    parser.flag("--quiet", "print nothing but failures")
+    parser.flag("--json", "print what became of every job as JSON")
+    parser.flag("--log-json", "log each job as a line of JSON")
     return parser
 
 
@@ -377,5 +367,5 @@ def workbench(command: str) -> CommandParser:
     parser.add_argument(
         "--port", metavar="N", type=port, default=0, help="a TCP port; without it any free one"
     )
-    parser.add_argument("--no-browser", action="store_true", help="print the address, and open no browser")
+    parser.flag("--no-browser", "print the address, and open no browser")
     return parser

@@ -54,11 +54,7 @@ def plan(command: str) -> CommandParser:
         type=int,
         help="write only the programs of one run, for a run that is taken again",
     )
-    parser.add_argument(
-        "--json",
-        action="store_true",
-        help="print the plan as JSON (zlmreport/plan/1, or that of an extension)",
-    )
+    parser.flag("--json", "print the plan as JSON (zlmreport/plan/1, or that of an extension)")
     return parser
 
 
@@ -118,19 +114,9 @@ def compensate(command: str) -> CommandParser:
         type=Path,
         help="folder of the table and its sheet; with --confirm of the job that shows both tests",
     )
-    parser.add_argument(
-        "--unconfirmed",
-        action="store_true",
-        help="write a format, too, that was never tried on the control itself",
-    )
-    parser.add_argument(
-        "--confirm", action="store_true", help="two jobs: did the table of the first do what was forecast?"
-    )
-    parser.add_argument(
-        "--json",
-        action="store_true",
-        help="print the forecast as JSON (zlmreport/compensation/1, zlmreport/confirmation/1)",
-    )
+    parser.flag("--unconfirmed", "write a format, too, that was never tried on the control itself")
+    parser.flag("--confirm", "two jobs: did the table of the first do what was forecast?")
+    parser.flag("--json", "print the forecast as JSON (zlmreport/compensation/1, zlmreport/confirmation/1)")
     return parser
 
 
@@ -239,9 +225,7 @@ def capture(command: str) -> CommandParser:
         "  zlmreport capture x-axis.yaml --end && zlmreport x-axis.yaml",
     )
     parser.add_argument("job", metavar="JOB.yaml", type=Path, help="job file")
-    parser.add_argument(
-        "--resume", action="store_true", help="go on with a capture that was interrupted, from its journal"
-    )
+    parser.flag("--resume", "go on with a capture that was interrupted, from its journal")
     parser.add_argument(
         "--answer",
         metavar="VISIT",
@@ -256,15 +240,7 @@ def capture(command: str) -> CommandParser:
         help="go on, but first take a visit again, by its number, or a run ('run 2'); also when all visits\n"
         "were taken; the earlier readings stay in the journal",
     )
-    parser.add_argument(
-        "--end",
-        action="store_true",
-        help="close a capture that was interrupted: what was not taken is missing",
-    )
+    parser.flag("--end", "close a capture that was interrupted: what was not taken is missing")
     parser.add_argument("--journal", metavar="FILE", type=Path, help="journal, instead of the job's")
-    parser.add_argument(
-        "--json",
-        action="store_true",
-        help="print what happens as JSON, a line each, as it stands in the journal",
-    )
+    parser.flag("--json", "print what happens as JSON, a line each, as it stands in the journal")
     return parser

@@ -49,6 +49,10 @@ class CommandParser(argparse.ArgumentParser):
             self._known.extend(name for name in names if name.startswith("--"))
         return action
 
+    def flag(self, name: str, meaning: str) -> None:
+        """Add an option that is there or is not."""
+        self.add_argument(name, action="store_true", help=meaning)
+
     def parse_strictly(self, arguments: Sequence[str]) -> argparse.Namespace:
         """Return the options; raise `InputError` for one that there is not, with the nearest."""
         options, unknown = self.parse_known_args(arguments)
