@@ -228,7 +228,23 @@ def _take_places(names: Mapping[Path, Path]) -> None:
         _remove(kept.values())
 
 
-class Appended:
+class Closable:
+    """What is closed when it is left as a context manager."""
+
+    def __enter__(self) -> Self:
+        """Return it."""
+        return self
+
+    def __exit__(self, *_raised: object) -> None:
+        """Close it."""
+        self.close()
+
+    def close(self) -> None:
+        """Close it."""
+        raise NotImplementedError
+
+
+class Appended(Closable):
     """A file to which records are added where it lies; leave it as a context manager.
 
     Parameters
@@ -254,14 +270,6 @@ class Appended:
         except OSError:
             self.close()
             raise
-
-    def __enter__(self) -> Self:
-        """Return the file."""
-        return self
-
-    def __exit__(self, *_raised: object) -> None:
-        """Close it."""
-        self.close()
 
     def close(self) -> None:
         """Close it, and let others have it; nothing happens the second time."""

@@ -13,14 +13,13 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
-from types import TracebackType
 from typing import TYPE_CHECKING, Any, Self
 
 from zlmreport.capture.events import Event, Order, Recorded, Unclear
 from zlmreport.capture.progress import Progress
 from zlmreport.capture.records import MOMENTARY, SCHEMA, Header, Record, finite, from_record, to_record
 from zlmreport.errors import AccessError, Place
-from zlmreport.files import JournalFile, read, unreadable
+from zlmreport.files import Closable, JournalFile, read, unreadable
 from zlmreport.live.reading import LiveReading
 from zlmreport.measurement.provenance import SourceFile
 from zlmreport.measurement.text_file import LARGEST
@@ -207,7 +206,7 @@ def _sum(body: bytes, before: str) -> str:
     return hashlib.sha256(before.encode() + body).hexdigest()[:_DIGITS]
 
 
-class Journal:
+class Journal(Closable):
     """A journal that is open for records; only one capture can have it.
 
     Make one by `begun` or `continued`, and leave it as a context manager.
@@ -274,13 +273,7 @@ class Journal:
                 journal._remember(entry.event, entry.elapsed)
             return journal
 
-    def __enter__(self) -> Self:
-        """Return the journal."""
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def close(self) -> None:
         """Close it, and let others have it."""
         self._file.close()
 

@@ -10,11 +10,11 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 from random import Random
-from types import TracebackType
-from typing import Protocol, Self
+from typing import Protocol
 
 from zlmreport.emulation.emulator import Emulator, Trouble, Troubles
 from zlmreport.errors import AccessError, Place
+from zlmreport.files import Closable
 
 #: As much as a line holds at least.
 _CHUNK = 4096
@@ -38,7 +38,7 @@ class Channel(Protocol):
         """Send as much as the line takes; a serial line keeps nothing for a host that does not read."""
 
 
-class PseudoTerminal:
+class PseudoTerminal(Closable):
     """A terminal that a program opens like a serial port.
 
     Parameters
@@ -74,16 +74,6 @@ class PseudoTerminal:
                     Place(str(link)), f"cannot be made a name of the port ({error.strerror}); choose another"
                 ) from error
         self.address = str(link or name)
-
-    def __enter__(self) -> Self:
-        """Return the terminal."""
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        """Unplug it."""
-        self.close()
 
     def wait(self, seconds: float) -> None:
         """Wait until something arrives, but no longer."""
@@ -142,7 +132,7 @@ class PseudoTerminal:
         self._ours = -1
 
 
-class LocalSocket:
+class LocalSocket(Closable):
     """A socket on this computer that serves one host after the other.
 
     Parameters
@@ -167,16 +157,6 @@ class LocalSocket:
         self._host: socket.socket | None = None
         self.is_read = False
         self.address = f"socket://127.0.0.1:{self._listening.getsockname()[1]}"
-
-    def __enter__(self) -> Self:
-        """Return the socket."""
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        """Unplug it."""
-        self.close()
 
     def wait(self, seconds: float) -> None:
         """Wait until something arrives or a host comes, but no longer."""

@@ -12,12 +12,12 @@ import time
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, fields
 from pathlib import Path
-from types import TracebackType
 from typing import Any, Self
 
 from sqlalchemy import Connection, Insert, Row, func, insert, select, update
 from sqlalchemy.exc import IntegrityError
 
+from zlmreport.files import Closable
 from zlmreport.fleet.basis import Basis, KnownFile
 from zlmreport.fleet.database import (
     CERTIFICATES,
@@ -253,7 +253,7 @@ class Taught:
     lesson: Mapping[str, Any]  #: As `zlmreport.model.priors.Lesson` gives it.
 
 
-class Ledger:
+class Ledger(Closable):
     """The ledger of one fleet, open; it is left as a context manager, which closes the database."""
 
     def __init__(self, database: Database, fleet: str) -> None:
@@ -280,12 +280,7 @@ class Ledger:
         """
         return cls(open_database(address, create=create), fleet)
 
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def close(self) -> None:
         """Close the database."""
         self._database.engine.dispose()
 

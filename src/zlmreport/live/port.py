@@ -7,12 +7,13 @@ import os
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from types import ModuleType, TracebackType
-from typing import Annotated, Any, Literal, NoReturn, Self
+from types import ModuleType
+from typing import Annotated, Any, Literal, NoReturn
 
 from pydantic import BeforeValidator, Field
 
 from zlmreport.errors import AccessError, InputError, Place
+from zlmreport.files import Closable
 from zlmreport.job.types import Options
 from zlmreport.live.reading import LiveReading
 
@@ -45,7 +46,7 @@ class Framing:
         return f"{self.baud_rate} {self.bits}{self.parity}{self.stop_bits}"
 
 
-class Port:
+class Port(Closable):
     """An open port.
 
     Parameters
@@ -87,16 +88,6 @@ class Port:
             ) from error
         except OSError as error:  # pyserial's own errors among them
             raise AccessError.at(self.place, _why_not_opened(name, error)) from error
-
-    def __enter__(self) -> Self:
-        """Return the port."""
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        """Close the port."""
-        self.close()
 
     def close(self) -> None:
         """Close the port; it may be closed already."""
@@ -250,7 +241,7 @@ class PolledOptions(PortOptions):
     )
 
 
-class LiveConnection:
+class LiveConnection(Closable):
     """A connection made of its parts; it closes the port when it is left.
 
     Parameters
@@ -274,13 +265,7 @@ class LiveConnection:
         self._zero = zero
         self.can_zero = zero is not None
 
-    def __enter__(self) -> Self:
-        """Return the connection."""
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def close(self) -> None:
         """Close the port."""
         self._port.close()
 
