@@ -1,7 +1,8 @@
 """The next experiment, followed: a tie is left by a small test, the advised test is simulated and diagnosed.
 
-The truth is that of the first test. The second has the plan that was advised, weather as the advice expects
-it with a random walk beside it, and noise of its own.
+The truth is that of the first test, and so is what is irregular along the axis at the same targets. The
+second has the plan that was advised, weather as the advice expects it with a random walk beside it, and noise
+of its own. It is diagnosed alone, or held together with the first where the advice says so.
 """
 
 from __future__ import annotations
@@ -17,18 +18,23 @@ from hidden_effects.judge import INSTALLED, named
 from hidden_effects.records import Record
 from hidden_effects.tables.markdown import table
 from hidden_effects.tables.shares import Share
-from hidden_effects.trial import OF_A_GAUGE, Trial, drawn_trial, measured, sum_of
+from hidden_effects.trial import OF_A_GAUGE, Measured, Trial, drawn_trial, measured, sum_of
 from hidden_effects.weather import wandering
 from zlmreport.model.axis_model import ModelError
+from zlmreport.model.design import Design
 from zlmreport.model.diagnosis import Verdict, diagnose
 from zlmreport.model.observations import observations_of
+from zlmreport.model.sessions import held_together, with_zeros
 from zlmreport.planning.deciding import question_of_tie
 from zlmreport.planning.experiment import Experiment, next_experiment
 from zlmreport.planning.plan import Expected, Plan
-from zlmreport.planning.visibility import expected_design
+from zlmreport.quantities.arrays import FloatArray
+from zlmreport.simulation.description import Noise, noise_of
 
 #: Targets and runs of tests that leave ties.
 _TARGETS, _RUNS = (7, 9, 11, 15), (2, 3, 4)
+#: Expected difference of the criteria of two effects from which on they hardly tie (`Trial.nearest`).
+_APART = 20.0
 _PROMISED = (0.95, 0.8, 0.5)
 
 
@@ -45,6 +51,9 @@ def judged(case: Case) -> Record:
     trial = drawn_trial(case, (int(random.choice(_TARGETS)), int(random.choice(_RUNS))))
     if trial is None:
         return named(case) | {"outcome": "not visible"}
+    nearest = trial.nearest()
+    if len(trial.twins) == 1 and nearest is not None and nearest[1] > _APART:
+        return named(case) | {"outcome": "nothing like it"}
     plan = trial.description.plan
     try:
         first = diagnose(
@@ -61,23 +70,24 @@ def judged(case: Case) -> Record:
     found = named(case) | {"outcome": "judged", "tied": list(question.names), "decides": advice.decides}
     if advice.plan is None:
         return found | {"followed": None}
-    return found | {"minutes": advice.minutes, "followed": _followed(trial, advice, advice.plan, expected)}
+    design = question.next_design(advice.plan, expected)
+    return found | {"minutes": advice.minutes, "followed": _followed(trial, advice, advice.plan, design)}
 
 
-def _followed(trial: Trial, advice: Experiment, plan: Plan, expected: Expected) -> dict[str, Any]:
-    """Return what the diagnosis of the advised test says."""
-    description = replace(trial.description, plan=plan, seed=trial.description.seed + 1)
-    design = expected_design(description.axis, plan, expected)
-    logged = {name: design.conditions[name] for name in description.conditions}
-    design = replace(design, conditions=logged, span=trial.first.design.span)
-    design = wandering(design, np.random.default_rng([description.seed, 3]))
+def _followed(trial: Trial, advice: Experiment, plan: Plan, expected: Design) -> dict[str, Any]:
+    """Return what the diagnosis of the advised test says; `expected` is its design."""
+    design = wandering(expected, np.random.default_rng([trial.description.seed, 3]))
     # What the job's model describes is in the advised test as it is in every test.
     base = np.concatenate(
         [term.columns(design, term.grid(design)[0])[0] for term in trial.model.terms], axis=1
     )
-    again = measured(description, design, base @ trial.coefficients, sum_of(trial.effects, design))
+    again = _measured_again(trial, plan, design, base @ trial.coefficients)
+    observed = observations_of(again.measurements, overrun=plan.overrun)
     try:
-        said = diagnose(trial.model, observations_of(again.measurements, overrun=plan.overrun), INSTALLED)
+        if plan.after:
+            first = observations_of(trial.first.measurements, overrun=trial.description.plan.overrun)
+            observed = held_together(observed, [("the first", first)])
+        said = diagnose(with_zeros(trial.model, observed.design), observed, INSTALLED)
     except ModelError as error:
         return {"decision": "refused", "message": str(error)}
     leading = said.candidates[:1] if said.verdict is Verdict.MISSING else ()
@@ -86,6 +96,23 @@ def _followed(trial: Trial, advice: Experiment, plan: Plan, expected: Expected) 
     truth = trial.case.hidden[0]
     decision = "right" if left == {truth} else "undecided" if truth in left or not left else "wrong"
     return {"decision": decision, "verdict": said.verdict, "names": sorted(names)}
+
+
+def _measured_again(trial: Trial, plan: Plan, design: Design, known: FloatArray) -> Measured:
+    """Return the readings of the advised test; what is irregular along the axis stays where it was."""
+    first = trial.description
+    noise, seed = first.noise, first.seed + 1
+    stays = np.array_equal(plan.targets, first.plan.targets)
+    geometry = Noise(0.0, position=noise.position, position_and_direction=noise.position_and_direction)
+    irregular = noise_of(geometry, design, first.seed if stays else seed)
+    description = replace(
+        first,
+        plan=plan,
+        seed=seed,
+        noise=replace(noise, position=0.0, position_and_direction=0.0),
+        conditions={name: course for name, course in first.conditions.items() if name in design.conditions},
+    )
+    return measured(description, design, known, irregular + sum_of(trial.effects, design))
 
 
 def report(records: Sequence[Record], state: str) -> str:

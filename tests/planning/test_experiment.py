@@ -95,10 +95,37 @@ def test_what_no_plan_decides_is_said_with_what_would() -> None:
     found = _experiment("scale-error,cosine-error")
     assert found.plan is None
     assert found.decides < 0.5
-    assert "tells scale-error and cosine-error apart" in _said(found)
+    assert "To tell scale-error and cosine-error apart: none of the" in _said(found)
     assert "align the beam anew" in _said(found)
     job = planned_job()
     assert experiment_values(found, job, Language.ENGLISH)["job"] is None
+
+
+def test_a_wave_that_whole_pitches_hide_is_shown_by_other_phases() -> None:
+    found = _experiment("screw-pitch", ON_WHOLE_PITCHES, ROOM_AT_THE_ENDS)
+    assert found.plan is not None
+    assert found.decides >= 0.95
+    assert np.ptp(np.mod(found.plan.targets, 0.01)) > 0.005
+    assert _said(found).startswith("To show screw-pitch: ")
+
+
+def test_an_expansion_that_a_steady_temperature_hides_is_shown_by_a_change_of_temperature() -> None:
+    found = _experiment("scale-expansion", COOL)
+    assert found.plan is not None
+    assert found.decides >= 0.95
+    assert found.plan.pause is not None
+
+
+def test_what_no_plan_shows_is_said() -> None:
+    found = _experiment("cosine-error")
+    assert found.plan is None
+    assert _said(found).startswith("To show cosine-error: none of the")
+
+
+def test_an_effect_that_the_job_leaves_untestable_is_said_with_what_is_missing() -> None:
+    found = _experiment("encoder-interpolation")
+    assert found.plan is None
+    assert "encoder-interpolation: the job does not state axis.signal_period." in _said(found)
 
 
 def test_experiment_stays_within_the_travel() -> None:
@@ -135,7 +162,7 @@ def test_job_of_an_experiment_is_planned_as_it_was_simulated(tmp_path: Path) -> 
 @pytest.mark.parametrize(
     ("names", "message"),
     [
-        ("scale-error", "name the effects between which to decide"),
+        ("scale-error,scale-error", "name an effect, or several once each"),
         ("scale-error,scale-expantion", "did you mean 'scale-expansion'"),
     ],
 )

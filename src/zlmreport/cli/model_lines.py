@@ -148,6 +148,8 @@ def diagnosis_lines(
         yield from ("", Colour.BOLD.of("what this test cannot see"))
     for each in hidden:
         yield from wrapped(f"{', '.join(each.effects)}: {each.reason}")
+    if hidden:
+        yield f"  what would show one: zlmreport plan {path} --decide EFFECT"
     yield ""
     yield from _what_next(rows, diagnosis, path, experiment)
 

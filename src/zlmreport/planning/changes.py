@@ -54,6 +54,16 @@ _OVERRUN = Words(
     en="turn round {times} times as far beyond the targets",
     de="{times}-mal so weit hinter den Zielpositionen umkehren",
 )
+_SECOND_SESSION = Words(
+    en="measure again, and hold both sessions together",
+    de="noch einmal messen, und beide Messungen zusammen betrachten",
+)
+_WARMER_SESSION = Words(
+    en="measure again with the axis {change} K warmer or colder, which takes about {minutes} min, and hold "
+    "both sessions together",
+    de="noch einmal messen, wenn die Achse {change} K wärmer oder kälter ist, was etwa {minutes} min dauert, "
+    "und beide Messungen zusammen betrachten",
+)
 _PAUSE = {
     "axis_temperature": Words(
         en="pause half-way, about {minutes} min, until the axis is {change} K warmer or colder",
@@ -102,13 +112,17 @@ def changes(axis: Axis, plan: Plan, seed: int) -> Iterator[Change]:
         yield together(last)
 
 
-def further_changes(axis: Axis, plan: Plan, seed: int, period: float | None) -> Iterator[Change]:
-    """Yield each change that may tell two effects apart.
+def further_changes(
+    axis: Axis, plan: Plan, seed: int, period: float | None, *, goes_on: bool = False
+) -> Iterator[Change]:
+    """Yield each change that may tell effects apart, or show one.
 
     Parameters
     ----------
     period
         Of an effect in question, m or rad: the targets are to see all its phases.
+    goes_on
+        Whether the test can be held together with the one before.
     """
     many = max(_MANY_TARGETS, _FACTOR * len(plan.targets))
     yield from _of_targets(axis, plan, seed, many, period)
@@ -117,6 +131,9 @@ def further_changes(axis: Axis, plan: Plan, seed: int, period: float | None) -> 
         yield _by_method(Method.PENDULUM, None)
     if plan.method in RUN_BY_RUN:
         yield from (_pause(column, minutes) for column, minutes in _WARMING)
+    if goes_on:
+        yield _session(_SECOND_SESSION, 0.0, 0.0)
+        yield _session(_WARMER_SESSION, _WARMING[0][1], _KELVIN)
     longer = float(round(_LONGER * plan.dwell)) or plan.dwell
     yield Change("dwell", None, _REST.given(seconds=f"{longer:g}"), lambda each: replace(each, dwell=longer))
     yield Change(
@@ -134,6 +151,12 @@ def within_travel(axis: Axis, plan: Plan) -> Plan:
     first, last = axis.travel
     moved = np.unique(np.clip(plan.targets, first + plan.overrun, last - plan.overrun))
     return replace(plan, targets=read_only_floats(moved))
+
+
+def _session(advice: Words, minutes: float, change: float) -> Change:
+    after = Pause(minutes * _SECONDS_PER_MINUTE, change, _WARMING[0][0])
+    words = advice.given(minutes=f"{minutes:g}", change=f"{change:g}")
+    return Change("session", None, words, lambda each: replace(each, after=after))
 
 
 def _pause(column: str, minutes: float) -> Change:

@@ -22,11 +22,13 @@ from zlmreport.model.diagnosis import Candidate, Diagnosis
 from zlmreport.model.effect import Dimension, Effect
 from zlmreport.model.fit import Fit, fit
 from zlmreport.model.noise import noise_parts
+from zlmreport.model.observations import Observations
 from zlmreport.model.steps import known_noise
 from zlmreport.model.study import Study
-from zlmreport.planning.experiment import Experiment, Question, Rival, next_experiment
+from zlmreport.planning.experiment import Experiment, next_experiment
 from zlmreport.planning.plan import Expected, PlannedStandard, measured_plan, propose, seed_of
 from zlmreport.planning.planned_test import model_of
+from zlmreport.planning.rivals import Question, Rival
 from zlmreport.planning.targets import in_users_unit
 from zlmreport.planning.visibility import determined, expected_design
 from zlmreport.quantities.arrays import FloatArray
@@ -80,7 +82,7 @@ def deciding_experiment(
     effects: Sequence[Effect],
     standards: Sequence[PlannedStandard],
 ) -> Experiment:
-    """Return the experiment that tells effects apart that somebody names.
+    """Return the experiment that tells effects apart that somebody names, or shows the one that is named.
 
     Parameters
     ----------
@@ -91,7 +93,7 @@ def deciding_experiment(
     Raises
     ------
     InputError
-        If fewer than two are named, or one that there is not.
+        If none is named, one twice, or one that there is not.
     """
     known = {each.identifier: each for each in (study.tried(effects) if study else effects)}
     model = study.model if study else model_of(job, effects)
@@ -116,8 +118,9 @@ def deciding_experiment(
 
 
 def _refuse_names(names: Sequence[str], known: Mapping[str, Effect]) -> None:
-    if len(set(names)) < 2:
-        raise InputError.at(PLACE, "name the effects between which to decide, as screw-pitch,periodic")
+    if not names or len(set(names)) < len(names):
+        example = "name an effect, or several once each, as screw-pitch,periodic"
+        raise InputError.at(PLACE, example)
     for name in names:
         if name not in known:
             raise InputError.at(PLACE, f"there is no effect {name[:60]!r}; {did_you_mean(name, list(known))}")
@@ -195,8 +198,7 @@ def question_of(base: Fit, rivals: Sequence[Rival], fits: Sequence[Fit]) -> Ques
         degrees=best.degrees,
         ratios={source: min(ratio, largest[source]) for source, ratio in best.noise.ratios.items()},
         known=known_noise(base, base),
-        span=base.design.span,
-        logged={name: float(log[-1]) for name, log in base.design.conditions.items()},
+        first=Observations(base.design, base.open_deviation, np.arange(len(base.deviation)), ()),
     )
 
 
@@ -284,10 +286,11 @@ def deciding_job(experiment: Experiment, job: Job, extends: str) -> dict[str, An
             "change": pause.change,
             "of": pause.of,
         }
+    model: dict[str, Any] = {"sessions": [extends]} if plan.after else {}
     kept = [each for each in job.effects if each.identifier not in experiment.effects]
     if len(kept) < len(job.effects):
-        keys["model"] = {"effects": [_written(each) for each in kept]}
-    return keys
+        model["effects"] = [_written(each) for each in kept]
+    return {**keys, "model": model} if model else keys
 
 
 def _written(choice: EffectChoice) -> Any:

@@ -180,6 +180,9 @@ class Plan:
     feed: float = 2 / 60  #: m/s or rad/s.
     dwell: float = 5.0  #: Time at rest before each reading, s.
     pause: Pause | None = None  #: Half-way.
+    #: What is waited for after a first session with which the readings are held together; None for a test by
+    #: itself.
+    after: Pause | None = None
 
     @property
     def stops(self) -> list[float]:
@@ -198,9 +201,9 @@ class Plan:
 
     @property
     def duration(self) -> float:
-        """Of motion, rest and pause together, s."""
-        rest = self.dwell * self.readings + (self.pause.duration if self.pause else 0.0)
-        return self.travelled / self.feed + rest
+        """Of motion, rest and pauses together, s."""
+        pauses = sum(pause.duration for pause in (self.pause, self.after) if pause)
+        return self.travelled / self.feed + self.dwell * self.readings + pauses
 
 
 def beyond_travel(axis: Axis, plan: Plan) -> tuple[float, float] | None:
@@ -229,7 +232,7 @@ _FOLLOW: Mapping[str, Mapping[str, float]] = {
 
 @dataclass(frozen=True, slots=True)
 class Pause:
-    """A rest half-way through a test in which a temperature changes."""
+    """A rest half-way through a test, or before it, in which a temperature changes."""
 
     duration: float  #: s.
     change: float  #: Of the temperature, K.

@@ -26,14 +26,15 @@ def plan(command: str) -> CommandParser:
         "A job with a group of keys of an extension is planned by that: the path of a probe, for example.",
         "examples:\n  zlmreport plan x-axis.yaml\n"
         "  zlmreport plan x-axis.yaml --output plan --program linuxcnc\n"
-        "  zlmreport plan x-axis.yaml --decide scale-error,scale-expansion -o next",
+        "  zlmreport plan x-axis.yaml --decide scale-error,scale-expansion -o next\n"
+        "  zlmreport plan x-axis.yaml --decide screw-pitch",
     )
     parser.add_argument("job", metavar="JOB.yaml", type=Path, help="job file")
     parser.add_argument(
         "--decide",
         metavar="E,E",
-        help="instead: simulate which plan tells these effects apart, and print the job of the cheapest that "
-        "will; with --output write it, <number>-decide.yaml",
+        help="instead: simulate which plan tells these effects apart, or shows the one that is named, and "
+        "print the job of the cheapest that will; with --output write it, <number>-decide.yaml",
     )
     parser.add_argument(
         "-o",
