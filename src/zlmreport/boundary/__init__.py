@@ -63,7 +63,8 @@ class Guarded:
             raise
         if name == "commands" and self._kind is EXTENSION:
             return tuple(replace(each, run=self.watched(f"command {each.words}", each.run)) for each in found)
-        if not inspect.isroutine(found):
+        # Whether it can be called is quickly asked, and mostly settles it.
+        if not callable(found) or not inspect.isroutine(found):
             return found
         # The checks of answers load what a listing of names does not need.
         accept = import_module("zlmreport.boundary.answers").ACCEPTED.get((self._kind.name, name))

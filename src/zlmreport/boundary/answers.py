@@ -97,7 +97,7 @@ def arithmetic(
     ):
         _of(Mapping, given)
         symbols = [each.symbol for each in declared]
-        if len(given) != len(symbols) or given.keys() != set(symbols):
+        if list(given) != symbols and (len(given) != len(symbols) or given.keys() != set(symbols)):
             wrong = [f"no {name}" for name in symbols if name not in given]
             wrong += [f"{name}, which is not declared" for name in given if name not in symbols]
             wrong += [f"{name} twice" for name in dict.fromkeys(symbols) if symbols.count(name) > 1]

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from functools import cache, cached_property
-from typing import TYPE_CHECKING, Any, Self
+from math import isnan
+from typing import TYPE_CHECKING, Any, NamedTuple, Self
 
 import numpy as np
 
@@ -29,8 +29,7 @@ if TYPE_CHECKING:
 _NAME = "evaluate"
 
 
-@dataclass(frozen=True, slots=True)
-class Value:
+class Value(NamedTuple):
     """A parameter of the axis.
 
     Attributes
@@ -124,9 +123,17 @@ class Result:
         """The parameters that this test defines, in the order of the standard."""
         if self._limits or "evaluation" in self.__dict__:
             return tuple(map(self._value, self.evaluation.parameters))
-        found = self.arithmetic.parameters
-        parameters = (Parameter(each, float(found[each.symbol])) for each in self._standard.quantities)
-        return tuple(self._value(each) for each in parameters if each.value == each.value)
+        found, unit = self.arithmetic.parameters, self.data.measurements.axis.deviation_unit
+        return tuple(
+            Value(
+                each.symbol,
+                each.name.in_language(Language.ENGLISH),
+                unit.from_si(float(found[each.symbol])),
+                unit.ascii,
+            )
+            for each in self._standard.quantities
+            if not isnan(found[each.symbol])
+        )
 
     def _value(self, parameter: Parameter) -> Value:
         unit = self.data.measurements.axis.deviation_unit

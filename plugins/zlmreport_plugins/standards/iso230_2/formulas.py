@@ -55,10 +55,9 @@ def bidirectional_width(upper: FloatArray, lower: FloatArray) -> FloatArray:
 
     Shape (..., approach, position) to (...); NaN where a direction was not measured at all.
     """
-    width_of_both: FloatArray = np.max(largest_over_positions(upper), axis=-1) - np.min(
-        smallest_over_positions(lower), axis=-1
-    )
-    return width_of_both
+    highest: FloatArray = np.maximum.reduce(largest_over_positions(upper), axis=-1)
+    lowest: FloatArray = np.minimum.reduce(smallest_over_positions(lower), axis=-1)
+    return highest - lowest
 
 
 def positions(statistics: PositionStatistics, k: int) -> dict[str, FloatArray]:
