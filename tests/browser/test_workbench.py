@@ -311,7 +311,7 @@ def test_a_tablet_in_the_dark_shows_it_all_in_german(address: str, window: Windo
         has_touch=True,
     )
     diagnosed(page, "missing")
-    expect(page.get_by_text("Dem Modell fehlt etwas: screw-pitch erklärt den Rest.")).to_be_visible()
+    expect(page.get_by_text("Fehlender Einfluss: screw-pitch; er erklärt den Rest.")).to_be_visible()
     assert page.evaluate("() => document.documentElement.scrollWidth <= innerWidth")
     controls = page.locator("button:visible, select:visible").all()
     heights = [box["height"] for each in controls if (box := each.bounding_box())]

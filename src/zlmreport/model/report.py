@@ -29,12 +29,12 @@ _ADEQUATE = Words(
 )
 _MISSING = Words(
     en="Missing effect: {effects}, which explains the rest.",
-    de="Dem Modell fehlt etwas: {effects} erklärt den Rest.",
+    de="Fehlender Einfluss: {effects}; er erklärt den Rest.",
 )
 _MISSING_IN_PART = Words(
     en="Missing effect: {effects}. It explains {share} % of what the repeats leave open; the rest "
     "cannot be told from irregular scatter.",
-    de="Dem Modell fehlt etwas: {effects}. Es erklärt {share} % dessen, was die Wiederholungen offen lassen; "
+    de="Fehlender Einfluss: {effects}. Er erklärt {share} % dessen, was die Wiederholungen offen lassen; "
     "der Rest ist von unregelmäßiger Streuung nicht zu unterscheiden.",
 )
 _FAULTY = Words(
@@ -47,7 +47,7 @@ _IMPOSSIBLE = Words(
 )
 _MISSING_TOGETHER = Words(
     en="Missing effects: {effects}, which together explain the rest.",
-    de="Dem Modell fehlt etwas: {effects} erklären zusammen den Rest.",
+    de="Fehlende Einflüsse: {effects}; zusammen erklären sie den Rest.",
 )
 _UNEXPLAINED = Words(
     en="Something is left that no installed effect explains.",
