@@ -127,6 +127,18 @@ def test_neither_have_the_results_before_an_adjustment(tmp_path: Path) -> None:
     assert "7.8.4.1 d" in found
 
 
+@pytest.mark.parametrize("renderer", ["pdf", "pdf-typst"])
+def test_of_an_adjusted_axis_the_comparison_has_a_page_and_each_state_another(
+    tmp_path: Path, renderer: str
+) -> None:
+    as_found = {"adjustment": "New compensation table", "measurement": COMPLETE["measurement"]}
+    found = pages(certificate(tmp_path, {**REPORT, "as_found": as_found}), renderer)
+    headings = [section.title for section in certificate(tmp_path, {**REPORT, "as_found": as_found}).sections]
+    assert len(found) == len(headings) == 3
+    for text, heading in zip(found, headings, strict=True):
+        assert heading in text
+
+
 def test_a_report_with_more_to_say_goes_on(tmp_path: Path) -> None:
     assert len(pages(certificate(tmp_path, {**REPORT, "opinions": OPINION}))) == 2
 

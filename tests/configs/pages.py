@@ -9,7 +9,7 @@ import numpy as np
 import pypdfium2
 
 from zlmreport.certificate.columns import table_layout, text_of
-from zlmreport.certificate.document import Certificate, Notice, Paragraph, Symbol, Table
+from zlmreport.certificate.document import Certificate, Formulas, Notice, Paragraph, Symbol, Table
 
 #: Points from the edge of a page in which its head and its foot stand, and its margin at the sides.
 _HEAD, _FOOT, _SIDE = 58.0, 52.0, 55.0
@@ -57,6 +57,8 @@ def _left_alone(certificate: Certificate, bodies: list[list[str]]) -> Iterator[t
     notes = [each for each in _blocks(certificate) if isinstance(each, Paragraph | Notice)]
     headings = {f"{number} {section.title}" for number, section in enumerate(certificate.sections, 1)}
     headings |= {each.heading for each in notes if isinstance(each, Notice)}
+    tables = [each for each in _blocks(certificate) if isinstance(each, Table)]
+    headings |= {group.heading for each in tables for group in each.groups if group.heading}
     table = f"{certificate.page_words.table} "
     said = " ".join((*headings, *(text for each in notes for text in _texts(each))))
     for number, body in enumerate(bodies, 1):
@@ -94,8 +96,10 @@ def _widows(certificate: Certificate, bodies: list[list[str]]) -> Iterator[tuple
 
 def _parted(certificate: Certificate, bodies: list[list[str]]) -> Iterator[tuple[int, str]]:
     """Yield short tables whose rows do not all stand on the page of their caption."""
-    tables = [each for each in _blocks(certificate) if isinstance(each, Table)]
-    for place, table in enumerate(tables, 1):
+    numbered_blocks = [each for each in _blocks(certificate) if isinstance(each, Table | Formulas)]
+    for place, table in enumerate(numbered_blocks, 1):
+        if isinstance(table, Formulas):
+            continue
         begins = f"{certificate.page_words.table} {place} {table.caption[:20]}"
         numbered = [at for at, body in enumerate(bodies) if any(each.startswith(begins) for each in body)]
         if not numbered or not table_layout(table).is_whole:

@@ -18,7 +18,9 @@ from zlmreport.certificate.readings import missing_readings
 from zlmreport.certificate.results import Evaluated, section_key
 from zlmreport.certificate.standard_layout import (
     designations,
+    in_smaller_type,
     main_graph,
+    on_a_page,
     parameters,
     said_of_all,
     together,
@@ -57,7 +59,8 @@ def lay_out(of: Material) -> LaidOut:
     sections: list[Section] = []
     pages = together(of.evaluated, of.writer)
     for page in pages:
-        beside = 0.0 if sections else columns.head_height(of.letterhead, of.title)
+        begins = not sections and not of.as_found
+        beside = columns.head_height(of.letterhead, of.title) if begins else 0.0
         section, left_over = _sheet(of, page, beside if page is pages[-1] else beside - _GAINED)
         beyond |= left_over
         sections.append(section)
@@ -98,9 +101,11 @@ def _beside_as_found(of: Material, sections: Sequence[Section]) -> Iterator[Sect
         return iter(sections)
     from zlmreport.certificate.as_found import beside_as_found  # noqa: PLC0415 - of the few that need it
 
-    return beside_as_found(
+    comparison, *others = beside_as_found(
         keys, sections, of.as_found, of.evaluated, of.writer, lambda each, _: _sheet(of, (each,), 0.0)[0]
     )
+    free = columns.PAGES[of.job.keys.certificate.paper] - columns.head_height(of.letterhead, of.title)
+    return iter((on_a_page(in_smaller_type(comparison), free), *others))
 
 
 def _sheet(of: Material, page: tuple[Evaluated, ...], beside: float) -> tuple[Section, dict[str, str]]:

@@ -82,13 +82,13 @@ def lay_out(of: Material) -> LaidOut:
         on_cover if is_said_at_end else (*on_cover, *said),
         (
             *_results(of, pages, page if breaks else None),
-            *map(_in_less_room, _besides_conditions(of)),
+            *map(in_smaller_type, _besides_conditions(of)),
             *in_common(pages, of.writer),
             *others,
             last,
             *readings_sections(of),
-            _in_less_room(origin_section(of)),
-            *map(_in_less_room, opinions_and_model(of)),
+            in_smaller_type(origin_section(of)),
+            *map(in_smaller_type, opinions_and_model(of)),
         ),
         is_compact=True,
     )
@@ -115,11 +115,12 @@ def _results(of: Material, pages: Pages, room_of_page: float | None) -> Iterator
         sections = beside_as_found(
             keys, sections, of.as_found, of.evaluated, of.writer, lambda each, writer: page((each,), writer)
         )
-        yield _on_a_page(_in_less_room(next(sections)), columns.PAGES[of.job.keys.certificate.paper])
+        comparison = on_a_page(in_smaller_type(next(sections)), columns.PAGES[of.job.keys.certificate.paper])
+        yield replace(comparison, new_page=room_of_page is not None)
     if room_of_page is None:
         yield from sections
     else:
-        yield from (replace(_on_a_page(each, room_of_page), new_page=True) for each in sections)
+        yield from (replace(on_a_page(each, room_of_page), new_page=True) for each in sections)
 
 
 def _without_graphs(section: Section) -> Section:
@@ -127,12 +128,12 @@ def _without_graphs(section: Section) -> Section:
     return replace(section, blocks=tuple(each for each in section.blocks if not isinstance(each, Graph)))
 
 
-def _in_less_room(section: Section) -> Section:
+def in_smaller_type(section: Section) -> Section:
     """Return a section with graphs no higher than they must be, and tables in smaller type."""
     return replace(section, blocks=tuple(map(_smaller, section.blocks)))
 
 
-def _on_a_page(section: Section, page: float) -> Section:
+def on_a_page(section: Section, page: float) -> Section:
     """Return a section with its graphs somewhat lower, if that makes it fit on a page.
 
     Panels beside each other are low already: they give way last.
