@@ -15,6 +15,7 @@ from hidden_effects.judge import judged
 from hidden_effects.records import Record
 from hidden_effects.run import run, with_slow_ways
 from hidden_effects.tables import report
+from hidden_effects.tables.experiments import report as of_experiments
 
 _SECONDS_PER_MINUTE = 60
 _FIRST_DRAW = 1000
@@ -42,7 +43,7 @@ _OF_EXPERIMENTS = _Benchmark(
     "experiments",
     "Hide effects in small tests; where a diagnosis names several, follow its advice, and diagnose again.",
     experiments.judged,
-    experiments.report,
+    of_experiments,
     experiments.chosen,
 )
 _OF_PRIORS = _Benchmark(

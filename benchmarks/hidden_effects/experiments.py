@@ -7,7 +7,8 @@ of its own. It is diagnosed alone, or held together with the first where the adv
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+import time
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from typing import Any
 
@@ -16,8 +17,6 @@ import numpy as np
 from hidden_effects.cases import Case, Kind
 from hidden_effects.judge import INSTALLED, named
 from hidden_effects.records import Record
-from hidden_effects.tables.markdown import table
-from hidden_effects.tables.shares import Share
 from hidden_effects.trial import OF_A_GAUGE, Measured, Trial, drawn_trial, measured, sum_of
 from hidden_effects.weather import wandering
 from zlmreport.model.axis_model import ModelError
@@ -35,7 +34,6 @@ from zlmreport.simulation.description import Noise, noise_of
 _TARGETS, _RUNS = (7, 9, 11, 15), (2, 3, 4)
 #: Expected difference of the criteria of two effects from which on they hardly tie (`Trial.nearest`).
 _APART = 20.0
-_PROMISED = (0.95, 0.8, 0.5)
 
 
 def chosen(cases: Iterable[Case]) -> Iterator[tuple[Case]]:
@@ -55,12 +53,14 @@ def judged(case: Case) -> Record:
     if len(trial.twins) == 1 and nearest is not None and nearest[1] > _APART:
         return named(case) | {"outcome": "nothing like it"}
     plan = trial.description.plan
+    started = time.process_time()
     try:
         first = diagnose(
             trial.model, observations_of(trial.first.measurements, overrun=plan.overrun), INSTALLED
         )
     except ModelError as error:
         return named(case) | {"outcome": "refused", "message": str(error)}
+    diagnosed = time.process_time()
     question = question_of_tie(first)
     if question is None or first.verdict is not Verdict.MISSING or case.hidden[0] not in question.names:
         return named(case) | {"outcome": "no tie with the truth in it"}
@@ -68,10 +68,12 @@ def judged(case: Case) -> Record:
     expected = Expected(question.sigma, rise)
     advice = next_experiment(question, plan, expected, INSTALLED, trial.description.seed)
     found = named(case) | {"outcome": "judged", "tied": list(question.names), "decides": advice.decides}
+    found |= {"diagnosis": diagnosed - started, "experiment": time.process_time() - diagnosed}
     if advice.plan is None:
         return found | {"followed": None}
     design = question.next_design(advice.plan, expected)
-    return found | {"minutes": advice.minutes, "followed": _followed(trial, advice, advice.plan, design)}
+    found |= {"minutes": advice.minutes, "session": advice.plan.after is not None}
+    return found | {"followed": _followed(trial, advice, advice.plan, design)}
 
 
 def _followed(trial: Trial, advice: Experiment, plan: Plan, expected: Design) -> dict[str, Any]:
@@ -113,25 +115,3 @@ def _measured_again(trial: Trial, plan: Plan, design: Design, known: FloatArray)
         conditions={name: course for name, course in first.conditions.items() if name in design.conditions},
     )
     return measured(description, design, known, irregular + sum_of(trial.effects, design))
-
-
-def report(records: Sequence[Record], state: str) -> str:
-    """Return the table."""
-    ties = [each for each in records if each["outcome"] == "judged"]
-    return "\n".join([f"{len(records)} cases of code {state}: {len(ties)} ties.", "", *_table(ties)])
-
-
-def _table(ties: Sequence[Record]) -> Iterator[str]:
-    rows: list[tuple[object, ...]] = []
-    most = np.inf
-    for least in _PROMISED:
-        own = [each for each in ties if each["followed"] and least <= each["decides"] < most]
-        came = [each["followed"]["decision"] for each in own]
-        stated = f"{100 * float(np.mean([each['decides'] for each in own])):.0f}" if own else "–"
-        shares = [Share.of(each == way for each in came) for way in ("right", "undecided", "wrong")]
-        rows.append((f"≥ {least}", len(own), stated, *shares))
-        most = least
-    rows.append(("no plan is worth it", sum(not each["followed"] for each in ties), "–", "–", "–", "–"))
-    yield from table(
-        ("promised", "ties", "promised on average, %", "decided rightly", "undecided", "wrong"), rows
-    )

@@ -21,6 +21,7 @@ from hidden_effects.sizes import base_columns, beyond
 from hidden_effects.sparse import sparse
 from hidden_effects.stepwise import stepwise
 from hidden_effects.tables import report
+from hidden_effects.tables.experiments import report as of_experiments
 from hidden_effects.tables.outcome import outcome
 from hidden_effects.tables.shares import Share
 from hidden_effects.tables.targets import targets
@@ -261,7 +262,7 @@ class TestExperiments:
         tie = Case(Kind.EFFECT, ("backlash-gradient",), Method.QUASI_PILGRIM, Scatter.CLEAN, 1.0, 0)
         found = experiments.judged(tie)
         assert found["followed"]["decision"] == "right"
-        assert "| ≥ 0.95 | 1 | 95 | 100.0" in experiments.report([found], "state")
+        assert "| ≥ 0.95 | 1 | 96 | 100.0" in of_experiments([found], "state")
 
 
 class TestLearned:

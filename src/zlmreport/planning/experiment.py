@@ -8,7 +8,7 @@ that lead, and clearly before its rivals; the cheapest that will is advised.
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import combinations
@@ -105,25 +105,32 @@ def next_experiment(  # noqa: PLR0913 - what is asked, what is known, what may b
     for each in _options(question, plan, [(), *((one,) for one in changes)]):
         options.append(looked(each))
         told(0.5 * len(options) / (1 + len(changes)))
-    if all(each.decides < _ENOUGH for each in options):
+    judged = partial(_thorough, question, expected, effects, seed)
+    tried = list(_judged(judged, options)) if any(each.decides >= _ENOUGH for each in options) else []
+    told(0.75)
+    # The rivals alone look easier to tell apart than among all effects: then several changes together.
+    if all(each.decides < _ENOUGH for each in tried):
         leading = sorted(options, key=_surest)[:_COMBINED]
         single = [each.changes[0] for each in leading if each.changes]
         several = [each for count in (2, 3) for each in combinations(single, count)]
         apart = [each for each in several if len({change.of for change in each}) == len(each)]
-        options += [looked(each) for each in _options(question, plan, apart)]
-    promising = [each for each in options if each.decides >= _ENOUGH]
-    surest = sorted(options, key=_surest)
-    order = [*sorted(promising, key=lambda each: each.plan.duration)[:1], *surest]
-    order = [each for number, each in enumerate(order) if each not in order[:number]]
-    tried: list[_Option] = []
-    told(0.75)
-    count = _BEST if order and order[0].decides >= _NOT_WORTH_IT else 1
-    for option in order[:count]:
-        tried.append(_thorough(question, expected, effects, seed, option))
-        if tried[-1].decides >= _ENOUGH:
-            break
+        combined = [looked(each) for each in _options(question, plan, apart)]
+        tried += _judged(judged, combined if tried else [*options, *combined])
+        options += combined
     best = max(tried, key=lambda each: each.decides, default=_Option((), plan))
     return _experiment(question, expected, best, len(options))
+
+
+def _judged(judged: Callable[[_Option], _Option], options: Sequence[_Option]) -> Iterator[_Option]:
+    """Yield the cheapest plan that promises enough and the surest ones, judged, until one decides."""
+    promising = [each for each in options if each.decides >= _ENOUGH]
+    cheapest = min(promising, key=lambda each: each.plan.duration, default=None)
+    surest = [each for each in sorted(options, key=_surest) if each is not cheapest]
+    order = [*([cheapest] if cheapest else []), *surest]
+    for option in order[: _BEST if order and order[0].decides >= _NOT_WORTH_IT else 1]:
+        yield (found := judged(option))
+        if found.decides >= _ENOUGH:
+            return
 
 
 def _surest(option: _Option) -> tuple[float, float]:
