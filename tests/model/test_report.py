@@ -7,7 +7,7 @@ import pytest
 
 from model.axis_tests import hidden, linear_test, model_of, noise
 from zlmreport.model.fit import fit
-from zlmreport.model.report import report_covariance, report_model, report_residuals
+from zlmreport.model.report import report_model, report_precision
 
 _DESIGN = linear_test(11, 3)
 _DEVIATION = 2e-6 + hidden(_DESIGN, "thermal-growth", [300.0], size=8.0) + noise(_DESIGN)
@@ -15,7 +15,7 @@ _FIT = fit(model_of("offset", "thermal-growth"), _DESIGN, _DEVIATION)
 
 
 def test_covariance_has_the_standard_uncertainties_on_its_diagonal() -> None:
-    found = report_covariance(_FIT)
+    found = report_precision(_FIT)["covariance"]
     expected = {
         f"{each['effect']}.{each['name']}": each["expanded_uncertainty"] / each["coverage_factor"]
         for each in report_model(_FIT)["parameters"]
@@ -25,12 +25,29 @@ def test_covariance_has_the_standard_uncertainties_on_its_diagonal() -> None:
 
 
 def test_parameter_is_wholly_correlated_with_itself() -> None:
-    correlation = np.array(report_covariance(_FIT)["correlation"])
+    correlation = np.array(report_precision(_FIT)["covariance"]["correlation"])
     np.testing.assert_allclose(np.diagonal(correlation), 1.0)
     assert np.all(np.abs(correlation) <= 1.0 + 1e-12)
 
 
+def test_covariance_is_symmetric() -> None:
+    covariance = np.array(report_precision(_FIT)["covariance"]["covariance"])
+    np.testing.assert_array_equal(covariance, covariance.T)
+
+
+def test_intervals_are_in_the_units_of_the_parameters() -> None:
+    parameters = report_model(_FIT)["parameters"]
+    intervals = report_precision(_FIT)["intervals"]
+    assert [each["unit"] for each in intervals] == [each["unit"] for each in parameters]
+    for each, parameter in zip(intervals, parameters, strict=True):
+        assert each["low"] < parameter["value"] < each["high"]
+
+
+def test_residuals_are_left_out_where_single_readings_are_not_told() -> None:
+    assert "residuals" not in report_precision(_FIT, with_residuals=False)
+
+
 def test_residuals_are_what_the_model_leaves_of_each_reading() -> None:
-    found = report_residuals(_FIT)
+    found = report_precision(_FIT)["residuals"]
     assert [each["residual"] for each in found] == pytest.approx((_FIT.residual * 1e6).tolist())
     assert (found[0]["direction"], found[0]["run"]) == ("+", 1)

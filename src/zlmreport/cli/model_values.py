@@ -18,13 +18,7 @@ from zlmreport.measurement.axis import Axis
 from zlmreport.model.design import at_positions, outside_of_measured
 from zlmreport.model.effect import Shape
 from zlmreport.model.fit import Fit, Prediction
-from zlmreport.model.report import (
-    report_covariance,
-    report_error,
-    report_model,
-    report_noise,
-    report_residuals,
-)
+from zlmreport.model.report import report_error, report_model, report_noise, report_precision
 from zlmreport.model.study import Fitted, one_way
 from zlmreport.quantities.arrays import FloatArray
 
@@ -74,14 +68,13 @@ def points_of(fit: Fit, positions: Sequence[float]) -> Points | None:
 
 
 def fit_values(fitted: Fitted) -> dict[str, Any]:
-    """Return a fitted model with its parameters, their covariance, its error and its residuals."""
+    """Return a fitted model with its parameters, how well they are known, its error and its residuals."""
     axis = fitted.fit.design.axis
     return {
         "schema": FIT,
         "model": report_model(fitted.fit),
         "error": report_error(fitted.error, axis),
-        "covariance": report_covariance(fitted.fit),
-        "residuals": report_residuals(fitted.fit),
+        **report_precision(fitted.fit),
         "noise": report_noise(fitted.fit.noise, axis),
         "polynomials": [
             {

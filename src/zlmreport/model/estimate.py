@@ -296,7 +296,8 @@ def estimates_of(
                 u, nu = by_place.get((index, column), (0.0, inf))
                 is_scanned = u == 0 or not np.isfinite(u)
                 if is_scanned:
-                    u, nu = _half_width(problem, solution, index, column, uncertainties.sigma) / sqrt(3), inf
+                    low, high = scanned_ends(problem, solution, index, column, uncertainties.sigma)
+                    u, nu = max(value - low, high - value) / sqrt(3), inf
                 estimate = Estimate(term.effect.identifier, parameter, value, u, nu, is_scanned=is_scanned)
             found.append(_expecting(estimate, term, problem.design.axis))
     return tuple(_as_linked(each, found, problem) for each in found)
@@ -335,17 +336,18 @@ def _expecting(estimate: Estimate, term: Term, axis: Axis) -> Estimate:
     return replace(estimate, expected=expected)
 
 
-def _half_width(problem: Problem, solution: Solution, index: int, column: int, sigma: float) -> float:
-    """Return half the interval of a θ that jumps from value to value and has no derivative.
+def scanned_ends(
+    problem: Problem, solution: Solution, index: int, column: int, sigma: float
+) -> tuple[float, float]:
+    """Return the ends of the interval of a θ that jumps from value to value and has no derivative.
 
     Its likelihood is flat between two readings, and falls in steps: the interval is that of the values of
     the grid which four variances of a reading do not exclude, and half the distance to the next on each side.
     """
     theta = solution.thetas[index]
-    value = float(theta[column])
     values = np.unique(problem.model.terms[index].grid(problem.design)[:, column])
     limit = solution.squares + 4.0 * sigma**2
-    possible = [int(np.argmin(np.abs(values - value)))]
+    possible = [int(np.argmin(np.abs(values - theta[column])))]
     for number, other in enumerate(values.tolist()):
         moved = theta.copy()
         moved[column] = other
@@ -353,4 +355,4 @@ def _half_width(problem: Problem, solution: Solution, index: int, column: int, s
         if problem.solution(thetas).squares <= limit:
             possible.append(number)
     ends = np.concatenate([values[:1], (values[1:] + values[:-1]) / 2, values[-1:]])
-    return float(max(value - ends[min(possible)], ends[max(possible) + 1] - value))
+    return float(ends[min(possible)]), float(ends[max(possible) + 1])

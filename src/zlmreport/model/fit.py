@@ -15,6 +15,7 @@ import numpy as np
 from zlmreport.model.axis_model import AxisModel, refuse_collisions
 from zlmreport.model.contrasts import Contrasts, contrasts_of, restricted_estimate, whitener
 from zlmreport.model.design import Design
+from zlmreport.model.effect import Parameter
 from zlmreport.model.estimate import (
     Estimate,
     InstrumentError,
@@ -96,6 +97,19 @@ class Fit:
             return self
         design = of_readings(self.design, own)
         return replace(self, design=design, deviation=self.deviation[own], fitted=self.fitted[own])
+
+    @property
+    def columns(self) -> tuple[tuple[str, Parameter], ...]:
+        """The parameters in the order of their covariance, each with the identifier of its effect."""
+        terms = self.model.terms
+        solved = (
+            (term.effect.identifier, parameter)
+            for term in terms
+            for parameter, is_solved in zip(term.effect.linear, term.is_solved, strict=True)
+            if is_solved
+        )
+        effects = ((terms[place.term].effect, place.column) for place in self.places)
+        return (*solved, *((effect.identifier, effect.searched[column]) for effect, column in effects))
 
     @property
     def degrees(self) -> int:

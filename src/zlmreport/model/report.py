@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from math import isfinite
 from typing import Any
 
 import numpy as np
@@ -12,12 +13,14 @@ from zlmreport.measurement.axis import Axis
 from zlmreport.model import wording
 from zlmreport.model.design import Design
 from zlmreport.model.diagnosis import EXPLAINS, Candidate, Diagnosis, ErrorNumbers, Verdict
-from zlmreport.model.effect import unit_of
+from zlmreport.model.effect import Parameter, unit_of
 from zlmreport.model.estimate import Estimate
 from zlmreport.model.fit import Fit
 from zlmreport.model.noise import Noise
+from zlmreport.model.profile import intervals
 from zlmreport.model.residuals import Failure
 from zlmreport.model.visibility import Visibility
+from zlmreport.quantities.units import Unit
 
 SCHEMA = "zlmreport/diagnosis/1"
 #: Probability from which on a candidate is worth a word.
@@ -132,47 +135,59 @@ def report_model(fitted: Fit) -> dict[str, Any]:
     }
 
 
-def report_covariance(fitted: Fit) -> dict[str, Any]:
+def report_precision(fitted: Fit, *, with_residuals: bool = True) -> dict[str, Any]:
+    """Return how well a model is known: covariance and intervals of its parameters, and what it leaves.
+
+    Without residuals where single readings are not to be told.
+    """
+    residuals = {"residuals": _residuals(fitted.of_the_job)} if with_residuals else {}
+    return {"covariance": _covariance(fitted), "intervals": _intervals(fitted), **residuals}
+
+
+def _covariance(fitted: Fit) -> dict[str, Any]:
     """Return how the estimated parameters hang together, in the units in which they are reported."""
-    design = fitted.design
-    terms = fitted.model.terms
-    listed = [
-        (term.effect.identifier, parameter)
-        for term in terms
-        for parameter, is_solved in zip(term.effect.linear, term.is_solved, strict=True)
-        if is_solved
-    ]
-    listed += [
-        (terms[place.term].effect.identifier, terms[place.term].effect.searched[place.column])
-        for place in fitted.places
-    ]
-    units = [
-        unit_of(each.dimension, design.axis.kind, time_is_counted=design.time_is_counted)
-        for _, each in listed
-    ]
+    units = [_unit(each, fitted.design) for _, each in fitted.columns]
     covariance = fitted.uncertainties.covariance
     scale = np.array([each.per_si for each in units])
     deviations = np.sqrt(np.diagonal(covariance))
     deviations = np.where(deviations > 0, deviations, 1.0)
     return {
-        "parameters": [f"{effect}.{each.name}" for effect, each in listed],
+        "parameters": [f"{effect}.{each.name}" for effect, each in fitted.columns],
         "units": [each.ascii for each in units],
         "covariance": (covariance * np.outer(scale, scale)).tolist(),
         "correlation": (covariance / np.outer(deviations, deviations)).tolist(),
     }
 
 
-def report_residuals(fitted: Fit) -> list[dict[str, Any]]:
+def _intervals(fitted: Fit) -> list[dict[str, Any]]:
+    """Return from where to where the readings leave each parameter; null where they exclude nothing."""
+    return [
+        {
+            "parameter": f"{each.effect}.{each.parameter.name}",
+            "unit": (unit := _unit(each.parameter, fitted.design)).ascii,
+            "low": each.low * unit.per_si if isfinite(each.low) else None,
+            "high": each.high * unit.per_si if isfinite(each.high) else None,
+            "open": [side for side in ("low", "high") if getattr(each, f"{side}_is_open")],
+        }
+        for each in intervals(fitted)
+    ]
+
+
+def _residuals(fitted: Fit) -> list[dict[str, Any]]:
     """Return what the model leaves of each reading, in the order in which they were taken."""
-    fitted = fitted.of_the_job
     design = fitted.design
+    unit = design.axis.deviation_unit
     positions = design.axis.position_unit.from_si(design.position).tolist()
-    residuals = design.axis.deviation_unit.from_si(fitted.residual).tolist()
+    residuals = unit.from_si(fitted.residual).tolist()
     signs = ["+" if each > 0 else "-" for each in design.direction.tolist()]
     return [
-        {"target": target, "direction": sign, "run": run, "residual": residual}
+        {"target": target, "direction": sign, "run": run, "residual": residual, "unit": unit.ascii}
         for target, sign, run, residual in zip(positions, signs, design.run.tolist(), residuals, strict=True)
     ]
+
+
+def _unit(parameter: Parameter, design: Design) -> Unit:
+    return unit_of(parameter.dimension, design.axis.kind, time_is_counted=design.time_is_counted)
 
 
 def report_error(error: ErrorNumbers, axis: Axis) -> dict[str, Any]:
@@ -203,7 +218,7 @@ def report_noise(noise: Noise, axis: Axis) -> dict[str, Any]:
 
 
 def _estimate(estimate: Estimate, design: Design) -> dict[str, Any]:
-    unit = unit_of(estimate.parameter.dimension, design.axis.kind, time_is_counted=design.time_is_counted)
+    unit = _unit(estimate.parameter, design)
     found = {
         "name": estimate.parameter.name,
         "value": estimate.value * unit.per_si,

@@ -138,7 +138,7 @@ def refine(problem: Problem, start: Solution) -> Solution:
             either = [problem.solution(place.moved(best.thetas, shift)) for shift in (step, -step)]
             best = _better(best, min(either, key=_squares))
         steps = [step / 2 for step in steps]
-    return _gauss_newton(problem, best, places)
+    return descend(problem, best)
 
 
 def tangents(model: AxisModel, design: Design, solution: Solution, places: Sequence[Place]) -> FloatArray:
@@ -160,8 +160,12 @@ def tangents(model: AxisModel, design: Design, solution: Solution, places: Seque
     return found
 
 
-def _gauss_newton(problem: Problem, best: Solution, places: Sequence[Place]) -> Solution:
-    """Return the best fit by damped steps in θ, the linear parameters following (L. Kaufman's Jacobian)."""
+def descend(problem: Problem, start: Solution, settled: float = 0.0) -> Solution:
+    """Return the best fit by damped steps in θ, the linear parameters following (L. Kaufman's Jacobian).
+
+    A step that changes the sum of squares by less than `settled` is the last.
+    """
+    best, places = start, problem.places(start.thetas)
     damping = _SMALLEST_DAMPING
     spacings = np.array([place.spacing for place in places])
     for _ in range(_STEPS if places else 0):
@@ -183,11 +187,12 @@ def _gauss_newton(problem: Problem, best: Solution, places: Sequence[Place]) -> 
         for place, shift in zip(places, step * spacings, strict=True):
             thetas = place.moved(thetas, float(shift))
         tried = problem.solution(thetas)
+        change = abs(tried.squares - best.squares)
         if tried.squares < best.squares:
             best, damping = tried, max(damping / 10, _SMALLEST_DAMPING)
         else:
             damping = max(damping * 100, 1e-6)
-        if np.abs(step).max() < _CONVERGED or damping > _LARGEST_DAMPING:
+        if np.abs(step).max() < _CONVERGED or damping > _LARGEST_DAMPING or change < settled:
             break
     return best
 

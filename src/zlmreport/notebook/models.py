@@ -235,23 +235,15 @@ class Model:
 
     def _columns(self) -> list[tuple[int, float]]:
         """Return for each estimated parameter its place in the fit's covariance, and its unit over SI."""
-        fit, design = self.fit, self.fit.design
-        solved = sum(int(np.count_nonzero(term.is_solved)) for term in fit.model.terms)
-        searched = {(place.term, place.column): solved + n for n, place in enumerate(fit.places)}
-        found, linear = [], 0
-        for number, term in enumerate(fit.model.terms):
-            places: list[int | None] = []
-            for is_solved in term.is_solved:
-                places.append(linear if is_solved else None)
-                linear += bool(is_solved)
-            places += [searched.get((number, column)) for column in range(len(term.effect.searched))]
-            for place, parameter in zip(places, (*term.effect.linear, *term.effect.searched), strict=True):
-                if place is not None:
-                    unit = unit_of(
-                        parameter.dimension, design.axis.kind, time_is_counted=design.time_is_counted
-                    )
-                    found.append((place, float(unit.per_si)))
-        return found
+        design, columns = self.fit.design, self.fit.columns
+        return [
+            (
+                columns.index(own),
+                unit_of(own[1].dimension, design.axis.kind, time_is_counted=design.time_is_counted).per_si,
+            )
+            for each in self.fit.estimates
+            if (own := (each.effect, each.parameter)) in columns
+        ]
 
     def at(self, positions: ArrayLike) -> Table:
         """Return the deviation anywhere on the measured travel, with its expanded uncertainty.

@@ -102,7 +102,7 @@ _ROOMS = {
         "needs_passing_time needs_rotary_axis needs_runs needs_stated needs_targets needs_whole_period"
     ),
     "zlmreport.model.harmonic": "harmonic_columns harmonic_parameters",
-    "zlmreport.model.report": "report_error report_model",
+    "zlmreport.model.report": "report_error report_model report_precision",
     "zlmreport.planning.programs": (
         "Motion ProgramOptions axis_address program_heading=heading program_number reading_remark=remark"
     ),

@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 from jsonschema import Draft202012Validator
 
+from model.hidden_effect import example_diagnosis
 from typesetting import samples
 from uncertainty.budgets import contribution
 from zlmreport.certificate.attachments import Role, Source
@@ -255,6 +256,18 @@ def test_findings_say_what_is_asked_what_was_found_and_whether_it_is_met() -> No
 
 def test_there_is_a_place_for_the_error_model() -> None:
     assert sample()["model"] == {"effects": [], "parameters": [], "error": {}}
+
+
+def test_error_model_has_what_is_known_of_its_parameters_and_what_it_leaves() -> None:
+    results = render(replace(samples.certificate(), diagnosis=example_diagnosis()))
+    Draft202012Validator(SCHEMA).validate(results)
+    model = results["model"]
+    names = [f"{each['effect']}.{each['name']}" for each in model["parameters"]]
+    assert (model["covariance"]["parameters"], [each["parameter"] for each in model["intervals"]]) == (
+        names,
+        names,
+    )
+    assert len(model["residuals"]) == len(example_diagnosis().fit.residual)
 
 
 def test_provenance_tells_files_programs_and_remarks() -> None:

@@ -142,13 +142,15 @@ def _model(certificate: Certificate) -> Json:
     diagnosis = certificate.diagnosis
     if diagnosis is None:
         return {"effects": [], "parameters": [], "error": {}}
-    from zlmreport.plugin import report_error, report_model  # noqa: PLC0415 - brings the error model
+    from zlmreport.plugin import report_error, report_model, report_precision  # noqa: PLC0415 - brings the error model
 
     error = report_error(diagnosis.error, certificate.measurements.axis)
+    simplified = certificate.job is not None and certificate.job.keys.agreement.simplified
     return {
         **report_model(diagnosis.fit),
         "error": {key: value for key, value in error.items() if value is not None},
         "verdict": diagnosis.verdict.value,
+        **report_precision(diagnosis.fit, with_residuals=not simplified),
     }
 
 
