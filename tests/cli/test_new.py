@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import importlib.util
+import json
 import subprocess
 import sys
 from pathlib import Path
 from types import ModuleType
 from typing import Any
 
+import numpy as np
 import pytest
 
+from model.axis_tests import linear_test, noise
 from zlmreport.cli import main
 from zlmreport.cli.new import GUIDES
 from zlmreport.plugins import find_plugins
@@ -26,8 +29,8 @@ def begun(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Any:
     monkeypatch.chdir(tmp_path)
     monkeypatch.syspath_prepend(str(tmp_path / "my-plugin"))
 
-    def begin(kind: str) -> Path:
-        assert main(["new", kind, "my-plugin"]) == 0
+    def begin(kind: str, *options: str) -> Path:
+        assert main(["new", kind, "my-plugin", *options]) == 0
         importlib.invalidate_caches()
         return tmp_path / "my-plugin"
 
@@ -111,6 +114,7 @@ def test_what_is_there_is_not_touched(begun: Any, capsys: pytest.CaptureFixture[
         (["standart", "x"], "zlmreport new: there is no kind 'standart'; did you mean 'standard'?"),
         (["effect", "My effect"], "zlmreport new: 'My effect' is no name for a plugin; write lower-case"),
         (["effect", "../x"], "zlmreport new: '../x' is no name for a plugin"),
+        (["source", "x", "--from", "job.yaml"], "zlmreport new: --from takes a formula, which is an effect"),
     ],
 )
 def test_wrong_command_line_is_told(
@@ -120,3 +124,63 @@ def test_wrong_command_line_is_told(
     assert main(["new", *arguments]) == 2
     assert capsys.readouterr().err.startswith(sentence)
     assert not list(tmp_path.iterdir())
+
+
+_JOB = """schema: zlmreport/job/1
+certificate: {{number: OWN-1, kind: report}}
+axis: {{name: X, kind: linear, travel: [0, 1000]}}
+measurement: {{date: 2026-01-05, source: {{plugin: laser-csv, file: x.csv}}}}
+evaluate: [iso230-2:2014]
+model:
+  effects:
+    - offset
+    - {effect}
+"""
+_UM, _MM = "{unit: um, range: [-20, 20]}", "{unit: mm, range: [60, 500]}"
+_FORMULAS = [
+    ("a*sin(2*pi*P/L) + b*cos(2*pi*P/L)", f"{{a: {_UM}, b: {_UM}, L: {_MM}}}"),
+    ("a*D*exp(-(P - 300)^2/lambda^2)", f"{{a: {_UM}, lambda: {_MM}}}"),
+    (
+        "k*(axis_temperature - 20)*P + a*(1 - exp(-t/T))",
+        "{k: {unit: um/(m K)}, a: {unit: um}, T: {unit: s, value: 900}}",
+    ),
+    ("a*min(P/L, run)*step(P - 200) - s*abs(P - 500)", f"{{a: {_UM}, s: {{unit: um/m}}, L: {_MM}}}"),
+]
+
+
+@pytest.mark.parametrize(("formula", "parameters"), _FORMULAS, ids=["wave", "bump", "warmth", "kinks"])
+def test_formula_becomes_a_plugin_that_gives_the_same_fit(
+    formula: str, parameters: str, begun: Any, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    design = linear_test(15, 3)
+    rows = zip(
+        design.position * 1e3,
+        design.direction,
+        design.run,
+        3 * np.sin(design.position * 20) + noise(design) * 1e6,
+        design.time,
+        design.conditions["axis_temperature"] - 273.15,
+        strict=True,
+    )
+    lines = ["target,direction,run,deviation,time,axis_temperature"]
+    lines += [",".join(f"{each:.12g}" for each in row) for row in rows]
+    (tmp_path / "x.csv").write_text("\n".join(lines) + "\n", encoding="utf-8")
+    written = f'{{name: my-plugin, formula: "{formula}", parameters: {parameters}}}'
+    job = tmp_path / "job.yaml"
+    job.write_text(_JOB.format(effect=written), encoding="utf-8")
+    capsys.readouterr()
+    assert main(["model", "fit", str(job), "--json"]) == 0
+    expected = json.loads(capsys.readouterr().out)
+    folder = begun("effect", "--from", str(job))
+    named = capsys.readouterr().out.partition("instead of the formula: ")[2].strip()
+    _imported("my_plugin", folder)
+    _imported("test_my_plugin", folder).test_conforms()
+    job.write_text(_JOB.format(effect=named), encoding="utf-8")
+    assert main(["model", "fit", str(job), "--json", "--plugin", str(folder / "my_plugin.py")]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["error"]["rms"] == pytest.approx(expected["error"]["rms"], rel=1e-9)
+    values = {each["name"]: each["value"] for each in found["model"]["parameters"]}
+    of_formula = {each["name"]: each["value"] for each in expected["model"]["parameters"]}
+    assert values == pytest.approx({name: of_formula[name] for name in values}, rel=1e-6, abs=1e-9)
+    left = [each["residual"] for each in found["residuals"]]
+    assert left == pytest.approx([each["residual"] for each in expected["residuals"]], abs=1e-6)

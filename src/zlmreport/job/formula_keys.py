@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from fractions import Fraction
+from functools import reduce
 from types import MappingProxyType
 from typing import Annotated, TypeAlias, TypeGuard
 
@@ -20,8 +21,10 @@ from zlmreport.quantities.formula import (
     TEMPERATURE,
     TIME,
     TRAVEL,
+    Call,
     FormulaError,
     Name,
+    Number,
     Tree,
     UnitOf,
     computed,
@@ -175,6 +178,10 @@ class Formula:
         The parameters that are factors of whole terms, in the order of the file.
     searched
         The others.
+    stated
+        Values of parameters that the file gives.
+    multiplied
+        What each linear parameter is multiplied with.
     """
 
     def __init__(self, keys: FormulaKeys, tree: Tree, units: Mapping[str, UnitOf]) -> None:
@@ -183,9 +190,15 @@ class Formula:
         self.names = names_in(tree)
         known = {*keys.parameters, *VARIABLES}
         self.columns = tuple(name for name in self.names if name not in known)
-        self._terms = terms_of(tree)
-        self.linear = _linear(self._terms, list(keys.parameters))
+        terms = terms_of(tree)
+        self.linear = _linear(terms, list(keys.parameters))
         self.searched = tuple(name for name in keys.parameters if name not in self.linear)
+        self.stated = {
+            name: each.value / units[name].per_si
+            for name, each in keys.parameters.items()
+            if each.value is not None
+        }
+        self.multiplied = {name: _multiplied_with(name, terms) for name in self.linear}
 
     @classmethod
     def of(cls, keys: FormulaKeys, kind: AxisKind) -> Formula:
@@ -221,17 +234,8 @@ class Formula:
         """
         known: dict[str, FloatArray | float] = {**readings, **searched}
         count = max((np.size(each) for each in readings.values()), default=1)
-        found = np.zeros((count, len(self.linear)))
-        for term in self._terms:
-            place = next(
-                self.linear.index(each.text)
-                for each in term
-                if isinstance(each, Name) and each.text in self.linear
-            )
-            factors = [computed(each, known) for each in term if not _is_one_of(each, self.linear)]
-            with np.errstate(all="ignore"):
-                found[:, place] += np.prod(np.broadcast_arrays(np.ones(count), *factors), axis=0)
-        return found
+        columns = (computed(tree, known) for tree in self.multiplied.values())
+        return np.stack([np.broadcast_to(each, (count,)) for each in columns], axis=1)
 
     def _refuse_undetermined(self, keys: FormulaKeys) -> None:
         """Refuse parameters that no readings at all could tell apart: two that stand for one."""
@@ -309,6 +313,16 @@ def _linear(terms: tuple[tuple[Tree, ...], ...], parameters: list[str]) -> tuple
         if not any(_is_one_of(factor, found) for factor in term):
             raise FormulaError("each term must have a size to be estimated, as a in a*sin(P/L)")
     return tuple(name for name in parameters if name in found)
+
+
+def _multiplied_with(name: str, terms: tuple[tuple[Tree, ...], ...]) -> Tree:
+    """Return what a parameter is multiplied with: of each of its terms the other factors."""
+    products = []
+    for term in terms:
+        if Name(name) in term:
+            factors = [each for each in term if each != Name(name)] or [Number(1.0)]
+            products.append(reduce(lambda one, other: Call("*", (one, other)), factors))
+    return reduce(lambda one, other: Call("+", (one, other)), products)
 
 
 def _is_one_of(factor: Tree, names: tuple[str, ...] | list[str]) -> TypeGuard[Name]:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from itertools import product
+from types import MappingProxyType
 
 import numpy as np
 
@@ -32,6 +33,42 @@ _LOOK = Words(en="The residuals follow {formula}.", de="Die Residuen folgen {for
 _MEANING = Words(en="parameter of {formula}", de="Parameter von {formula}")
 
 
+def search_grid(
+    design: Design, searched: Sequence[Parameter], known: Mapping[str, float] = MappingProxyType({})
+) -> FloatArray:
+    """Return values of parameters that a search begins with, shape (g, len(searched)).
+
+    They lie between the ends of the plausible ranges, which must be stated; lengths and times as close as
+    waves of them ask for.
+
+    Parameters
+    ----------
+    design
+        The test.
+    searched
+        The parameters.
+    known
+        Values, SI, of those that are not searched, by name.
+    """
+    each = [
+        np.array([known[parameter.name]]) if parameter.name in known else _starts(parameter, design)
+        for parameter in searched
+    ]
+    share = int(_MOST ** (1.0 / len(each))) if each else 0
+    thinner = [one[np.linspace(0, len(one) - 1, min(len(one), share)).astype(int)] for one in each]
+    rows = list(product(*thinner))
+    return np.array(rows, dtype=np.float64).reshape(len(rows), len(each))
+
+
+def _starts(parameter: Parameter, design: Design) -> FloatArray:
+    low, high = parameter.smallest or 0.0, parameter.largest or 0.0
+    if low <= 0:
+        return np.linspace(low, high, 2 * _FEWEST)
+    extent = design.duration if parameter.dimension is Dimension.TIME else design.length
+    wanted = _FEWEST + _PER_PERIOD * extent * (1.0 / low - 1.0 / high)
+    return 1.0 / np.linspace(1.0 / high, 1.0 / low, int(min(wanted, _MOST)))
+
+
 class FormulaEffect(Effect):
     """An effect that is written as a formula in a file.
 
@@ -39,32 +76,39 @@ class FormulaEffect(Effect):
     ------
     FormulaError
         If it cannot be meant for an axis of this kind.
+
+    Attributes
+    ----------
+    keys
+        As the file says it.
+    formula
+        In SI, and parted into what is solved and what is searched.
     """
 
     ranges_from = _STATED
 
     def __init__(self, keys: FormulaKeys, kind: AxisKind) -> None:
-        self._formula = Formula.of(keys, kind)
-        self._keys = keys
+        self.formula = Formula.of(keys, kind)
+        self.keys = keys
         dimensions = {unit_of(each, kind).ascii: each for each in reversed(Dimension)}
         self.identifier = keys.name
         self.title = same(keys.title or keys.name)
         self.equation = keys.formula
         self.remedy = same(keys.remedy) if keys.remedy else None
         self.look = _LOOK.given(formula=keys.formula)
-        self.linear = tuple(self._parameter(name, dimensions) for name in self._formula.linear)
-        self.searched = tuple(self._parameter(name, dimensions) for name in self._formula.searched)
+        self.linear = tuple(self._parameter(name, dimensions) for name in self.formula.linear)
+        self.searched = tuple(self._parameter(name, dimensions) for name in self.formula.searched)
         self.shape = self._shape()
 
     def _parameter(self, name: str, dimensions: dict[str, Dimension]) -> Parameter:
-        own, per_si = self._keys.parameters[name], self._formula.units[name].per_si
+        own, per_si = self.keys.parameters[name], self.formula.units[name].per_si
         low, high = (None, None) if own.range is None else (each / per_si for each in own.range)
-        meaning = _MEANING.given(formula=self._keys.formula)
+        meaning = _MEANING.given(formula=self.keys.formula)
         return Parameter(name, name, dimensions[own.spelled], meaning, low, high)
 
     def _shape(self) -> Shape:
-        names = self._formula.names
-        if {"t", "v"} & {*names} or self._formula.columns:
+        names = self.formula.names
+        if {"t", "v"} & {*names} or self.formula.columns:
             return Shape.TIME
         if "run" in names:
             return Shape.RUN
@@ -72,48 +116,33 @@ class FormulaEffect(Effect):
 
     def untestable(self, design: Design) -> Words | None:
         """Demand the logged columns of the formula; the feed is one, where a formula has it."""
-        feed = ("v",) if "v" in self._formula.names else ()
-        return needs_logged(design, *self._formula.columns, *feed)
+        feed = ("v",) if "v" in self.formula.names else ()
+        return needs_logged(design, *self.formula.columns, *feed)
 
     def grid(self, design: Design) -> FloatArray:
-        """Return values between the ends of the ranges; lengths and times as close as waves of them ask."""
-        each = [self._values(parameter, design) for parameter in self.searched]
-        share = int(_MOST ** (1.0 / len(each))) if each else 0
-        thinner = [one[np.linspace(0, len(one) - 1, min(len(one), share)).astype(int)] for one in each]
-        rows = list(product(*thinner))
-        return np.array(rows, dtype=np.float64).reshape(len(rows), len(each))
-
-    def _values(self, parameter: Parameter, design: Design) -> FloatArray:
-        own = self._keys.parameters[parameter.name]
-        if own.value is not None:
-            return np.array([own.value / self._formula.units[parameter.name].per_si])
-        low, high = parameter.smallest or 0.0, parameter.largest or 0.0
-        if low <= 0:
-            return np.linspace(low, high, 2 * _FEWEST)
-        extent = design.duration if parameter.dimension is Dimension.TIME else design.length
-        wanted = _FEWEST + _PER_PERIOD * extent * (1.0 / low - 1.0 / high)
-        return 1.0 / np.linspace(1.0 / high, 1.0 / low, int(min(wanted, _MOST)))
+        """Return values between the ends of the ranges; those that are stated are known."""
+        return search_grid(design, self.searched, self.formula.stated)
 
     def columns(self, design: Design, theta: FloatArray) -> FloatArray:
         """Return what each linear parameter is multiplied with."""
-        return self._formula.values(self._readings(design), self._named(theta))
+        return self.formula.values(self._readings(design), self._named(theta))
 
     def shortest_wave(self, along: Design, theta: FloatArray) -> float:
         """Return the length of the shortest wave at rising positions, m or rad; infinite without any."""
-        calls = calls_in(self._formula.tree, _WAVES)
+        calls = calls_in(self.formula.tree, _WAVES)
         phases = [self._over_position(call.arguments[0], along, theta)(along.position) for call in calls]
         return 2 * np.pi * _shortest(along, phases)
 
     def shortest_fading(self, along: Design, theta: FloatArray) -> float:
         """Return the shortest length over which a part of it comes or goes, m or rad; infinite without."""
-        calls = calls_in(self._formula.tree, _FADING)
+        calls = calls_in(self.formula.tree, _FADING)
         values = [self._over_position(call, along, theta)(along.position) for call in calls]
         return _shortest(along, [value / np.abs(value).max() for value in values if value.any()])
 
     def joints(self, along: Design, theta: FloatArray) -> list[float]:
         """Return where it jumps or bends between rising positions, m or rad."""
         found: list[float] = []
-        for call in calls_in(self._formula.tree, _JOINTS):
+        for call in calls_in(self.formula.tree, _JOINTS):
             zero = Call("-", call.arguments) if len(call.arguments) > 1 else call.arguments[0]
             value = self._over_position(zero, along, theta)
             signs = np.nan_to_num(np.sign(value(along.position)))
@@ -140,12 +169,12 @@ class FormulaEffect(Effect):
     def _readings(self, design: Design) -> dict[str, FloatArray]:
         readings = {"P": design.position, "D": design.direction, "t": design.time}
         readings["run"] = design.run.astype(np.float64)
-        for name in self._formula.columns:
+        for name in self.formula.columns:
             kind = CONDITIONS.get(name)
             log = design.conditions[name]
             readings[name] = log if kind is None else kind.unit.from_si(log)
-        if "v" in self._formula.names:
-            readings["v"] = design.conditions["v"] / self._formula.units["v"].per_si
+        if "v" in self.formula.names:
+            readings["v"] = design.conditions["v"] / self.formula.units["v"].per_si
         return readings
 
 

@@ -86,7 +86,7 @@ def _intervals(fitted: Fit, problem: Problem) -> Iterator[Interval]:
             reach = _reach(_rise(fitted, problem, index, each, sign), usual, most, each.coverage_factor)
             are_open.append(reach is None)
             ends.append(bound if reach is None else each.value + sign * min(hypot(reach, widening), most))
-        yield Interval(each.effect, each.parameter, *ends, *are_open)
+        yield Interval(each.effect, each.parameter, ends[0], ends[1], are_open[0], are_open[1])
 
 
 def _scanned(fitted: Fit, problem: Problem, index: int, estimate: Estimate) -> Interval:

@@ -101,6 +101,7 @@ _ROOMS = {
         "Confusion Dimension Effect Parameter Shape needs_both_directions needs_linear_axis needs_logged "
         "needs_passing_time needs_rotary_axis needs_runs needs_stated needs_targets needs_whole_period"
     ),
+    "zlmreport.model.formula": "search_grid",
     "zlmreport.model.harmonic": "harmonic_columns harmonic_parameters",
     "zlmreport.model.report": "report_error report_model report_precision",
     "zlmreport.planning.programs": (

@@ -117,7 +117,8 @@ def new(command: str) -> CommandParser:
         f"zlmreport {command}",
         "Write the folder of a plugin that works as it is, with its conformance test: put your own in\n"
         "its place. No file that is there already is touched.",
-        "example:\n  zlmreport new standard shop-rule && python -m pytest shop-rule",
+        "examples:\n  zlmreport new standard shop-rule && python -m pytest shop-rule\n"
+        "  zlmreport new effect my-wave --from job.yaml",
     )
     parser.add_argument(
         "kind",
@@ -126,6 +127,13 @@ def new(command: str) -> CommandParser:
     )
     parser.add_argument(
         "name", metavar="NAME", help="of the plugin and its folder, as jobs will name it: shop-rule"
+    )
+    parser.add_argument(
+        "--from",
+        dest="job",
+        metavar="JOB.yaml",
+        type=Path,
+        help="of an effect: a job with a formula of this name; the plugin gives the same values",
     )
     return parser
 
