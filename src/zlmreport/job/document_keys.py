@@ -1,10 +1,8 @@
 """The keys of a job file on the document itself: what ISO/IEC 17025:2017 asks of it beside its results."""
 
-from __future__ import annotations
-
 import operator
 import re
-from typing import Annotated, Literal, TypeAlias
+from typing import Annotated, Literal, Self, TypeAlias
 
 from pydantic import AfterValidator, Field, field_validator, model_validator
 
@@ -30,7 +28,7 @@ class Amends(JobPart):
         description="Why it is changed.", examples=["The serial number of the machine was wrong."]
     )
     changes: list[Lines] = Field(
-        default_factory=list,
+        [],
         description="What is changed, one text a change.",
         examples=[["Serial number: 4712 instead of 4711"]],
     )
@@ -54,7 +52,7 @@ class Location(JobPart):
     )
 
     @model_validator(mode="after")
-    def _has_an_address(self) -> Location:
+    def _has_an_address(self) -> Self:
         """Refuse a place whose address nothing else in the job states."""
         if self.address is None and self.kind not in {"laboratory", "customer"}:
             raise ValueError(f"a location of kind {self.kind} needs an address")
@@ -79,7 +77,7 @@ class External(JobPart):
         None, description="The provider's own document.", examples=["Report 2026-88"]
     )
     keys: list[Text] = Field(
-        default_factory=list,
+        [],
         description="Keys of this job that hold them: marked wherever they are printed.",
         examples=[["environment.axis_temperature"]],
     )
@@ -264,7 +262,7 @@ class CertificateKeys(JobPart):
         return sections
 
     @model_validator(mode="after")
-    def _arranges_what_has_sections(self) -> CertificateKeys:
+    def _arranges_what_has_sections(self) -> Self:
         if self.layout == "sheet" and self.sections is not None:
             raise ValueError(
                 "a sheet has a page for each standard and no sections; choose layout: standard, or full"

@@ -1,9 +1,7 @@
 """The keys of a job on what is made of readings, standards to error model; and of a test still to be done."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
-from typing import Any, Literal, TypeAlias
+from typing import Any, Literal, Self, TypeAlias
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
@@ -123,13 +121,13 @@ class UncertaintyKeys(JobPart):
         "at-each-position, and no parameter that compares positions has a smaller U than the instrument.",
     )
     negligible: dict[ContributorName, Text] = Field(
-        default_factory=dict,
+        {},
         description="Contributors that are negligible, each with the reason; what is neither stated nor "
         "negligible is missing, and U is then incomplete.",
         examples=[{"device_temperature": "laser, no length of its own"}],
     )
     contributions: list[ContributionKeys] = Field(
-        default_factory=list,
+        [],
         max_length=100,
         description="Anything else.",
         examples=[[{"name": "Dead path", "range": 0.3, "acts": "at-each-reading"}]],
@@ -177,7 +175,7 @@ class StandardKeys(BaseModel):
 
     standard: Text = Field(description="Identifier of an installed standard, edition included.")
     tolerances: dict[str, Positive] = Field(
-        default_factory=dict,
+        {},
         description="Limits by the symbols of the results file, micrometres (arc seconds).",
         examples=[{"A": 20}],
     )
@@ -212,17 +210,17 @@ class Model(JobPart):
     """The error model of the axis."""
 
     effects: list[str | dict[str, Any]] = Field(
-        default_factory=list,
+        [],
         description="Effects in the model; a mapping fixes parameters, bounds or links them ({min, max} or "
         "{equals: other-effect.parameter}), or writes an effect as a formula.",
         examples=[["offset", "scale-error", "backlash"]],
     )
     candidates: list[dict[str, Any]] = Field(
-        default_factory=list,
+        [],
         description="Effects written as formulas, which a diagnosis tries beside the installed ones.",
     )
     sessions: list[JobPath] = Field(
-        default_factory=list,
+        [],
         description="Jobs of further tests of the same axis, on other days or at other temperatures: the "
         "model is held against all of them, each with its own zero. They are not evaluated.",
         examples=[["second-test.yaml"]],
@@ -246,7 +244,7 @@ class NoiseKeys(JobPart):
     probabilities: list[NotNegative] = Field(min_length=1, description="Of each of them.")
 
     @model_validator(mode="after")
-    def _of_each_ratio(self) -> NoiseKeys:
+    def _of_each_ratio(self) -> Self:
         if len(self.ratios) != len(self.probabilities) or not sum(self.probabilities) > 0:
             raise ValueError("each ratio has a probability, and these are not all 0")
         return self
@@ -362,7 +360,7 @@ class PlanKeys(JobPart):
         examples=[{"minutes": 60, "change": 3}],
     )
     programs: list[ProgramKeys] = Field(
-        default_factory=list,
+        [],
         description="Part programs that are written beside the plan; a bare identifier stands for "
         "{program: …}.",
         examples=[["linuxcnc"]],

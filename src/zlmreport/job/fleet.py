@@ -157,7 +157,7 @@ class FleetKeys(JobPart):
         examples=[["machines/*/*.yaml"]],
     )
     defaults: dict[str, Any] = Field(
-        default_factory=dict,
+        {},
         description="Keys of a job that all jobs build on, as if they extended a file of them.",
         examples=[{"decision_rule": "guard-band"}],
     )
@@ -172,7 +172,7 @@ class FleetKeys(JobPart):
         examples=[365],
     )
     retired: list[Text] = Field(
-        default_factory=list,
+        [],
         description="Jobs that are gone on purpose, as the ledger names them, with wildcards; any other that "
         "is gone is reported.",
         examples=[["machines/old-mill/*.yaml"]],
@@ -189,9 +189,7 @@ class FleetKeys(JobPart):
         "machine, named after the last day of whose tests it knows. A file that was written stays as it is.",
         examples=["priors"],
     )
-    notify: list[NotifyKeys] = Field(
-        default_factory=list, description="Who is told what is new after a night, and how."
-    )
+    notify: list[NotifyKeys] = Field([], description="Who is told what is new after a night, and how.")
     log: LogKeys | None = Field(None, description="What is kept of each night for people.")
     confine: JobPath | None = Field(
         None,

@@ -4,8 +4,6 @@ Units are those of the contract with users (mm, °, µm, ″, °C, hPa); `zlmrep
 into the SI values of the core.
 """
 
-from __future__ import annotations
-
 from typing import Literal
 
 from pydantic import Field
@@ -117,17 +115,17 @@ class JobKeys(JobPart):
         examples=["guard-band"],
     )
     provided_by_customer: list[Text] = Field(
-        default_factory=list,
+        [],
         description="Keys of this job whose values the customer supplied: marked wherever they are printed.",
         examples=[["environment.expansion_coefficient"]],
     )
     external: list[External] = Field(
-        default_factory=list,
+        [],
         description="Results that external providers supplied.",
         examples=[[{"results": "Temperatures of the machine's scale", "provider": "Thermometry Ltd"}]],
     )
     opinions: list[OpinionKeys] = Field(
-        default_factory=list,
+        [],
         description="Opinions and interpretations, in a section of their own.",
         examples=[[{"statement": "Play in the nut.", "basis": "The reversal value is alike everywhere."}]],
     )

@@ -1,7 +1,5 @@
 """The keys of a job file on the machine, its axis, and how the readings were taken and are corrected."""
 
-from __future__ import annotations
-
 from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
@@ -190,7 +188,7 @@ class Measurement(JobPart):
         examples=["Three runs instead of five, for want of time."],
     )
     excluded: list[ExclusionKeys] = Field(
-        default_factory=list,
+        [],
         description="Readings that are set aside, each with its reason.",
         examples=[
             [{"target": 213.4, "direction": "+", "run": 3, "reason": "Air hose touched the reflector."}]

@@ -121,13 +121,13 @@ class SimulationKeys(JobPart):
     feed: Positive = Field(2000.0, description="Feed, mm/min or degrees/min.")
     dwell: NotNegative = Field(5.0, description="Time at rest before each reading, s.")
     effects: list[str | dict[str, dict[str, Any] | None]] = Field(
-        default_factory=list,
+        [],
         description="Effects with the values of their parameters, in users' units.",
         examples=[[{"backlash": {"lost_motion": 4}}]],
     )
     noise: NoiseKeys = Field(default_factory=NoiseKeys, description="Everything random about the readings.")
     conditions: dict[str, CourseKeys] = Field(
-        default_factory=dict,
+        {},
         description="By the names of measurement files: axis_temperature, air_pressure …",
         examples=[{"axis_temperature": {"start": 20.4}}],
     )
