@@ -15,11 +15,11 @@ import os
 import shutil
 import stat
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Self
 
 from zlmreport.errors import AccessError, InputError, Place, Problem
+from zlmreport.values import dataclass
 
 #: Characters of a file's name that its hidden name repeats: a long name shall not become too long by that.
 _REPEATED = 40

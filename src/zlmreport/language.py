@@ -7,10 +7,11 @@ missing translation is a type error and not a surprise on a customer's certifica
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from enum import StrEnum
 
 from zlmreport.quantities.formatting import DecimalSign, general_number
+from zlmreport.values import dataclass
 
 
 class Language(StrEnum):

@@ -9,7 +9,7 @@ import contextlib
 import gc
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -37,6 +37,7 @@ from zlmreport.plugin.protocols import (
 from zlmreport.uncertainty.budget import Budget, NoBudget
 from zlmreport.uncertainty.expanded import with_uncertainty
 from zlmreport.uncertainty.job_budget import budget_of, refusals
+from zlmreport.values import dataclass
 
 if TYPE_CHECKING:
     from zlmreport.certificate.conditions import Described

@@ -6,7 +6,6 @@ With them anyone can evaluate it again; `zlmreport verify` does.
 from __future__ import annotations
 
 from collections.abc import Container, Iterable, Iterator
-from dataclasses import dataclass
 from enum import Enum, StrEnum
 from pathlib import PurePosixPath
 from typing import TYPE_CHECKING
@@ -15,6 +14,7 @@ from zlmreport.errors import InputError, Place
 from zlmreport.job.tree import scalars
 from zlmreport.job.types import path_from_job
 from zlmreport.language import Language, Words
+from zlmreport.values import dataclass
 
 if TYPE_CHECKING:
     from zlmreport.job.job import Job

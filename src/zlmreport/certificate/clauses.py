@@ -7,12 +7,12 @@ method (f), the results (m), and the fixed statements (l).
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from zlmreport.certificate.cover import place_of_work
 from zlmreport.certificate.own_words import left_out
 from zlmreport.errors import InputError, Problem
+from zlmreport.values import dataclass
 
 if TYPE_CHECKING:
     from zlmreport.job.job import Job

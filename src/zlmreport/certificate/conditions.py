@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Container, Iterator, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -29,6 +28,7 @@ from zlmreport.certificate.document import (
 from zlmreport.language import Words
 from zlmreport.measurement.axis import AxisKind
 from zlmreport.quantities import units
+from zlmreport.values import dataclass
 
 if TYPE_CHECKING:
     from zlmreport.job.job import Job

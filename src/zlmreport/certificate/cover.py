@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from zlmreport.certificate import conformity, statements, uncertainty
@@ -18,6 +17,7 @@ from zlmreport.certificate.values import Values, told_apart
 from zlmreport.evaluation.evaluation import Group
 from zlmreport.job.document_keys import Location
 from zlmreport.language import Words, same
+from zlmreport.values import dataclass
 
 if TYPE_CHECKING:
     from zlmreport.certificate.material import Material

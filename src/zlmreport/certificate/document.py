@@ -7,10 +7,12 @@ as `Symbol`, because they are set in italics and subscripts.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from datetime import date
 from enum import Enum
 from typing import TYPE_CHECKING, Literal, TypeAlias
+
+from zlmreport.values import dataclass
 
 if TYPE_CHECKING:
     from zlmreport.certificate.attachments import Attachment, Source

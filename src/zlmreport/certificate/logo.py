@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from pathlib import Path
 
 from zlmreport.errors import AccessError, InputError, Place
 from zlmreport.files import read, reason
 from zlmreport.measurement.provenance import SourceFile
+from zlmreport.values import dataclass
 
 _LARGEST = 2 * 1024 * 1024
 #: A few bytes can stand for a picture that fills the memory.

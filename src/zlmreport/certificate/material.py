@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from zlmreport.certificate import conditions, cover, origin, readings, results, uncertainty
 from zlmreport.certificate.statements import opinion_sections
+from zlmreport.values import dataclass
 
 if TYPE_CHECKING:
     from zlmreport.certificate.attachments import Source

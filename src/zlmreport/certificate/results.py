@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -32,6 +31,7 @@ from zlmreport.language import Words
 from zlmreport.presenting.writer import written_uncertainty
 from zlmreport.quantities.formatting import plain
 from zlmreport.uncertainty.wording import RAISED_TO
+from zlmreport.values import dataclass
 
 if TYPE_CHECKING:
     from zlmreport.evaluation.evaluation import Evaluation

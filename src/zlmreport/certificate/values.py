@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from zlmreport.certificate import conformity
@@ -11,6 +10,7 @@ from zlmreport.certificate.document import Align, Cell, Column, Symbol
 from zlmreport.language import Words
 from zlmreport.presenting.writer import NOTHING, Writer, with_uncertainty, written
 from zlmreport.quantities.formatting import fixed_number, plain
+from zlmreport.values import dataclass
 
 if TYPE_CHECKING:
     from zlmreport.evaluation.evaluation import Evaluation, Parameter, PositionQuantity, Quantity

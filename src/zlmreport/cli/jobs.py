@@ -5,7 +5,7 @@ from __future__ import annotations
 import shutil
 from argparse import Namespace
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -23,6 +23,7 @@ from zlmreport.language import Language
 from zlmreport.presenting.writer import Writer, written
 from zlmreport.quantities.formatting import plain
 from zlmreport.uncertainty.budget import Budget
+from zlmreport.values import dataclass
 from zlmreport.version import __version__
 
 if TYPE_CHECKING:

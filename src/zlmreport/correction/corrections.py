@@ -12,7 +12,7 @@ At the end stands what a job asks for: which corrections, and which readings are
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -28,6 +28,7 @@ from zlmreport.measurement.provenance import Correction, Exclusion
 from zlmreport.quantities.arrays import FloatArray, read_only_floats
 from zlmreport.quantities.formatting import general_number
 from zlmreport.quantities.units import MICROMETRE_PER_METRE_KELVIN, REFERENCE_TEMPERATURE, above_reference
+from zlmreport.values import dataclass
 
 #: Target positions nearer to each other than this share of their unit are the same.
 _SAME = 1e-6

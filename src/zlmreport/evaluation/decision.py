@@ -7,13 +7,14 @@ up to TL − w, and says what is stated beyond (ILAC-G8:09/2019; JCGM 106:2012, 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from enum import Enum
 from typing import TypeAlias
 
 from zlmreport.evaluation.evaluation import Conformity, Decision, Evaluation, Finding, Parameter
 from zlmreport.language import Words
 from zlmreport.quantities.formatting import plain
+from zlmreport.values import dataclass
 
 #: Binary doubles cannot hold 1 µm and 3 µm exactly: a range of exactly 2 µm must not fail a limit of 2 µm.
 _ROUNDING_OF_DOUBLES = 1e-9

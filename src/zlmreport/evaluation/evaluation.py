@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from enum import Enum
 
 from zlmreport.evaluation.statistics import PositionStatistics
 from zlmreport.language import Words
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.quantities.arrays import FloatArray
+from zlmreport.values import dataclass
 
 
 class Conformity(Enum):

@@ -7,12 +7,12 @@ NaN. Batch dimensions lead.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 
 from zlmreport.measurement.approach import Approach
 from zlmreport.quantities.arrays import BoolArray, FloatArray, IntArray
+from zlmreport.values import dataclass
 
 
 @dataclass(frozen=True, slots=True)

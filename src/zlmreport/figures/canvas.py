@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 from enum import Enum
 from html import escape
 from typing import Protocol, TypeAlias
+
+from zlmreport.values import dataclass
 
 #: Red, green, blue of sRGB, each from 0 to 1.
 Colour: TypeAlias = tuple[float, float, float]

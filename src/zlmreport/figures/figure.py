@@ -7,12 +7,12 @@ that the axes print (mm and µm, ° and ″).
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from enum import Enum
 
 from zlmreport.language import Words
 from zlmreport.measurement.approach import Approach
 from zlmreport.quantities.arrays import FloatArray
+from zlmreport.values import dataclass
 
 
 class Role(Enum):

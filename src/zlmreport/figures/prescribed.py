@@ -8,7 +8,6 @@ unidirectional test, or of a single run, shows what exists.
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 from typing import TypeVar
 
 import numpy as np
@@ -31,6 +30,7 @@ from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.axis import Axis
 from zlmreport.quantities.arrays import BoolArray, FloatArray, read_only_floats
 from zlmreport.quantities.formatting import plain
+from zlmreport.values import dataclass
 
 Mark = TypeVar("Mark")
 

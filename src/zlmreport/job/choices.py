@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from functools import partial
 from typing import Any, Self, TypeAlias
 
@@ -16,6 +16,7 @@ from zlmreport.job.installed import Installed, InstalledEffect, InstalledExtensi
 from zlmreport.job.sentences import shown
 from zlmreport.job.tree import Entry, Items, Keys, Node, Scalar, found_at, keys_of
 from zlmreport.job.types import Finite, JobPart, LiveInstrumentKeys, Options, keys_in, model_in
+from zlmreport.values import dataclass
 
 
 @dataclass(frozen=True, slots=True)

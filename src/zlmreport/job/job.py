@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +14,7 @@ from zlmreport.job.keys import JobKeys
 from zlmreport.job.tree import Keys, Step, keys_of, place_of
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.provenance import SourceFile
+from zlmreport.values import dataclass
 
 
 @dataclass(frozen=True, slots=True)

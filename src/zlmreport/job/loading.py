@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Generic, TypeVar
 
@@ -34,6 +34,7 @@ from zlmreport.measurement.position_table import TableColumn, read_position_tabl
 from zlmreport.measurement.provenance import SourceFile
 from zlmreport.quantities.formatting import plain
 from zlmreport.quantities.units import ANGLE_UNITS, MICRORADIAN, MILLIMETRE
+from zlmreport.values import dataclass
 
 _SOURCE = ("measurement", "source")
 _SOURCE_AS_FOUND = ("as_found", "measurement", "source")

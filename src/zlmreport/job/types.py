@@ -12,7 +12,6 @@ import posixpath
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextvars import ContextVar
-from dataclasses import dataclass
 from enum import Enum
 from pathlib import Path
 from types import UnionType
@@ -24,6 +23,7 @@ from pydantic.fields import FieldInfo
 from zlmreport.errors import Place, quoted
 from zlmreport.files import outside
 from zlmreport.job.tree import Step
+from zlmreport.values import dataclass
 
 _ENCLOSURE: ContextVar[Enclosure | None] = ContextVar("enclosure", default=None)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from enum import StrEnum
 from typing import Any
 
@@ -20,6 +20,7 @@ from zlmreport.quantities.units import (
     MILLIMETRE,
     Unit,
 )
+from zlmreport.values import dataclass
 
 
 class AxisKind(StrEnum):

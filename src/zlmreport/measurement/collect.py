@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from typing import TypeAlias
 
 import numpy as np
@@ -16,6 +16,7 @@ from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.measurement.measurement_set import CONDITIONS, MeasurementSet
 from zlmreport.measurement.provenance import Provenance
 from zlmreport.quantities.arrays import BoolArray, FloatArray, IntArray, read_only_floats, read_only_integers
+from zlmreport.values import dataclass
 
 Check: TypeAlias = Callable[[MeasurementSet, Sequence[Place]], Iterator[Problem]]
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from types import MappingProxyType
 
 import numpy as np
@@ -22,6 +22,7 @@ from zlmreport.quantities.units import (
     TEMPERATURE_UNITS,
     Scale,
 )
+from zlmreport.values import dataclass
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -14,6 +14,7 @@ from zlmreport.measurement.axis import PositionTable
 from zlmreport.measurement.text_file import TextFile, parse_number, read_text
 from zlmreport.quantities.formatting import DecimalSign
 from zlmreport.quantities.units import Unit, unit_named
+from zlmreport.values import dataclass
 
 _BRACKETED = re.compile(r"(.*?)\s*[(\[]\s*([^()\[\]]+?)\s*[)\]]")
 _DELIMITERS = ("\t", ";", ",")

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import hashlib
-from dataclasses import dataclass, field
+from dataclasses import field
 from pathlib import Path
 from typing import Self
 
 from zlmreport.language import Words
 from zlmreport.measurement.approach import Approach
+from zlmreport.values import dataclass
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,7 +7,6 @@ import difflib
 import math
 import re
 import unicodedata
-from dataclasses import dataclass
 from pathlib import Path
 
 from zlmreport.errors import AccessError, InputError, Place, quoted
@@ -15,6 +14,7 @@ from zlmreport.files import read, unreadable
 from zlmreport.measurement.provenance import SourceFile
 from zlmreport.measurement.workbook import SEPARATOR, is_workbook, sheet_lines
 from zlmreport.quantities.formatting import MINUS, DecimalSign
+from zlmreport.values import dataclass
 
 #: Of a measurement file, in bytes.
 LARGEST = 64 * 1024 * 1024

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 
 import numpy as np
 
@@ -17,6 +17,7 @@ from zlmreport.model.effect import Dimension, Effect, Parameter, unit_of
 from zlmreport.model.formula import FormulaEffect
 from zlmreport.quantities.arrays import BoolArray, FloatArray
 from zlmreport.quantities.formula import FormulaError
+from zlmreport.values import dataclass
 
 #: A combination of columns this much shorter than its longest member is zero but for rounding.
 _ROUNDING = 1e-10

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 
 import numpy as np
 
@@ -16,6 +16,7 @@ from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.axis import Axis
 from zlmreport.quantities.arrays import FloatArray, IntArray, read_only_floats, read_only_integers
 from zlmreport.quantities.units import Unit
+from zlmreport.values import dataclass
 
 _OF_THE_READINGS = (math.nan, math.nan)
 _ROUNDING = 1e-12

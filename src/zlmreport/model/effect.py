@@ -9,7 +9,6 @@ joins its needs by ``or``, the first that is not met answers::
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from enum import Enum
 from typing import Any, Protocol, runtime_checkable
 
@@ -21,6 +20,7 @@ from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.model.design import Design
 from zlmreport.quantities.arrays import FloatArray
 from zlmreport.quantities.units import ARCSECOND, DEGREE, MICROMETRE, MILLIMETRE, Unit
+from zlmreport.values import dataclass
 
 _NO_COLUMN = Words(
     en="no column {column} was logged beside the readings",

@@ -8,7 +8,7 @@ more than any effect explains, is said. What the rows themselves show is sure, w
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from enum import StrEnum
 from typing import TYPE_CHECKING
 
@@ -20,6 +20,7 @@ from zlmreport.model.design import Design
 from zlmreport.model.observations import of_readings
 from zlmreport.model.repeats import noise_floor, repeats
 from zlmreport.quantities.arrays import BoolArray, FloatArray, IntArray
+from zlmreport.values import dataclass
 
 if TYPE_CHECKING:
     from zlmreport.model.effect import Effect

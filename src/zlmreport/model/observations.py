@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import radians
 
 import numpy as np
@@ -14,6 +14,7 @@ from zlmreport.measurement.measurement_set import CONDITIONS, MeasurementSet
 from zlmreport.model.axis_model import ModelError
 from zlmreport.model.design import Design
 from zlmreport.quantities.arrays import FloatArray, IntArray, read_only_floats, read_only_integers
+from zlmreport.values import dataclass
 
 #: How far the axis is taken to travel beyond a target before it returns to it, m or rad.
 OVERRUN = {AxisKind.LINEAR: 5e-3, AxisKind.ROTARY: radians(1.0)}

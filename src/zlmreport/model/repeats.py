@@ -12,7 +12,6 @@ early) are flagged and set aside, never altered, and everything is fitted with a
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from enum import Enum
 
 import numpy as np
@@ -22,6 +21,7 @@ from zlmreport.model.design import Design
 from zlmreport.model.distributions import normal_tail
 from zlmreport.model.observations import of_readings
 from zlmreport.quantities.arrays import FloatArray, IntArray, read_only_integers
+from zlmreport.values import dataclass
 
 #: Growth along the axis is seen at this level, which the other tests share among them: weights that are not
 #: needed cost more than those that are missing.

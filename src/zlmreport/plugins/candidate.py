@@ -6,7 +6,6 @@ import inspect
 import re
 import traceback
 from collections.abc import Callable, Collection, Iterator, Mapping
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeAlias
 
@@ -15,6 +14,7 @@ import pluggy
 from zlmreport.boundary import guarded
 from zlmreport.errors import Place, Problem, did_you_mean
 from zlmreport.plugin.kinds import KINDS, PROJECT, Kind, specifications
+from zlmreport.values import dataclass
 
 #: Environment variable that switches plugins off.
 DISABLE = "ZLMREPORT_DISABLE_PLUGINS"

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Any, Self, TypeVar, cast
 
@@ -13,6 +12,7 @@ from zlmreport.language import Words
 from zlmreport.plugin import kinds
 from zlmreport.plugin.kinds import KINDS, Kind
 from zlmreport.plugins.candidate import DISABLE, Candidate, FailedPlugin, Plugin
+from zlmreport.values import dataclass
 
 if TYPE_CHECKING:
     from zlmreport.job.choices import ExtensionChoice

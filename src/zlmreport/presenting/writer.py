@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import datetime as dt
 import math
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -17,6 +16,7 @@ from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.quantities.arrays import FloatArray, decimals_of
 from zlmreport.quantities.formatting import fixed_number, general_number, rounded_pair
 from zlmreport.quantities.units import CELSIUS, Scale, Unit, with_unit
+from zlmreport.values import dataclass
 
 if TYPE_CHECKING:
     from zlmreport.evaluation.evaluation import Parameter

@@ -7,10 +7,11 @@ spans that a renderer sets, and the plain line for terminals and screen readers.
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from decimal import ROUND_HALF_EVEN, Context, Decimal
 from enum import StrEnum
 from math import ceil, floor, isfinite, log10
+
+from zlmreport.values import dataclass
 
 #: The minus sign, U+2212.
 MINUS = "\N{MINUS SIGN}"

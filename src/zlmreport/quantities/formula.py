@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Collection, Iterator, Mapping
-from dataclasses import dataclass
 from fractions import Fraction
 from types import MappingProxyType
 from typing import NamedTuple, TypeAlias
@@ -17,6 +16,7 @@ import numpy as np
 
 from zlmreport.errors import did_you_mean
 from zlmreport.quantities.arrays import FloatArray
+from zlmreport.values import dataclass
 
 _LONGEST, _DEEPEST = 500, 40
 _TOKEN = re.compile(

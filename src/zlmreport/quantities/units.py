@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
 from types import MappingProxyType
 from typing import TypeVar, overload
 
 from zlmreport.errors import did_you_mean
 from zlmreport.quantities.arrays import FloatArray
+from zlmreport.values import dataclass
 
 #: 0 °C in kelvin.
 ZERO_CELSIUS = 273.15

@@ -17,7 +17,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -25,6 +24,7 @@ from zlmreport.evaluation.evaluation import Evaluation
 from zlmreport.evaluation.statistics import position_statistics
 from zlmreport.quantities.arrays import BoolArray, FloatArray
 from zlmreport.uncertainty.monte_carlo import StandardArithmetic, seed_of, shortened
+from zlmreport.values import dataclass
 
 #: Pairs of simulated tests.
 PAIRS = 2_000

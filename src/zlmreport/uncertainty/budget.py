@@ -8,13 +8,13 @@ in rad.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from enum import Enum
 
 import numpy as np
 
 from zlmreport.language import Words
 from zlmreport.quantities.arrays import FloatArray
+from zlmreport.values import dataclass
 
 #: Probability that intervals y ± U hold the true value: 2 standard deviations of a normal distribution
 #: (JCGM 100, 6.2.2 and table G.1).

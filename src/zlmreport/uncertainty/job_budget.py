@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -41,6 +40,7 @@ from zlmreport.uncertainty.budget import (
     misalignment_range,
     temperature_range,
 )
+from zlmreport.values import dataclass
 
 #: Of the uncertainties that a job states as expanded.
 _COVERAGE_FACTOR = 2.0

@@ -9,7 +9,6 @@ from __future__ import annotations
 import hashlib
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from statistics import NormalDist
 
 import numpy as np
@@ -29,6 +28,7 @@ from zlmreport.uncertainty.budget import (
     effect_along,
 )
 from zlmreport.uncertainty.drift import Drift, drawn_drifts, drift_range, reading_times
+from zlmreport.values import dataclass
 
 #: U then scatters by 1 % at most from one sequence of random numbers to another, which the second digit
 #: hardly shows.
