@@ -50,8 +50,8 @@ _IN_HEADERS = "|".join(re.escape(spelling) for spelling in sorted(_SPELLED_OUT, 
 _RUN = r"(?:(?:run|cycle|lauf|messlauf|zyklus)[\s_.]*)?"
 #: ``1+``, ``1 ↓``, ``Run 1 fwd``, ``RUN 1``; ``+1``, ``fwd 1``, ``forward run 1``.
 _HEADERS = (
-    re.compile(rf"{_RUN}(?P<run>[1-9][0-9]{{0,5}})[\s_.]*(?P<direction>{_IN_HEADERS})?"),
-    re.compile(rf"(?P<direction>{_IN_HEADERS})[\s_.]*{_RUN}(?P<run>[1-9][0-9]{{0,5}})"),
+    rf"{_RUN}(?P<run>[1-9][0-9]{{0,5}})[\s_.]*(?P<direction>{_IN_HEADERS})?",
+    rf"(?P<direction>{_IN_HEADERS})[\s_.]*{_RUN}(?P<run>[1-9][0-9]{{0,5}})",
 )
 
 
@@ -88,8 +88,10 @@ def run_and_direction(header: str) -> tuple[int, Approach | None] | None:
     >>> run_and_direction("Run 2 bwd"), run_and_direction("RUN 3"), run_and_direction("Average")
     ((2, <Approach.NEGATIVE: -1>), (3, None), None)
     """
+    if header.isalpha():  # nearly always, and the patterns are large: they are read when they are needed
+        return None
     for form in _HEADERS:
-        match = form.fullmatch(header.strip().casefold())
+        match = re.fullmatch(form, header.strip().casefold())
         if match:
             spelling = match["direction"]
             return int(match["run"]), _SPELLED_OUT[spelling] if spelling else None
