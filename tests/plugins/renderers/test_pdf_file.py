@@ -12,13 +12,14 @@ from typing import Any
 import pytest
 from PIL import Image
 from pypdf import PdfReader
+from weasyprint import HTML
 
 from plugins.renderers.pdf_pages import elements, fonts, read, sample
 from processes import PYTHON, run
 from typesetting import samples
 from zlmreport.errors import AccessError
 from zlmreport.language import Language
-from zlmreport_plugins.renderers.pdf import PdfRenderer
+from zlmreport_plugins.renderers.pdf import PdfRenderer, press
 
 TESTS = Path(samples.__file__).parents[1]
 
@@ -124,7 +125,7 @@ _WATCHED = """
 import sys
 opened = []
 from typesetting import samples
-from zlmreport_plugins.renderers.pdf import PdfRenderer
+from zlmreport_plugins.renderers.pdf import PdfRenderer, press
 customer = "<img src='file:///etc/passwd'> <link href='http://example.com/'>"
 PdfRenderer().render(samples.certificate(standards=1))
 sys.addaudithook(lambda event, arguments: opened.append((event, str(arguments[0])))
@@ -132,6 +133,21 @@ sys.addaudithook(lambda event, arguments: opened.append((event, str(arguments[0]
 PdfRenderer().render(samples.certificate(standards=1, customer=customer))
 print([entry for entry in opened if not entry[1].startswith((sys.base_prefix, sys.prefix))])
 """
+
+
+def test_each_element_looks_as_by_the_style_sheet_of_weasyprint_which_is_left_out(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    certificate = samples.certificate()
+    pdf = press.press().print(certificate)
+    ours = press.style_sheet
+    monkeypatch.setattr(
+        press,
+        "style_sheet",
+        lambda *names, **look: ours(*(each for each in names if each != "elements"), **look),
+    )
+    monkeypatch.setattr(press._Document, "_ua_stylesheets", HTML._ua_stylesheets)
+    assert press.Press().print(certificate) == pdf
 
 
 def test_it_opens_no_file() -> None:

@@ -87,22 +87,23 @@ class Press:
         )
         self._faces = self._parsed(faces, supply)
         self._style = lru_cache(maxsize=4)(
-            lambda accent: self._parsed(style_sheet("certificate", "paged", accent=accent), supply)
+            lambda accent, paper: self._parsed(
+                style_sheet("elements", "certificate", "paged", paper, accent=accent), supply
+            )
         )
         self._own = lru_cache(maxsize=4)(self._of_own_look)
-        self._papers = {paper: self._parsed(style_sheet(paper), supply) for paper in ("A4", "Letter")}
 
     def print(self, certificate: Certificate) -> bytes:
         """Return a certificate as PDF."""
         head, graphs = certificate.letterhead, enumerate(certificate.figures)
         logo: Contents = {LOGO_ADDRESS: (head.logo, head.logo_type)} if head and head.logo else {}
-        document = _Document(ET.fromstring(compose_html(certificate)), Supply(logo))  # noqa: S314 (set here)
+        root = ET.fromstring(compose_html(certificate))  # noqa: S314 - set here
+        document = _Document(root, Supply(logo), has_any_element=bool(certificate.look.templates))
         with self._lock:
             pdf: bytes = document.write_pdf(
                 stylesheets=[
                     self._faces,
-                    self._style(certificate.look.accent),
-                    self._papers[certificate.paper],
+                    self._style(certificate.look.accent, certificate.paper),
                     *self._own(certificate.look),
                 ],
                 font_config=self._fonts,
@@ -151,15 +152,21 @@ def _finish(certificate: Certificate, _: Any, pdf: Any) -> None:
 class _Document(HTML):  # type: ignore[misc]
     """A document that is a tree already.
 
-    `HTML` itself only takes text, and parses it by the rules of HTML in ten times the time.
+    `HTML` itself only takes text, and parses it by the rules of HTML in ten times the time. Of elements that
+    only templates of a laboratory's own have, WeasyPrint's own style sheet says how they look.
     """
 
-    def __init__(self, root: ET.Element, supply: Supply) -> None:
+    def __init__(self, root: ET.Element, supply: Supply, *, has_any_element: bool = True) -> None:
+        self._has_any_element = has_any_element
         self.base_url = None
         self.url_fetcher = supply
         self.media_type = "print"
         self.wrapper_element: Any = ElementWrapper.from_html_root(root, content_language=None)
         self.etree_element = self.wrapper_element.etree_element
+
+    def _ua_stylesheets(self, forms: bool = False) -> list[CSS]:  # noqa: FBT001, FBT002 - as WeasyPrint has it
+        found: list[CSS] = super()._ua_stylesheets(forms) if self._has_any_element else []
+        return found
 
 
 _ENCLOSURE_ADDRESS = "attachment:{}"
