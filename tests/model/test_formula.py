@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from model.axis_tests import INSTALLED, linear_test, model_of, noise, observations
+from model.axis_tests import EFFECTS, INSTALLED, linear_test, model_of, noise, observations
 from zlmreport.job.formula_keys import FormulaKeys
 from zlmreport.language import Language
 from zlmreport.measurement.axis import AxisKind
@@ -53,3 +53,17 @@ def test_logged_temperature_is_in_degrees_celsius() -> None:
     effect = _effect("k*(axis_temperature - 20)*P", k={"unit": "um/(m K)"})
     expected = (_DESIGN.conditions["axis_temperature"] - 293.15) * _DESIGN.position
     np.testing.assert_allclose(effect.columns(_DESIGN, np.empty(0))[:, 0], expected, rtol=1e-9)
+
+
+def test_stated_value_of_a_formula_that_is_tried_is_no_search() -> None:
+    wave = _effect(
+        "a*sin(2*pi*P/L + f)",
+        a={"unit": "um", "range": [-20, 20]},
+        f={"unit": "deg", "range": [0, 180]},
+        L={"unit": "mm", "value": 260},
+    )
+    deviation = 6e-6 * np.sin(2 * np.pi * _DESIGN.position / 0.26 + 1.0) + noise(_DESIGN, sigma=4e-7)
+    found = diagnose(model_of("offset"), observations(_DESIGN, deviation), [EFFECTS["scale-error"], wave])
+    phase, length = found.candidates[0].estimates[1:]
+    assert phase.value == pytest.approx(1.0, abs=0.05)
+    assert (length.value, length.is_given) == (0.26, True)

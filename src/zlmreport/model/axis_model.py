@@ -82,9 +82,10 @@ class Term:
         return parameter.name not in self.fixed and parameter.name not in self.links
 
     def is_searched(self, design: Design) -> BoolArray:
-        """Which values of θ are estimated, shape (s,): a grid of one row is knowledge, not a search."""
-        known = len(self.effect.grid(design)) == 1
-        return np.array([not known and self._is_free(each) for each in self.effect.searched], dtype=np.bool_)
+        """Which values of θ are estimated, shape (s,): what is alike in all rows of a grid is known."""
+        is_known = np.ptp(self.effect.grid(design), axis=0) == 0
+        free = [self._is_free(each) for each in self.effect.searched]
+        return np.asarray(np.array(free, dtype=np.bool_) & ~is_known)
 
     def columns(self, design: Design, theta: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the columns whose coefficients are estimated, and the deviation that is given."""
