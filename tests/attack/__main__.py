@@ -22,7 +22,7 @@ os.environ["OPENBLAS_NUM_THREADS"] = "1"  # before any library is loaded: thread
 sys.path.insert(0, str(Path(__file__).parents[1]))  # for its neighbours, as pytest has them
 
 from attack.adversary import Input, answers, inputs, shown, shrunk, warm_up
-from attack.targets import targets
+from attack.targets import Target, targets
 
 #: Inputs of a process.
 _BATCH = 40
