@@ -232,7 +232,7 @@ def _digamma(x: float) -> float:
 def _trigamma(x: float) -> float:
     """Return ψ′(x) for x ≥ 1/2, by its recurrence and its asymptotic series."""
     total = 0.0
-    while x < 6:  # where the series is good to 1e-8
+    while x < 6:  # where the series is good to 1e-7
         total += 1 / x**2
         x += 1
     return total + 1 / x + 1 / (2 * x**2) + 1 / (6 * x**3) - 1 / (30 * x**5)
