@@ -52,7 +52,7 @@ def test_the_time_is_the_stamps_and_trusted_if_its_authority_is(
     stamped: bytes, own: Authority, tmp_path: Path
 ) -> None:
     state = signature_state(stamped, roots(own, tmp_path))
-    assert (state.integrity, state.is_trusted) == (Integrity.INTACT, True)
+    assert (state.integrity, state.is_trusted, state.is_time_trusted) == (Integrity.INTACT, True, True)
     signature, kept = state.signatures
     assert (signature.time, signature.stamped_by) == (own.now, "Common Name: Test Clock")
     assert signature.is_time_trusted

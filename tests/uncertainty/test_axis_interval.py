@@ -25,7 +25,7 @@ from zlmreport.uncertainty.axis_interval import (
 EULER = 0.5772156649015329
 RUNS = 40
 PAIRS = 20_000
-#: Quantiles of so many pairs, each taken both ways, scatter by 1.3 %; what the axis's scatter is known to adds.
+#: Quantiles of so many pairs, each taken both ways, scatter by 1.3 %; how well a scatter is known adds to it.
 BY_CHANCE = 0.05
 #: Of 95 %: of the normal distribution, for a scatter that is known well; of t with 39 degrees of freedom.
 NORMAL, STUDENT = 1.960, 2.023
@@ -163,7 +163,7 @@ def test_cells_that_differ_by_more_than_chance_are_each_drawn_to_their_common_sc
 
 
 @pytest.mark.parametrize(("deviations", "is_alone"), [(2.1, False), (2.3, True)])
-def test_a_cell_stands_out_by_2_2_standard_deviations_of_chance(deviations: float, is_alone: bool) -> None:
+def test_a_cell_stands_out_by_2_2_standard_deviations_of_chance(deviations: float, *, is_alone: bool) -> None:
     variances = np.ones((2, 11))
     variances[1, 4] = math.exp(deviations * math.sqrt(CHANCE))
     variance, freedom = _pooled(variances, np.full((2, 11), 4.0), np.zeros(11))
@@ -187,7 +187,7 @@ def test_three_of_ten_may_stand_out_and_the_fourth_is_the_rule() -> None:
 
 
 @pytest.mark.parametrize(("slope", "grows"), [(1.55, False), (1.70, True), (-1.55, False), (-1.70, True)])
-def test_scatter_grows_where_its_slope_is_three_standard_errors(slope: float, grows: bool) -> None:
+def test_scatter_grows_where_its_slope_is_three_standard_errors(slope: float, *, grows: bool) -> None:
     """Of 22 cells from −0.5 to 0.5: Σx² = 2.2, and u of the slope √(0.645/2.2) = 0.541."""
     positions = np.linspace(-0.5, 0.5, 11)
     growing = np.broadcast_to(np.exp(slope * positions), (2, 11)).copy()

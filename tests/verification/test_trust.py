@@ -57,6 +57,8 @@ def test_a_signature_is_trusted_if_its_certificate_is(issued: bytes, tmp_path: P
     trusted = pem(tmp_path / "laboratory.pem", certificate)
     code, found = run(pdf, "--trusted", str(trusted), "--require-signature")
     assert (code, found["verdict"], found["trusted"]) == (0, "holds", True)
+    assert "by the signer's own clock, which nothing proves" in found["signature"]["detail"]
+    assert found["time_trusted"] is False
 
 
 def test_without_trust_a_signed_certificate_is_consistent_and_no_more(

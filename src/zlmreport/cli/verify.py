@@ -220,6 +220,7 @@ def _values(path: Path, found: Verification, exit_code: int) -> dict[str, Any]:
         "verdict": found.outcome.value,
         "holds": _HOLDS[found.outcome],
         "trusted": found.is_trusted,
+        "time_trusted": found.is_time_trusted,
         "undecided": list(found.undecided),
         "differences": found.differences,
         "certificate": asdict(found.identity),

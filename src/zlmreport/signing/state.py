@@ -77,6 +77,13 @@ class SignatureState:
         """Whether every signature is intact and trusted."""
         return self.integrity is Integrity.INTACT and all(each.is_trusted for each in self.signatures)
 
+    @property
+    def is_time_trusted(self) -> bool:
+        """Whether every signature is intact, and has its time from a time stamp that is trusted."""
+        return self.integrity is Integrity.INTACT and all(
+            each.is_time_trusted for each in self.signatures if not each.is_stamp
+        )
+
 
 def signature_state(pdf: bytes, trusted: Sequence[Any] = ()) -> SignatureState:
     """Return what can be said of the signatures of a PDF, be it foreign, damaged or forged.

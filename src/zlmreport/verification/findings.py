@@ -92,6 +92,8 @@ class Verification:
     remarks: tuple[Words, ...] = field(default=())  #: What limits the comparison.
     is_signed: bool = False  #: Whether there is a signature, be it intact or not.
     is_trusted: bool = False  #: Whether it is intact, and made with a certificate that is trusted.
+    #: Whether a time stamp that is trusted says when it was made; the signer's own clock is none.
+    is_time_trusted: bool = False
 
     @property
     def outcome(self) -> Outcome:

@@ -47,6 +47,8 @@ _OWN_LOOK = Words(
     "beiliegen: wie die Seiten gezeichnet sind, ist nicht entschieden",
 )
 _NUMBER = re.compile(r"\d+[.,]\d+")
+#: Not those of a date, a standard or a document's own number.
+_WHOLE_NUMBER = re.compile(r"(?<![\w.,:/-])\d+(?![\d:/-]|[.,]\d)")
 _OTHER_RENDERER = Words(
     en="printed by {creator}, which is not installed here: how pages are drawn is not decided; to decide, "
     "install it",
@@ -112,6 +114,7 @@ def verify(
         _signature_finding(state, is_required=require_signature),
         is_signed=state.integrity is not Integrity.UNSIGNED,
         is_trusted=state.is_trusted,
+        is_time_trusted=state.is_time_trusted,
     )
     try:
         stated = stated_by(carrier)
@@ -234,16 +237,34 @@ def _compared(found: Verification, carrier: Carrier, stated: Stated, again: _Aga
         remark = _OTHER_RENDERER.given(creator=carrier.creator or "another renderer")
         return replace(_left_open(found), remarks=(remark,))
     if again.has_own_look:
-        lacking = guarded(lambda: _numbers(again.prints.carrier) - _numbers(carrier), carrier.place)
+        lacking = guarded(lambda: _taken(carrier, again.prints.carrier), carrier.place)
         detail = f"{', '.join(sorted(lacking)[:8])} cannot be read on its pages" if lacking else ""
         found = replace(_left_open(found), remarks=(_OWN_LOOK,))
         return replace(found, document=(*found.document, Finding.of("printed numbers", detail)))
     return found if printed.is_drawn_alike else replace(found, remarks=(_OTHER_LIBRARIES,))
 
 
-def _numbers(carrier: Carrier) -> Counter[str]:
-    """Return all numbers with decimals that are printed on the pages."""
-    return Counter(each for page in carrier.reader.pages for each in _NUMBER.findall(page.extract_text()))
+def _taken(stated: Carrier, again: Carrier) -> Counter[str]:
+    """Return the numbers that are printed again, in the usual look, and do not stand on the pages.
+
+    A whole number counts as taken only where others stand instead: heads of tables that go over pages are
+    repeated in one look and not in the other. Where the looks have other numbers of pages, those count none.
+    """
+    texts, texts_again = (
+        [page.extract_text() for page in carrier.reader.pages] for carrier in (stated, again)
+    )
+    taken = _numbers(texts_again, _NUMBER) - _numbers(texts, _NUMBER)
+    whole, whole_again = _numbers(texts, _WHOLE_NUMBER), _numbers(texts_again, _WHOLE_NUMBER)
+    of_pages = 0 if len(texts) == len(texts_again) else max(len(texts), len(texts_again))
+    gone, instead = (
+        Counter({each: count for each, count in numbers.items() if int(each) > of_pages})
+        for numbers in (whole_again - whole, whole - whole_again)
+    )
+    return taken + gone if instead else taken
+
+
+def _numbers(texts: Sequence[str], kind: re.Pattern[str]) -> Counter[str]:
+    return Counter(each for text in texts for each in kind.findall(text))
 
 
 def _named(generator: str, plugins: Mapping[str, str]) -> str:
@@ -314,7 +335,10 @@ def _signed(signature: Signature) -> Words:
             de="mit ihren Nachweisen verwahrt seit {when}, von {stamper}",
         )
         return kept.given(when=when, stamper=signature.signer)
-    by_clock = Words(en=", {when} by the signer's clock", de=", {when} nach der Uhr des Signierenden")
+    by_clock = Words(
+        en=", {when} by the signer's own clock, which nothing proves",
+        de=", {when} nach der Uhr des Signierenden, was nichts belegt",
+    )
     by_stamp = Words(
         en=", {when} by a time stamp of {stamper}, {trust}",
         de=", {when} nach einem Zeitstempel von {stamper}, {trust}",
