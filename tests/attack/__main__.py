@@ -31,7 +31,7 @@ _BATCH = 40
 def attacked(seed: int, wanted: int, until: float, only: str) -> int:
     """Attack until the time or the number is over, tell what was found, and return the number of findings."""
     done: Counter[str] = Counter()
-    found: dict[str, Input] = {}
+    found: set[str] = set()
     with tempfile.TemporaryDirectory(prefix="zlmreport-attack-") as folder:
         known = [each for each in targets(Path(folder)) if only in each.name]
         warm_up(known)
@@ -40,14 +40,21 @@ def attacked(seed: int, wanted: int, until: float, only: str) -> int:
             batch = [next(drawn) for _ in range(min(_BATCH, wanted - sum(done.values())))]
             for each, complained in answers(batch, known):
                 done[known[each.target].name] += 1
-                if complained:
-                    found.setdefault(f"{known[each.target].name}: {complained[:80]}", each)
-        for first, each in found.items():
-            least, complained = shrunk(each, known)
-            print(f"\n{first}\n{complained or 'not again'}\nedits {least.seeds}, attack {least.attack}")
-            print(shown(least, known), flush=True)
+                first = f"{known[each.target].name}: {complained[:80]}"
+                if complained and first not in found:
+                    found.add(first)
+                    print(f"\n{complained}\n{_least(each, known)}", flush=True)
     print(f"{sum(done.values())} inputs, seed {seed}: {len(found)} findings ({dict(done)})")
     return len(found)
+
+
+def _least(each: Input, known: Sequence[Target]) -> str:
+    """Return what shows an input again, with the fewest edits."""
+    least, complained = shrunk(each, known)
+    return (
+        f"{known[least.target].name}, edits {least.seeds}, attack {least.attack}: "
+        f"{complained or 'not again'}\n{shown(least, known)}"
+    )
 
 
 def _options(arguments: Sequence[str]) -> argparse.Namespace:

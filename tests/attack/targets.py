@@ -184,7 +184,8 @@ def _asked(folder: Path) -> int:
                 answer = client.request(method, path, content=body.encode("latin-1"))
                 assert answer.status_code < 500, f"{line!r}: {answer.status_code}"
     finally:
-        bench.end()
+        bench.diagnoses.end()
+        bench.commands.end()
     return 0
 
 

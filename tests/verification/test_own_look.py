@@ -22,7 +22,8 @@ def issued(request: pytest.FixtureRequest, tmp_path: Path) -> bytes:
     style = f"style: {{{request.param}}}, issued:"
     job = lay_out(tmp_path, laboratory=LABORATORY.replace("issued:", style))
     (tmp_path / "house").mkdir()
-    (tmp_path / "house" / "notice.html").write_text('<div>{% include "usual/notice.html" %} Telephone 4711</div>', "utf-8")
+    notice = '<div>{% include "usual/notice.html" %} Telephone 4711</div>'
+    (tmp_path / "house" / "notice.html").write_text(notice, "utf-8")
     return issue(job)
 
 
