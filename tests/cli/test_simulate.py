@@ -118,7 +118,7 @@ def test_a_condition_that_no_room_has_is_refused(
 
 
 def test_an_effect_beyond_all_bounds_is_refused(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    text = SOUND.partition("effects:")[0] + "effects: [{backlash: {lost_motion: 1e308}}]\n"
+    text = SOUND.partition("effects:")[0] + "effects: [{offset: {offset: 1e9}}]\n"
     (folder / "spec.yaml").write_text(text, encoding="utf-8")
     assert main(["simulate", "spec.yaml"]) == 2
-    assert "backlash: with these values it deviates beyond all bounds" in capsys.readouterr().err
+    assert "offset: with these values it deviates beyond all bounds" in capsys.readouterr().err

@@ -112,6 +112,12 @@ def test_a_source_without_its_gauge(folder: Path, capsys: pytest.CaptureFixture[
     assert "this source needs the gauge; state step_gauge" in refused(folder, capsys)
 
 
+def test_a_gauge_hotter_than_anything(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Its expansion is a number whose square is none, and a library would say so."""
+    changed(folder / "job.yaml", "gauge_temperature: 20.4", "gauge_temperature: 1e308")
+    assert "step_gauge.gauge_temperature: '1e308' is not a number of at most 1e+09" in refused(folder, capsys)
+
+
 def test_a_point_beyond_all_machines(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """Its square is no number, and a library would say so."""
     changed(folder / "probed.csv", "319.6028,202.4096,209.0917", "319.6028,202.4096,1e308")

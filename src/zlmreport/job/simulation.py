@@ -19,15 +19,10 @@ from zlmreport.job.installed import Installed
 from zlmreport.job.loading import axis_in_si
 from zlmreport.job.measurement_keys import AxisKeys
 from zlmreport.job.tree import Keys, found_at, key_place, place_of
-from zlmreport.job.types import JobPart, Text
+from zlmreport.job.types import Finite, JobPart, NotNegative, Positive, Text
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.provenance import SourceFile
 
-#: No axis is longer, no room hotter, no test slower; and every sum of such numbers is one.
-_LARGEST = 1e9
-Finite = Annotated[float, Field(ge=-_LARGEST, le=_LARGEST)]
-NotNegative = Annotated[float, Field(ge=0, le=_LARGEST)]
-Positive = Annotated[float, Field(gt=0, le=_LARGEST)]
 Share = Annotated[float, Field(ge=0, lt=1)]
 
 

@@ -230,12 +230,14 @@ Lines = Annotated[
 InWords = Annotated[Text, AfterValidator(_in_words)]
 #: The uncertainty of an instrument that is no single number.
 InstrumentUncertainty = Annotated[InWords, AfterValidator(_instrument_uncertainty)]
+#: No axis is longer, no room hotter, no test slower; and every square of such numbers is one.
+_LARGEST = 1e9
 #: A number above 0.
-Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
+Positive = Annotated[float, Field(gt=0, le=_LARGEST, allow_inf_nan=False)]
 #: A number from 0.
-NotNegative = Annotated[float, Field(ge=0, allow_inf_nan=False)]
-#: A number that is neither infinite nor "not a number".
-Finite = Annotated[float, Field(allow_inf_nan=False)]
+NotNegative = Annotated[float, Field(ge=0, le=_LARGEST, allow_inf_nan=False)]
+#: A number of a size that things have.
+Finite = Annotated[float, Field(ge=-_LARGEST, le=_LARGEST, allow_inf_nan=False)]
 #: A date as jobs write it: 2026-11-20.
 Date = Annotated[dt.date, BeforeValidator(_date)]
 
