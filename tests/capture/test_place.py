@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 from itertools import chain
+from math import exp, log
 
 import pytest
 
-from capture.moves import Axis, following, happened, kinds, listed
+from capture.moves import SETTINGS, Axis, following, happened, kinds, listed
 from capture.wandering import trial
-from zlmreport.capture.events import Unclear
+from zlmreport.capture.events import Mean, Unclear
+from zlmreport.capture.motion import Programme, Route
+from zlmreport.capture.place import Place, Stop, _Guess, _merged
+from zlmreport.measurement.approach import Approach
 from zlmreport.planning.methods import Method
 
 TARGETS = (0, 50, 100, 150, 200)
@@ -111,3 +115,64 @@ def test_what_once_was_misfiled_or_lost_is_asked_about(method: Method, seed: int
     done = trial(method, seed)
     assert (done.misfiled, done.lost, done.unnamed) == ([], set(), set())
     assert done.questions
+
+
+#: Targets 100 mm apart: 1 s of way and 3 s of rest from one to the next.
+PROGRAMME = Programme(listed(targets=TARGETS[::2], runs=2), SETTINGS)
+UP, DOWN = Approach.POSITIVE, Approach.NEGATIVE
+
+
+def placed(taken: int = 0) -> Place:
+    return Place(PROGRAMME, SETTINGS, taken, last=None)
+
+
+def stop(number: int, heading: Approach | None = UP, time: float = 0.0) -> Stop:
+    """Return a stop at the target of a visit, counted from 1."""
+    visit = PROGRAMME.visits[number - 1]
+    return Stop(visit.target, heading, heading, visit.position, Mean(0.0, 0.0, 100, 0, time, 3.0, {}))
+
+
+def test_explanations_that_end_alike_weigh_together() -> None:
+    guess = _Guess(0, log(0.25), None, 0, 0)
+    assert exp(_merged([guess, guess]).weight) == pytest.approx(0.5)
+
+
+def test_an_operator_is_believed_who_names_a_visit_that_nothing_speaks_for() -> None:
+    place, route = placed(), Route(SETTINGS.tolerance)
+    route.add(PROGRAMME.start)
+    place.add(stop(1), route)
+    place.told(3)
+    place.add(stop(5, DOWN, 4.0), route)
+    assert place.odds()[4] > 0.9
+
+
+def test_of_visits_that_went_unseen_many_are_less_likely_than_few() -> None:
+    place = placed()
+    weights = [place._by_route(_Guess(0, 0.0, 0.0, 0, 0), index, []) for index in (1, 2)]
+    assert weights[1] < weights[0] == 0.0
+
+
+def test_the_first_visit_at_a_place_is_the_one_that_a_program_begins_with() -> None:
+    """Told to begin, the axis came from anywhere: not with the second run while the first is to be read."""
+    place, route = placed(), Route(SETTINGS.tolerance)
+    first, second = (place._from_rest(-1, index, [], route) for index in (0, 6))
+    assert first == 0.0
+    assert second == float("-inf")
+
+
+def test_a_program_that_hurried_left_out_as_many_rests_as_time_is_short() -> None:
+    """Two visits on are 2 s of way and two rests of 3 s."""
+    place, planned = placed(), PROGRAMME.seconds(0, 2)
+    assert planned == pytest.approx(8.0)
+    likely, less = (place._hurried(0, 2, planned - 3.0 * each) for each in (1.0, 2.0))
+    assert likely / less == pytest.approx(exp(1.5))
+    assert place._hurried(0, 2, planned - 0.3) == pytest.approx(likely)  # one rest at the least
+    assert place._hurried(0, 2, (planned - 6.0) / 2) == 0.0  # faster than an axis goes
+
+
+def test_no_time_at_all_is_a_time_too_short_and_not_a_second() -> None:
+    place = placed()
+    guess = _Guess(0, 0.0, 5.0, 0, 0)
+    at_once, late = (place._in_time(guess, 1, stop(2, time=time)) for time in (5.0, 9.0))
+    assert at_once == -20.0
+    assert late > 0.0

@@ -11,14 +11,14 @@ from certificate.documents import COMPLETE, job, registry
 from zlmreport import pipeline
 from zlmreport.language import Language
 from zlmreport.uncertainty.air import air_contributions
-from zlmreport.uncertainty.budget import Acts
+from zlmreport.uncertainty.budget import Acts, Contribution
 
 #: Over 1 m; measured at 20 °C, 1013.25 hPa and 50 %.
 AIR = {"air_temperature": 20, "air_pressure": 1013.25, "relative_humidity": 50}
 
 
-def contributions(folder: Path, ranges: dict[str, float], *, air: bool = True) -> dict[str, float]:
-    """u over 1 m by name, µm."""
+def found_in(folder: Path, ranges: dict[str, float], *, air: bool = True) -> list[Contribution]:
+    """What the air adds to the budget of a test over 1 m."""
     (folder / "readings.csv").write_text("target,direction,run,deviation\n0,+,1,0\n1000,+,1,5\n")
     keys = {
         **COMPLETE,
@@ -30,7 +30,12 @@ def contributions(folder: Path, ranges: dict[str, float], *, air: bool = True) -
         **({"corrections": {"air": {"assumed": "vacuum"}}} if air else {}),
     }
     asked = job(folder, keys)
-    found = list(air_contributions(asked, pipeline.read(asked, registry()), 1.0))
+    return list(air_contributions(asked, pipeline.read(asked, registry()), 1.0))
+
+
+def contributions(folder: Path, ranges: dict[str, float], *, air: bool = True) -> dict[str, float]:
+    """u over 1 m by name, µm."""
+    found = found_in(folder, ranges, air=air)
     assert all(each.acts is Acts.ALONG_THE_LENGTH for each in found)
     return {each.name.in_language(Language.ENGLISH): each.standard_uncertainty * 1e6 for each in found}
 
@@ -59,3 +64,9 @@ def test_the_equation_itself_adds_its_part(tmp_path):
 
 def test_readings_that_are_not_corrected_for_the_air_get_none_of_it(tmp_path):
     assert contributions(tmp_path, {"air_temperature": 1.0}, air=False) == {}
+
+
+def test_a_range_of_a_temperature_is_stated_in_kelvin_and_of_a_pressure_in_its_own_unit(tmp_path):
+    warm, pressed, _ = found_in(tmp_path, {"air_temperature": 0.5, "air_pressure": 2.0})
+    assert "0.5 K" in warm.stated.in_language(Language.ENGLISH)
+    assert "2 hPa" in pressed.stated.in_language(Language.ENGLISH)

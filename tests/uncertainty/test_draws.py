@@ -9,7 +9,7 @@ import pytest
 
 from uncertainty.budgets import MICROMETRE, contribution
 from zlmreport.uncertainty.budget import Acts, Distribution
-from zlmreport.uncertainty.monte_carlo import single_draws, stratified_draws
+from zlmreport.uncertainty.monte_carlo import shortened, single_draws, stratified_draws
 
 COUNT = 20_000
 #: Four standard deviations of a root mean square of so many draws: 1/√(2·COUNT) if they are normal, less
@@ -65,3 +65,7 @@ def test_independent_errors_add_by_their_squares(errors) -> None:
 
 def test_without_contributions_there_is_no_error() -> None:
     assert not drawn().any()
+
+
+def test_an_uncertainty_keeps_six_digits() -> None:
+    assert shortened(1.23456789e-6) == 1.23457e-6

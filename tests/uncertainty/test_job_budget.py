@@ -268,6 +268,14 @@ def test_what_a_warm_machine_shows_too_long_is_a_known_error_and_in_the_budget_w
     assert (size(known), known.sign) == (pytest.approx(11 * 11.5 * LENGTH), -1)
 
 
+@pytest.mark.parametrize(("temperature", "difference"), [(20.04, 0.0), (19.96, 0.0), (20.06, 0.06)])
+def test_to_half_a_tenth_of_a_kelvin_the_machine_is_at_20_degrees(
+    temperature: float, difference: float, tmp_path: Path
+) -> None:
+    near = keys(environment={"axis_temperature": temperature, "expansion_coefficient": 11.5})
+    assert made(tmp_path, near).uncorrected_expansion == pytest.approx(difference * 11.5e-6 * LENGTH)
+
+
 def test_the_expansion_of_a_length_of_unknown_temperature_is_unknown(tmp_path: Path) -> None:
     unknown = {**COMPLETE, "environment": {"axis_temperature": "about 20"}}
 
