@@ -289,6 +289,13 @@ def test_the_accreditation_bounds_u_from_below(tmp_path: Path) -> None:
     assert budget.least == pytest.approx((3 + 5 * LENGTH) * MICROMETRE)
 
 
+def test_without_an_accreditation_nothing_bounds_u_from_below(tmp_path: Path) -> None:
+    budget = made(tmp_path, COMPLETE)
+
+    assert isinstance(budget, Budget)
+    assert budget.least == 0.0
+
+
 @pytest.mark.parametrize(
     ("instrument", "reason"),
     [
