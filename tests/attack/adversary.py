@@ -29,8 +29,8 @@ from zlmreport.plugins import find
 
 #: Exit codes of a command that refuses.
 _REFUSED = (2, 3)
-#: Processor seconds of an input, and seconds until its process is ended: a busy machine lets it wait.
-_SECONDS, _PATIENCE = 30, 300
+#: Processor seconds of an input, and of one after which its process is ended; seconds of a wait for nothing.
+_SECONDS, _ENDLESS, _PATIENCE = 30, 60, 1_800
 #: That the memory of a process may grow by an input, MB.
 _MEGABYTES = 600
 
@@ -152,6 +152,8 @@ def answers(batch: Sequence[Input], known: Sequence[Target]) -> Iterator[tuple[I
                 os.close(reading)
                 with os.fdopen(writing, "w") as pipe:
                     for each in left:
+                        ends = int(time.process_time()) + _ENDLESS
+                        resource.setrlimit(resource.RLIMIT_CPU, (ends, resource.RLIM_INFINITY))
                         print(json.dumps(complaint(each, known[each.target])), file=pipe, flush=True)
             except BaseException:  # noqa: BLE001 - a mistake of this program, in a child of it
                 traceback.print_exc()
@@ -167,7 +169,7 @@ def answers(batch: Sequence[Input], known: Sequence[Target]) -> Iterator[tuple[I
             os.kill(child, signal.SIGKILL)
         os.waitpid(child, 0)
         if left:
-            yield left.pop(0), f"its process died, or took more than {_PATIENCE} s"
+            yield left.pop(0), f"its process died, or worked {_ENDLESS} s, or waited {_PATIENCE} s"
 
 
 def shrunk(each: Input, known: Sequence[Target]) -> tuple[Input, str]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from itertools import chain
-from math import exp, log
+from math import exp, inf, log
 
 import pytest
 
@@ -147,17 +147,16 @@ def test_an_operator_is_believed_who_names_a_visit_that_nothing_speaks_for() -> 
 
 
 def test_of_visits_that_went_unseen_many_are_less_likely_than_few() -> None:
-    place = placed()
-    weights = [place._by_route(_Guess(0, 0.0, 0.0, 0, 0), index, []) for index in (1, 2)]
-    assert weights[1] < weights[0] == 0.0
+    place = Place(Programme(listed(targets=TARGETS), SETTINGS), SETTINGS, 0)
+    weights = [place._by_route(_Guess(0, 0.0, 0.0, 0, 0), index, []) for index in (1, 2, 3)]
+    assert weights[2] < weights[1] < weights[0] == 0.0
 
 
 def test_the_first_visit_at_a_place_is_the_one_that_a_program_begins_with() -> None:
     """Told to begin, the axis came from anywhere: not with the second run while the first is to be read."""
     place, route = placed(), Route(SETTINGS.tolerance)
-    first, second = (place._from_rest(-1, index, [], route) for index in (0, 6))
-    assert first == 0.0
-    assert second == float("-inf")
+    first, next_target, second_run = (place._from_rest(-1, index, [], route) for index in (0, 1, 6))
+    assert second_run == -inf < next_target < first == 0.0
 
 
 def test_a_program_that_hurried_left_out_as_many_rests_as_time_is_short() -> None:
