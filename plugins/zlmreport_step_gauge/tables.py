@@ -11,23 +11,13 @@ from zlmreport.plugin import (
     Place,
     Problem,
     SourceFile,
+    TextCell,
     TextFile,
     did_you_mean,
     parse_number,
     quoted,
     read_text,
 )
-
-_DELIMITERS = ("\t", ";", ",")
-
-
-@dataclass(frozen=True, slots=True)
-class Cell:
-    """A cell with its place."""
-
-    text: str
-    place: Place
-
 
 #: In any unit of length: no machine is as long.
 _LARGEST = 1e9
@@ -46,7 +36,7 @@ class Row:
     """A row: its cells by the names of their columns; a column that the table lacks has no cell."""
 
     place: Place
-    cells: dict[str, Cell]
+    cells: dict[str, TextCell]
 
     def text(self, column: str) -> str:
         """Return what a cell holds; nothing where the table lacks the column."""
@@ -101,45 +91,28 @@ def read_named_columns(path: Path, needed: Sequence[str], optional: Sequence[str
         If the header lacks a column that is needed, or names one that is unknown.
     """
     text = read_text(path)
-    lines = [
-        (number, line)
-        for number, line in enumerate(text.lines, 1)
-        if line.strip() and not line.lstrip().startswith("#")
-    ]
+    header, *lines = text.rows() or [[]]
     example = ",".join((*needed, *optional))
-    if not lines:
+    if not header:
         raise InputError.at(text.place(), f"holds no table; its first row names the columns: {example}")
-    delimiter = next((each for each in _DELIMITERS if each in lines[0][1]), ",")
-    header = _cells(text, *lines[0], delimiter)
     names = [cell.text.casefold() for cell in header]
     _refuse_other_columns(header, names, needed, optional)
     canonical = {name.casefold(): name for name in (*needed, *optional)}
     table = NamedColumns(text, ())
     rows = []
-    for number, line in lines[1:]:
-        cells = _cells(text, number, line, delimiter)
+    for cells in lines:
         if len(cells) != len(header):
             table.problems.append(
                 Problem(cells[0].place, f"a row has {len(header)} cells, and this one {len(cells)}")
             )
             continue
         by_name = {canonical[name]: cell for name, cell in zip(names, cells, strict=True)}
-        rows.append(Row(text.place(number, 1), by_name))
+        rows.append(Row(text.place(cells[0].place.line, 1), by_name))
     return NamedColumns(text, tuple(rows), table.problems)
 
 
-def _cells(text: TextFile, number: int, line: str, delimiter: str) -> list[Cell]:
-    found = []
-    start = 0
-    for part in line.split(delimiter):
-        lead = len(part) - len(part.lstrip())
-        found.append(Cell(part.strip(), text.place(number, start + lead + 1)))
-        start += len(part) + 1
-    return found
-
-
 def _refuse_other_columns(
-    header: Sequence[Cell], names: Sequence[str], needed: Sequence[str], optional: Sequence[str]
+    header: Sequence[TextCell], names: Sequence[str], needed: Sequence[str], optional: Sequence[str]
 ) -> None:
     known = {name.casefold(): name for name in (*needed, *optional)}
     problems = [
@@ -161,5 +134,5 @@ def _refuse_other_columns(
         raise InputError(problems)
 
 
-def _nearest(cell: Cell, known: dict[str, str]) -> str:
+def _nearest(cell: TextCell, known: dict[str, str]) -> str:
     return did_you_mean(cell.text[:40], list(known.values()))

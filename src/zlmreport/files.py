@@ -85,6 +85,14 @@ def read(path: Path, most: int) -> bytes:
             os.close(handle)
 
 
+def demanded(path: Path, most: int) -> bytes:
+    """Return what a file holds, as `read` does; raise `AccessError` if it cannot be read."""
+    try:
+        return read(path, most)
+    except OSError as error:
+        raise unreadable(path, error) from error
+
+
 def _demand_a_file(mode: int) -> None:
     if stat.S_ISDIR(mode):
         raise OSError(errno.EISDIR, "it is a folder; name the file in it")

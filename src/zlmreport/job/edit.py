@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from zlmreport.errors import InputError, Place, Problem
-from zlmreport.files import read, rewrite, unreadable
+from zlmreport.files import demanded, rewrite
 from zlmreport.job.choices import EffectChoice, effect_choices
 from zlmreport.job.extents import Written
 from zlmreport.job.installed import Installed
@@ -199,10 +199,7 @@ def _edited(text: str, change: ListChange) -> str:
 
 def content_of(path: Path, job: Job) -> bytes:
     """Return what a job file holds; refuse one that is no longer what was loaded."""
-    try:
-        content = read(path, LARGEST)
-    except OSError as error:
-        raise unreadable(path, error) from error
+    content = demanded(path, LARGEST)
     _refuse_changed(content, job.files[0].sha256, Place(str(path)))
     return content
 

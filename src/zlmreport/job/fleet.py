@@ -13,7 +13,7 @@ from typing import Annotated, Any, Literal
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, model_validator
 
 from zlmreport.errors import InputError, Place, Problem, did_you_mean, quoted
-from zlmreport.files import confined, outside, read, unreadable
+from zlmreport.files import confined, demanded, outside
 from zlmreport.job.contradictions import problems_in_part, validate
 from zlmreport.job.extends import FLEET, Defaults, compose, refuse_other_format
 from zlmreport.job.installed import InstalledExtension
@@ -254,10 +254,7 @@ def load_fleet(
         If it cannot be read.
     """
     if content is None:
-        try:
-            content = read(path, LARGEST)
-        except OSError as error:
-            raise unreadable(path, error) from error
+        content = demanded(path, LARGEST)
     tree = parse(content, str(path))
     refuse_other_format(tree, FLEET, lambda: [each for offered in extensions() for each in offered.formats])
     problems: list[Problem] = []

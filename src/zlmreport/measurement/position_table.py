@@ -9,15 +9,14 @@ from pathlib import Path
 
 import numpy as np
 
-from zlmreport.errors import InputError, Place, Problem, quoted
+from zlmreport.errors import InputError, Problem, quoted
 from zlmreport.measurement.axis import PositionTable
-from zlmreport.measurement.text_file import TextFile, parse_number, read_text
+from zlmreport.measurement.text_file import TextCell, TextFile, parse_number, read_text
 from zlmreport.quantities.formatting import DecimalSign
 from zlmreport.quantities.units import Unit, unit_named
 from zlmreport.values import dataclass
 
 _BRACKETED = re.compile(r"(.*?)\s*[(\[]\s*([^()\[\]]+?)\s*[)\]]")
-_DELIMITERS = ("\t", ";", ",")
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,12 +26,6 @@ class TableColumn:
     name: str  #: As the header names it; a unit may follow in brackets.
     unit: Unit  #: Of its numbers where the header names none.
     units: Mapping[str, Unit]  #: That the header may name, by their spellings.
-
-
-@dataclass(frozen=True, slots=True)
-class _Cell:
-    text: str
-    place: Place
 
 
 def read_position_table(
@@ -53,7 +46,7 @@ def read_position_table(
         With every defect and its place.
     """
     text = read_text(path)
-    header, *rows = _rows(text) or [[]]
+    header, *rows = text.rows() or [[]]
     columns: tuple[TableColumn, ...] = (position, value)
     names = {_name(cell) for cell in header}
     if directions and names & set(directions) and value.name not in names:
@@ -76,28 +69,7 @@ def read_position_table(
     return PositionTable(positions, values, text.source, *reverse)
 
 
-def _rows(text: TextFile) -> list[list[_Cell]]:
-    """Return the cells of each line that holds any, with their places."""
-    lines = [
-        (number, line)
-        for number, line in enumerate(text.lines, 1)
-        if line.strip() and not line.lstrip().startswith("#")
-    ]
-    if not lines:
-        return []
-    delimiter = next((each for each in _DELIMITERS if each in lines[0][1]), ",")
-    return [list(_cells(text, number, line, delimiter)) for number, line in lines]
-
-
-def _cells(text: TextFile, number: int, line: str, delimiter: str) -> Iterator[_Cell]:
-    start = 0
-    for part in line.split(delimiter):
-        lead = len(part) - len(part.lstrip())
-        yield _Cell(part.strip(), text.place(number, start + lead + 1))
-        start += len(part) + 1
-
-
-def _order(text: TextFile, header: Sequence[_Cell], columns: Sequence[TableColumn]) -> list[int]:
+def _order(text: TextFile, header: Sequence[TextCell], columns: Sequence[TableColumn]) -> list[int]:
     """Return the index of each column; the header has these and no others."""
     names = [_name(cell) for cell in header]
     wanted = [column.name for column in columns]
@@ -111,7 +83,7 @@ def _order(text: TextFile, header: Sequence[_Cell], columns: Sequence[TableColum
     return [names.index(name) for name in wanted]
 
 
-def _name(cell: _Cell) -> str:
+def _name(cell: TextCell) -> str:
     return _split(cell.text)[0].casefold()
 
 
@@ -120,7 +92,7 @@ def _split(heading: str) -> tuple[str, str | None]:
     return (match[1], match[2]) if match else (heading, None)
 
 
-def _unit(column: TableColumn, cell: _Cell) -> Unit:
+def _unit(column: TableColumn, cell: TextCell) -> Unit:
     spelling = _split(cell.text)[1]
     try:
         return unit_named(spelling, column.units) if spelling else column.unit
@@ -128,14 +100,14 @@ def _unit(column: TableColumn, cell: _Cell) -> Unit:
         raise InputError.at(cell.place, f"column {quoted(cell.text)}: {error}") from error
 
 
-def _decimal_sign(rows: Sequence[Sequence[_Cell]]) -> DecimalSign:
+def _decimal_sign(rows: Sequence[Sequence[TextCell]]) -> DecimalSign:
     """Return the comma if there is one in a cell: then it parts no cells."""
     has_comma = any("," in cell.text for row in rows for cell in row)
     return DecimalSign.COMMA if has_comma else DecimalSign.POINT
 
 
 def _numbers(
-    row: Sequence[_Cell], order: Sequence[int], width: int, sign: DecimalSign, problems: list[Problem]
+    row: Sequence[TextCell], order: Sequence[int], width: int, sign: DecimalSign, problems: list[Problem]
 ) -> Iterator[float]:
     """Yield the numbers of a row; what is wrong with it is noted."""
     if len(row) != width:
@@ -150,7 +122,7 @@ def _numbers(
             )
 
 
-def _not_rising(cells: Sequence[_Cell], positions: Sequence[float]) -> Iterator[Problem]:
+def _not_rising(cells: Sequence[TextCell], positions: Sequence[float]) -> Iterator[Problem]:
     for later in (np.flatnonzero(np.diff(positions) <= 0) + 1).tolist():
         cell = cells[later]
         yield Problem(

@@ -7,6 +7,7 @@ import difflib
 import math
 import re
 import unicodedata
+from collections.abc import Iterator
 from pathlib import Path
 
 from zlmreport.errors import AccessError, InputError, Place, quoted
@@ -45,6 +46,18 @@ _UNSEEN = re.compile(
 _END_OF_FILE = "\x1a"
 
 
+#: What may part the cells of a table; the first of them that a header has does.
+_DELIMITERS = ("\t", ";", ",")
+
+
+@dataclass(frozen=True, slots=True)
+class TextCell:
+    """A cell of a table: its text without the blanks around, and its place."""
+
+    text: str
+    place: Place
+
+
 @dataclass(frozen=True, slots=True)
 class TextFile:
     """A text file that was read.
@@ -71,6 +84,24 @@ class TextFile:
         if self.of_cells and column:
             column = self.lines[line - 1].count(SEPARATOR, 0, column - 1) + 1
         return Place(self.name, line, column)
+
+    def numbered(self, first: int = 1, last: int | None = None) -> list[tuple[int, str]]:
+        """Return lines with their numbers, from 1; without empty ones and those that begin with ``#``."""
+        lines = enumerate(self.lines[first - 1 : last], first)
+        return [(number, line) for number, line in lines if line.strip() and line.lstrip()[0] != "#"]
+
+    def rows(self) -> list[list[TextCell]]:
+        """Return the cells of a table, the header first: tab, semicolon or comma parts them, as in that."""
+        lines = self.numbered()
+        delimiter = next((each for each in _DELIMITERS if lines and each in lines[0][1]), ",")
+        return [list(self._cells(number, line, delimiter)) for number, line in lines]
+
+    def _cells(self, number: int, line: str, delimiter: str) -> Iterator[TextCell]:
+        start = 0
+        for part in line.split(delimiter):
+            lead = len(part) - len(part.lstrip())
+            yield TextCell(part.strip(), self.place(number, start + lead + 1))
+            start += len(part) + 1
 
 
 def read_text(path: Path, encoding: str | None = None) -> TextFile:

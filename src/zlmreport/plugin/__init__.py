@@ -95,7 +95,7 @@ _ROOMS = {
     ),
     "zlmreport.measurement.measurement_set": "CONDITIONS CONDITION_NAMES MeasurementSet STATE_OF_AIR",
     "zlmreport.measurement.provenance": "Correction Provenance SourceFile",
-    "zlmreport.measurement.text_file": "TextFile known_encoding parse_number read_text",
+    "zlmreport.measurement.text_file": "TextCell TextFile known_encoding parse_number read_text",
     "zlmreport.model.design": "Design",
     "zlmreport.model.effect": (
         "Confusion Dimension Effect Parameter Shape needs_both_directions needs_linear_axis needs_logged "

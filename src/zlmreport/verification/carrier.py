@@ -17,7 +17,7 @@ from typing import Any, TypeVar
 
 from zlmreport.certificate.attachments import LARGEST_TOTAL, MOST_ATTACHMENTS
 from zlmreport.errors import InputError, Place
-from zlmreport.files import read, unreadable
+from zlmreport.files import demanded
 
 #: Of a PDF, in bytes; a certificate has some hundred thousand, and its attachments.
 LARGEST = 2 * LARGEST_TOTAL
@@ -73,10 +73,7 @@ def read_file(path: Path) -> bytes:
         If it is no PDF, or larger than any certificate.
     """
     place = Place(str(path))
-    try:
-        content = read(path, LARGEST)
-    except OSError as error:
-        raise unreadable(path, error) from error
+    content = demanded(path, LARGEST)
     if len(content) > LARGEST:
         raise InputError.at(place, f"is larger than {LARGEST >> 20} MiB; no certificate is")
     if b"%PDF-" not in content[:1024]:

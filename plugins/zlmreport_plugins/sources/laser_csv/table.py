@@ -79,12 +79,7 @@ def read_table(
     InputError
         If there is no header.
     """
-    first, last = lines or (1, len(text.lines))
-    content = [
-        (number, line)
-        for number, line in enumerate(text.lines[first - 1 : last], first)
-        if line.strip() and not line.lstrip().startswith("#")
-    ]
+    content = text.numbered(*lines or ())
     if not content:
         raise InputError.at(text.place(), "holds no table: every line is blank or a comment")
     number, line = content[0]
