@@ -10,7 +10,7 @@ import pytest
 
 from environments import ROOT
 from zlmreport.errors import AccessError, InputError, Place
-from zlmreport.files import Document, demand_free, rewrite, sync_folder, write
+from zlmreport.files import Document, rewrite, sync_folder, write, write_new
 
 #: Where a file is opened for writing beside `files.py`, and why it may be.
 EXCEPTIONS = {
@@ -114,12 +114,13 @@ def test_a_file_that_a_check_refuses_is_left_as_it_is(tmp_path):
     assert [each.read_bytes() for each in tmp_path.iterdir()] == [b"theirs"]
 
 
-def test_every_file_that_is_in_the_way_is_named(tmp_path):
+def test_every_file_that_is_in_the_way_is_named_and_none_is_written(tmp_path):
     for name in "ab":
         (tmp_path / name).touch()
     with pytest.raises(InputError) as caught:
-        demand_free(tmp_path / name for name in "abc")
+        write_new([Document(tmp_path / name, b"new") for name in "abc"])
     assert [Path(problem.place.file).name for problem in caught.value.problems] == ["a", "b"]
+    assert {each.name: each.read_bytes() for each in tmp_path.iterdir()} == {"a": b"", "b": b""}
 
 
 def test_a_disk_that_pushes_no_folders_is_good_enough(tmp_path, monkeypatch):

@@ -14,7 +14,7 @@ import errno
 import os
 import shutil
 import stat
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Self
 
@@ -355,8 +355,8 @@ class JournalFile(Appended):
             raise unwritable(self._path, error, self._after) from error
 
 
-def demand_free(paths: Iterable[Path]) -> None:
-    """Refuse to write where there are files that somebody may have worked on.
+def write_new(documents: Sequence[Document]) -> tuple[Path, ...]:
+    """Write files, as `write` does, but none over one that is there: somebody may have worked on it.
 
     Raises
     ------
@@ -364,12 +364,13 @@ def demand_free(paths: Iterable[Path]) -> None:
         With every file that is there.
     """
     problems = [
-        Problem(Place(str(path)), "is there already; choose another folder, or remove it")
-        for path in paths
-        if path.exists()
+        Problem(Place(str(document.path)), "is there already; choose another folder, or remove it")
+        for document in documents
+        if document.path.exists()
     ]
     if problems:
         raise InputError(problems)
+    return write(documents)
 
 
 def unwritable(path: Path, error: OSError, remedy: str = "") -> AccessError:

@@ -32,7 +32,7 @@ from zlmreport.compensation.curve import ErrorCurve, curve_of
 from zlmreport.compensation.forecast import Expected, Figures, figures
 from zlmreport.compensation.making import Made, make
 from zlmreport.errors import InputError, Place
-from zlmreport.files import Document, demand_free, write
+from zlmreport.files import Document, write_new
 from zlmreport.job.choices import controller_choice
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
@@ -77,8 +77,7 @@ def run(options: Namespace) -> int:
         contents = {end: text.encode() for end, text in made.files.items()} | {_SHEET: sheet}
         number = job.keys.certificate.number
         documents = [Document(options.output / f"{number}{end}", each) for end, each in contents.items()]
-        demand_free(document.path for document in documents)
-        written = write(documents)
+        written = write_new(documents)
     if options.json:
         print_json(_values(job, made, uncertainties, written))
         return 0
@@ -178,8 +177,7 @@ def _confirm(options: Namespace, registry: Registry) -> int:
     written: Sequence[Path] = ()
     if options.output and after.keys.as_found is None:
         document = _job_of_both(before, after, made, options.jobs[1], options.output)
-        demand_free([document.path])
-        written = write([document])
+        written = write_new([document])
     unit = before.axis.deviation_unit
     factor = unit.from_si(1.0)
     if options.json:

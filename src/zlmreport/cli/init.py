@@ -17,7 +17,7 @@ from pydantic import ValidationError
 
 from zlmreport.cli.terminal import said, shown_path, wrapped
 from zlmreport.errors import InputError, Place, ZlmreportError
-from zlmreport.files import Document, demand_free, write
+from zlmreport.files import Document, write_new
 from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.plugin.protocols import DataSource, SourceContext, SourceProposal
@@ -41,8 +41,7 @@ def run(options: Namespace) -> int:
             Document(directory / name, files("zlmreport").joinpath("starter", name).read_bytes())
             for name in _STARTER
         ]
-    demand_free(document.path for document in documents)
-    written = write(documents)
+    written = write_new(documents)
     for target in written:
         print(shown_path(target))
     print(f"next: zlmreport {shown_path(written[0])}")

@@ -16,7 +16,7 @@ from zlmreport.cli.plan_lines import plan_lines
 from zlmreport.cli.terminal import Colour, print_json, said, shown_path, wrapped
 from zlmreport.errors import AccessError, InputError, Place, Problem
 from zlmreport.figures.sequence import sequence
-from zlmreport.files import Document, demand_free, write
+from zlmreport.files import Document, write_new
 from zlmreport.job.choices import Choice, ExtensionChoice, Find, programs_by_name
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
@@ -73,8 +73,7 @@ def run(options: Namespace) -> int:
             of_run = f"{number}-run-{options.run}"
             subject = partial(_motion_of_run, motion, options.run)
             documents = program_files(options.output, of_run, subject, programs, registry.part_program)
-    demand_free(document.path for document in documents)
-    written = write(documents)
+    written = write_new(documents)
     if options.json:
         print_json(plan_values(job, planned, written))
         return 0
@@ -110,8 +109,7 @@ def _decide(options: Namespace, job: Job, registry: Registry) -> int:
         text = deciding_text(experiment, job, extends)
         if options.output:
             documents = (Document(folder / f"{deciding_number(job)}.yaml", text.encode()),)
-    demand_free(document.path for document in documents)
-    written = write(documents)
+    written = write_new(documents)
     if options.json:
         values = experiment_values(experiment, job, Language.ENGLISH)
         print_json({"schema": DECISION, **values, "files": [str(path) for path in written]})
@@ -243,8 +241,7 @@ def _show_plan(
             ),
             *program_files(options.output, number, plan.subject, programs, find),
         )
-    demand_free(document.path for document in documents)
-    written = write(documents)
+    written = write_new(documents)
     if options.json:
         print_json({**plan.values, "files": [str(path) for path in written]})
         return 0
