@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, cast
 
 from zlmreport.cli.terminal import shown_path
 from zlmreport.errors import InputError, Place, did_you_mean
-from zlmreport.files import Document, demand_free, write
+from zlmreport.files import Document, write_new
 
 if TYPE_CHECKING:
     from zlmreport.model.formula import FormulaEffect
@@ -58,8 +58,7 @@ def run(options: Namespace) -> int:
             (folder / "README.md", "README.md"),
         )
     ]
-    demand_free(document.path for document in documents)
-    for path in write(documents):
+    for path in write_new(documents):
         print(shown_path(path))
     print(f"next: python -m pytest {shown_path(test)}{further}")
     return 0

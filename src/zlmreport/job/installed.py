@@ -16,17 +16,13 @@ from zlmreport.language import Words
 class Named(Protocol):
     """A plugin, by what jobs call it."""
 
-    @property
-    def identifier(self) -> str:
-        """As jobs name it."""
+    identifier: str  #: As jobs name it.
 
 
 class WithKeys(Named, Protocol):
     """A plugin with keys of its own: a data source, a live instrument."""
 
-    @property
-    def options(self) -> type[Options]:
-        """Its own keys."""
+    options: type[Options]  #: Its own keys.
 
 
 class LimitedQuantity(Protocol):
@@ -60,49 +56,25 @@ class InstalledStandard(WithKeys, Protocol):
 class InstalledRenderer(Named, Protocol):
     """A file format."""
 
-    @property
-    def suffix(self) -> str:
-        """Of its files."""
+    suffix: str  #: Of its files.
 
 
 class InstalledProgram(WithKeys, Protocol):
     """A writer of part programs."""
 
-    @property
-    def suffix(self) -> str:
-        """Of its files."""
+    suffix: str  #: Of its files.
 
 
 class InstalledExtension(Protocol):
     """A group of job keys, where in it part programs are listed, and what it says of a job."""
 
-    @property
-    def identifier(self) -> str:
-        """The key of the group."""
-
-    @property
-    def options(self) -> type[Options]:
-        """Its keys."""
-
-    @property
-    def description(self) -> str:
-        """What it is."""
-
-    @property
-    def example(self) -> Mapping[str, Any]:
-        """Some of its keys."""
-
-    @property
-    def programs(self) -> tuple[str, ...]:
-        """The path to its part programs; empty for none."""
-
-    @property
-    def takes(self) -> type | None:
-        """What they are written of."""
-
-    @property
-    def formats(self) -> Sequence[FileFormat]:
-        """Files with a key `schema` that its keys name."""
+    identifier: str  #: The key of the group.
+    options: type[Options]  #: Its keys.
+    description: str  #: What it is.
+    example: Mapping[str, Any]  #: Some of its keys.
+    programs: tuple[str, ...]  #: The path to its part programs; empty for none.
+    takes: type | None  #: What they are written of.
+    formats: tuple[FileFormat, ...]  #: Files with a key `schema` that its keys name.
 
     def contradictions(self, keys: JobKeys, options: Any) -> Iterable[tuple[tuple[Step, ...], str]]:
         """Yield what no single key of a job shows to be wrong."""
@@ -126,9 +98,7 @@ class NamedParameter(Protocol):
 class InstalledEffect(WithKeys, Protocol):
     """An effect, and the parameters that a job may give."""
 
-    @property
-    def title(self) -> Words:
-        """In words."""
+    title: Words  #: In words.
 
     @property
     def linear(self) -> Sequence[NamedParameter]:

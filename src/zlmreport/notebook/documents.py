@@ -13,7 +13,7 @@ from zlmreport.compensation.basis import basis_of_means
 from zlmreport.compensation.curve import curve_of
 from zlmreport.compensation.making import Made, make
 from zlmreport.errors import InputError, Place, did_you_mean
-from zlmreport.files import Document, demand_free, write
+from zlmreport.files import Document, write, write_new
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
 from zlmreport.language import Language, Words
@@ -237,8 +237,7 @@ class Compensation:
             If they cannot be written, or are there.
         """
         documents = [Document(Path(folder) / name, text.encode()) for name, text in self.files.items()]
-        demand_free(document.path for document in documents)
-        write(documents)
+        write_new(documents)
         return Path(folder)
 
     def __repr__(self) -> str:
