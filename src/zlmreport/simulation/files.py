@@ -37,6 +37,8 @@ _CONDITION_DIGITS = 4
 #: More digits of mm or ° than anybody types, and fewer than a double rounds at.
 _MEANT_DIGITS = 9
 _PLAIN = re.compile(r"[A-Za-z]([A-Za-z0-9._-]*[A-Za-z0-9])?")
+#: Of the keys of the noise; all others are deviations.
+_NO_DEVIATIONS = frozenset({"unequal", "drift_time", "outlier_share", "missing_share"})
 _DIRECTIONS = {Approach.POSITIVE: "+", Approach.NEGATIVE: "-"}
 
 
@@ -107,19 +109,7 @@ def _course(name: str, keys: CourseKeys) -> Course:
 
 
 def _noise(keys: NoiseKeys, unit: Unit) -> Noise:
-    return Noise(
-        reading=unit.to_si(keys.reading),
-        unequal=keys.unequal,
-        position=unit.to_si(keys.position),
-        position_and_direction=unit.to_si(keys.position_and_direction),
-        run=unit.to_si(keys.run),
-        drift=unit.to_si(keys.drift),
-        drift_time=keys.drift_time,
-        outlier_share=keys.outlier_share,
-        outlier_size=unit.to_si(keys.outlier_size),
-        missing_share=keys.missing_share,
-        resolution=unit.to_si(keys.resolution),
-    )
+    return Noise(**{name: value if name in _NO_DEVIATIONS else unit.to_si(value) for name, value in keys})
 
 
 def _impossible(file: SimulationFile, description: Description) -> Iterator[Problem]:
