@@ -43,12 +43,8 @@ class Block:
 def block_of(points: FloatArray, radius: float) -> Block:
     """Return the block that eight points lie on; of points that define none, values are NaN or nonsense.
 
-    Parameters
-    ----------
-    points : (..., 8, 3) array
-        P1 to P8, centres of the tip, m.
-    radius
-        Of the tip, m; 0 where the points are those of the surface.
+    `points`, (..., 8, 3): P1 to P8, centres of the tip, m.
+    `radius`: Of the tip, m; 0 where the points are those of the surface.
     """
     p1, p2, p3, *_, p8 = np.moveaxis(points, -2, 0)
     normal = _unit(np.cross(p2 - p1, p3 - p1))

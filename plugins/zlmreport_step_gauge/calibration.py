@@ -119,13 +119,9 @@ class _Listed:
 def read_calibration(path: Path) -> CalibratedGauge:
     """Read a gauge's calibration.
 
-    Raises
-    ------
-    AccessError
-        If a file cannot be read.
-    InputError
-        With every defect and its place: blocks out of order, a face that is missing or stands on the wrong
-        side, distances that do not rise or lie far from their nominal place.
+    Raises `AccessError` if a file cannot be read; `InputError` with every defect and its place: blocks out of
+    order, a face that is missing or stands on the wrong side, distances that do not rise or lie far from
+    their nominal place.
     """
     if not _holds_all_facts(path):
         return _of_table(path)
@@ -149,15 +145,9 @@ def read_calibration(path: Path) -> CalibratedGauge:
 def section(gauge: StepGauge, first_block: int | None, last_block: int | None, place: Place) -> StepGauge:
     """Return the part of a gauge from one block to another, both included.
 
-    Parameters
-    ----------
-    first_block, last_block
-        Numbers of blocks; None for the first and the last of the gauge.
+    `first_block`, `last_block`: Numbers of blocks; None for the first and the last of the gauge.
 
-    Raises
-    ------
-    InputError
-        If the gauge lacks one of them, or the section has no two blocks.
+    Raises `InputError` if the gauge lacks one of them, or the section has no two blocks.
     """
     blocks = gauge.blocks
     first = blocks[0] if first_block is None else first_block
@@ -311,12 +301,7 @@ def with_gauge_as_instrument(keys: JobKeys, calibration: Path) -> JobKeys:
     The gauge's uncertainty as an instrument is that of the face whose distance is known worst; the budget
     takes each face by itself.
 
-    Raises
-    ------
-    InputError
-        With every mistake of the calibration file.
-    AccessError
-        If it cannot be read.
+    Raises `InputError` with every mistake of the calibration file; `AccessError` if it cannot be read.
     """
     if keys.instrument or not _holds_all_facts(calibration):
         return keys

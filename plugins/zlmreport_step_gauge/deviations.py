@@ -44,11 +44,8 @@ class Deviations:
 def deviations_of(probed: Probed, set_up: GaugeSetUp, place: Place, *, is_corrected: bool) -> Deviations:
     """Return the deviations of a test.
 
-    Raises
-    ------
-    InputError
-        If the points do not fit the section: another one was probed, the gauge lies the other way round, or
-        the radius cannot be.
+    Raises `InputError` if the points do not fit the section: another one was probed, the gauge lies the other
+    way round, or the radius cannot be.
     """
     direction = _direction(probed, set_up)
     along = probed.coordinates @ np.array(direction) if direction else probed.coordinates[..., 0]
@@ -203,17 +200,10 @@ def radius_of(
 ) -> EffectiveRadius:
     """Return the effective radius of the probe in a test of centres of the tip.
 
-    Parameters
-    ----------
-    along : (face, cycle) array
-        Where the centres lie along the gauge, m.
-    actual : (face,) array
-        Distances of the faces at the temperature of the test, m.
+    `along`, (face, cycle): Where the centres lie along the gauge, m.
+    `actual`, (face,): Distances of the faces at the temperature of the test, m.
 
-    Raises
-    ------
-    InputError
-        If it is far from the nominal radius.
+    Raises `InputError` if it is far from the nominal radius.
     """
     stated, nominal = set_up.effective_radius, set_up.tip_radius
     if stated:

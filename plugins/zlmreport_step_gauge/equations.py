@@ -22,12 +22,8 @@ from zlmreport.plugin import (
 def effective_radius(measured_size: FloatArray, actual_size: FloatArray) -> FloatArray:
     """R_eff = (measured block size − actual block size) / 2, m (Eq. 1).
 
-    Parameters
-    ----------
-    measured_size
-        Between the centres of the tip at the back and at the front face of a block, m.
-    actual_size
-        The calibrated size of the block, m.
+    `measured_size`: Between the centres of the tip at the back and at the front face of a block, m.
+    `actual_size`: The calibrated size of the block, m.
     """
     radius: FloatArray = (measured_size - actual_size) / 2
     return radius
@@ -38,14 +34,9 @@ def error(
 ) -> FloatArray:
     """XF_{i,j} and XB_{i,j} = (M_{i,j} − M_ref) − (S_i − S_ref), m (Eq. 2 and 3).
 
-    Parameters
-    ----------
-    position
-        M, the position of a face along C1C2, m.
-    reference
-        M_ref, that of the reference face, m.
-    distance, reference_distance
-        S and S_ref, their actual distances from the origin of the gauge, m.
+    `position`: M, the position of a face along C1C2, m.
+    `reference`: M_ref, that of the reference face, m.
+    `distance`, `reference_distance`: S and S_ref, their actual distances from the origin of the gauge, m.
     """
     deviation: FloatArray = (position - reference) - (distance - reference_distance)
     return deviation

@@ -55,12 +55,8 @@ class InitialPoints:
 def read_initial_points(path: Path) -> InitialPoints:
     """Read the initial points: columns block (begin, end), point (1 to 8), x, y, z, mm.
 
-    Raises
-    ------
-    AccessError
-        If the file cannot be read.
-    InputError
-        With every point that is missing, there twice, or no point.
+    Raises `AccessError` if the file cannot be read; `InputError` with every point that is missing, there
+    twice, or no point.
     """
     table = read_named_columns(path, _COLUMNS)
     problems = table.problems

@@ -86,6 +86,9 @@ def _between(blocks: Block) -> FloatArray:
 def locate(points: InitialPoints, gauge: StepGauge, radius: float, uncertainty: float) -> Located:
     """Return where the section of a gauge lies.
 
+    Raises `InputError` if the points define no block, blocks of another size, or a section of another length;
+    or if the beginning and the end are exchanged.
+
     Parameters
     ----------
     points
@@ -94,12 +97,6 @@ def locate(points: InitialPoints, gauge: StepGauge, radius: float, uncertainty: 
         Nominal radius of the tip, m; 0 where the points are those of the surface.
     uncertainty
         Standard uncertainty of a coordinate, m.
-
-    Raises
-    ------
-    InputError
-        If the points define no block, blocks of another size, or a section of another length; or if the
-        beginning and the end are exchanged.
 
     Notes
     -----

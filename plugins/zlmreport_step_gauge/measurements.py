@@ -269,14 +269,9 @@ def measurement_set(  # noqa: PLR0913 - what a set is made of
 ) -> MeasurementSet:
     """Return the readings of a test with a step gauge.
 
-    Parameters
-    ----------
-    probed, deviations
-        The points, and what they come to.
-    targets
-        Whether faces or blocks are target positions.
-    origin
-        Position on the axis of the reference face of the gauge, m.
+    `probed`, `deviations`: The points, and what they come to.
+    `targets`: Whether faces or blocks are target positions.
+    `origin`: Position on the axis of the reference face of the gauge, m.
     """
     face_index = {face.number: index for index, face in enumerate(probed.faces)}
     cycle_index = {cycle: index for index, cycle in enumerate(probed.cycles)}

@@ -69,15 +69,10 @@ def gridded(
 ) -> Probed:
     """Return the points of a test by face and cycle.
 
-    Parameters
-    ----------
-    sides
-        The faces that are evaluated; points on others are left out.
+    `sides`: The faces that are evaluated; points on others are left out.
 
-    Raises
-    ------
-    InputError
-        With every face that the section lacks, that was touched twice in a cycle, or was missed in all.
+    Raises `InputError` with every face that the section lacks, that was touched twice in a cycle, or was
+    missed in all.
     """
     found = list(problems)
     known = {face.number: face for face in gauge.faces}
@@ -150,10 +145,7 @@ def face_of(name: str, mapping: dict[str, int], place: Place) -> int:
 
     Without it, the digits at the end of the name are the number: ``F01``, ``Face 12``.
 
-    Raises
-    ------
-    InputError
-        If the name tells no face.
+    Raises `InputError` if the name tells no face.
     """
     if name in mapping:
         return mapping[name]
@@ -214,19 +206,11 @@ def numbered(
 ) -> list[ProbedPoint]:
     """Return points with the faces that they lie on, and with cycles in the order of their coming back.
 
-    Parameters
-    ----------
-    points
-        In the order in which they were taken.
-    origin, direction
-        C1, and the unit vector to C2.
-    radius
-        Of the tip, m; 0 for points of the surface.
+    `points`: In the order in which they were taken.
+    `origin`, `direction`: C1, and the unit vector to C2.
+    `radius`: Of the tip, m; 0 for points of the surface.
 
-    Raises
-    ------
-    InputError
-        For every point that lies on no face.
+    Raises `InputError` for every point that lies on no face.
     """
     first = [face.nominal for face in gauge.faces if face.block == gauge.blocks[0]]
     middle = sum(first) / len(first)
@@ -270,10 +254,7 @@ def _nearest(
 def by_order(points: Sequence[Unnumbered], faces: Sequence[Face], place: Place) -> list[ProbedPoint]:
     """Return points with faces by where they lie in their cycle, the beginning being where it began.
 
-    Raises
-    ------
-    InputError
-        If they do not come to whole cycles.
+    Raises `InputError` if they do not come to whole cycles.
     """
     size = len(faces)
     if not points or len(points) % size:

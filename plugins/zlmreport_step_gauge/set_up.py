@@ -63,12 +63,8 @@ class GaugeSetUp:
 def gauge_set_up(job: Job, keys: StepGaugeKeys) -> GaugeSetUp:
     """Return the set-up that a job describes.
 
-    Raises
-    ------
-    AccessError
-        If a file cannot be read.
-    InputError
-        With every defect of these files, and with what a compensation needs and the job does not state.
+    Raises `AccessError` if a file cannot be read; `InputError` with every defect of these files, and with
+    what a compensation needs and the job does not state.
     """
     calibrated = read_calibration(keys.calibration)
     named = next((key for key in ("last_block", "first_block") if getattr(keys, key)), "calibration")

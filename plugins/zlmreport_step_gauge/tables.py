@@ -83,12 +83,8 @@ def read_named_columns(path: Path, needed: Sequence[str], optional: Sequence[str
 
     Tab, semicolon or comma parts the columns; lines that begin with ``#`` and empty lines are left out.
 
-    Raises
-    ------
-    AccessError
-        If the file cannot be read.
-    InputError
-        If the header lacks a column that is needed, or names one that is unknown.
+    Raises `AccessError` if the file cannot be read; `InputError` if the header lacks a column that is needed,
+    or names one that is unknown.
     """
     text = read_text(path)
     header, *lines = text.rows() or [[]]

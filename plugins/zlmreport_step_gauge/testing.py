@@ -171,19 +171,11 @@ def check_probing_program(
 ) -> None:
     """Run every check on a writer of probing programs.
 
-    Parameters
-    ----------
-    program
-        The object that the plugin's hook returns.
-    recogniser
-        Reads a text of its language.
-    keys
-        Its job keys; none if they are not given.
+    `program`: The object that the plugin's hook returns.
+    `recogniser`: Reads a text of its language.
+    `keys`: Its job keys; none if they are not given.
 
-    Raises
-    ------
-    AssertionError
-        With a line for every check that fails.
+    Raises `AssertionError` with a line for every check that fails.
     """
     keys = keys or {}
     is_named(program, recogniser, keys)
@@ -207,12 +199,8 @@ def sample_path(
 ) -> ProbingPath:
     """Return the path over three blocks of 10 mm, two cycles, askew in the machine.
 
-    Parameters
-    ----------
-    kind
-        Over the top, or round the side.
-    radius_correction
-        Whether the machine is to report points of the surface.
+    `kind`: Over the top, or round the side.
+    `radius_correction`: Whether the machine is to report points of the surface.
     """
     faces = tuple(
         Face(index + 1, Side.BACK if index % 2 else Side.FRONT, index * _STEP, index * _STEP, 2e-7)

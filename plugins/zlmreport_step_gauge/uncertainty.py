@@ -66,14 +66,10 @@ def gauge_contributions(
 ) -> tuple[Contribution, ...]:
     """Return the contributions of a step gauge.
 
-    Parameters
-    ----------
-    set_up
-        The gauge, its location, the probe, the temperatures.
-    measurements
-        The readings: their number, and what the blocks scatter by.
-    expansion_is_stated
-        Whether the budget has the uncertainty of the gauge's expansion coefficient from elsewhere.
+    `set_up`: The gauge, its location, the probe, the temperatures.
+    `measurements`: The readings: their number, and what the blocks scatter by.
+    `expansion_is_stated`: Whether the budget has the uncertainty of the gauge's expansion coefficient from
+        elsewhere.
     """
     targets = measurements.target_positions
     length = float(targets[-1] - targets[0])

@@ -94,11 +94,8 @@ class PluginError(InputError):
 def as_problems(job: Path, error: Exception) -> ZlmreportError:
     """Return whatever ended the work on a job as an error with a message.
 
-    Parameters
-    ----------
-    error
-        What was raised: a mistake of the user, a file that cannot be used, a library that is not there, or a
-        mistake of the program's own, named with the line of it that a report needs.
+    `error`: What was raised: a mistake of the user, a file that cannot be used, a library that is not there,
+        or a mistake of the program's own, named with the line of it that a report needs.
     """
     if isinstance(error, ZlmreportError):
         return error.of_job(job)

@@ -65,11 +65,8 @@ def outside(path: Path) -> str:
 def read(path: Path, most: int) -> bytes:
     """Return what a file holds; of one that is longer than `most` bytes, the beginning, and one byte more.
 
-    Raises
-    ------
-    OSError
-        If it cannot be read, is no file but a folder, a device or a pipe, or lies outside of the folder to
-        which the program is confined.
+    Raises `OSError` if it cannot be read, is no file but a folder, a device or a pipe, or lies outside of the
+    folder to which the program is confined.
     """
     with _naming(path):
         _demand_inside(path)
@@ -117,10 +114,7 @@ class Document:
 def write(documents: Iterable[Document]) -> tuple[Path, ...]:
     """Write files: all of them, or none; folders are made for them, and files of their names replaced.
 
-    Raises
-    ------
-    AccessError
-        If one cannot be written, with its path; then all are as they were.
+    Raises `AccessError` if one cannot be written, with its path; then all are as they were.
     """
     contents = {document.path: document.content for document in documents}
     try:
@@ -138,15 +132,9 @@ def write(documents: Iterable[Document]) -> tuple[Path, ...]:
 def rewrite(path: Path, content: bytes, check: Callable[[bytes], None]) -> None:
     """Write a file anew that is there: a link to it stays a link, and its rights stay.
 
-    Parameters
-    ----------
-    check
-        Gets what the file holds, last of all before it is replaced, and may refuse by an exception.
+    `check`: Gets what the file holds, last of all before it is replaced, and may refuse by an exception.
 
-    Raises
-    ------
-    AccessError
-        If it is not there or cannot be written.
+    Raises `AccessError` if it is not there or cannot be written.
     """
     try:
         real = path.resolve(strict=True)
@@ -171,15 +159,12 @@ def cache_folder(environment: Mapping[str, str] = os.environ) -> Path | None:
 def beside(contents: Mapping[Path, bytes], hidden: Callable[[Path], Path]) -> Iterator[Mapping[Path, Path]]:
     """Write files under hidden names, and push them to the disk; what gets no name within is removed.
 
+    Raises `OSError` if one cannot be written, with the name that it should have got.
+
     Yields
     ------
     Mapping
         The hidden file of each.
-
-    Raises
-    ------
-    OSError
-        If one cannot be written, with the name that it should have got.
     """
     names: dict[Path, Path] = {}
     touched: set[Path] = set()
@@ -255,15 +240,9 @@ class Closable:
 class Appended(Closable):
     """A file to which records are added where it lies; leave it as a context manager.
 
-    Parameters
-    ----------
-    path
-        The file; it and its folder are made if they are not there.
+    `path`: The file; it and its folder are made if they are not there.
 
-    Raises
-    ------
-    OSError
-        If it cannot be written.
+    Raises `OSError` if it cannot be written.
     """
 
     def __init__(self, path: Path) -> None:
@@ -294,10 +273,7 @@ class Appended(Closable):
     def append(self, record: bytes) -> None:
         """Add a record; when this returns, a power cut cannot take it away.
 
-        Raises
-        ------
-        OSError
-            If the disk does not take it; then nothing of it is there.
+        Raises `OSError` if the disk does not take it; then nothing of it is there.
         """
         with _naming(self._path):
             before = os.fstat(self._handle).st_size
@@ -358,10 +334,7 @@ class JournalFile(Appended):
 def write_new(documents: Sequence[Document]) -> tuple[Path, ...]:
     """Write files, as `write` does, but none over one that is there: somebody may have worked on it.
 
-    Raises
-    ------
-    InputError
-        With every file that is there.
+    Raises `InputError` with every file that is there.
     """
     problems = [
         Problem(Place(str(document.path)), "is there already; choose another folder, or remove it")
@@ -392,10 +365,7 @@ def reason(error: OSError) -> str:
 def sync_folder(folder: Path) -> None:
     """Push the names in a folder to the disk, where the system has such a thing.
 
-    Raises
-    ------
-    OSError
-        If the disk refuses, with the folder.
+    Raises `OSError` if the disk refuses, with the folder.
     """
     try:
         handle = os.open(folder, os.O_RDONLY)

@@ -189,10 +189,7 @@ RUNNING = "measurement running"
 class Client:
     """Puts questions and takes their answers.
 
-    Parameters
-    ----------
-    timeout
-        How long to wait for an answer, s.
+    `timeout`: How long to wait for an answer, s.
     """
 
     def __init__(self, port: Port, timeout: float) -> None:
@@ -223,10 +220,7 @@ class Client:
     def call(self, method: str, *parameters: int, of_ecu: bool = False) -> Answer | None:
         """Return the answer to a question; None if it did not come or was not understood.
 
-        Raises
-        ------
-        AccessError
-            If the device has not answered for its time.
+        Raises `AccessError` if the device has not answered for its time.
         """
         self._number += 1
         number = self._number

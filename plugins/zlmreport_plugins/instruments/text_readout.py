@@ -93,16 +93,10 @@ class TextReadoutOptions(PolledOptions):
 
 
 class TextDecoder:
-    """Understands one readout.
-
-    Attributes
-    ----------
-    understood
-        How many lines were readings, or said that there is none.
-    """
+    """Understands one readout."""
 
     def __init__(self, options: TextReadoutOptions) -> None:
-        self.understood = 0
+        self.understood = 0  #: How many lines were readings, or said that there is none.
         self._options = options
         self._pattern = re.compile(options.pattern)
         self._no_reading = [re.compile(each) for each in options.no_reading]

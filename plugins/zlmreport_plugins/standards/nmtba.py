@@ -249,10 +249,7 @@ def position_spread(statistics: PositionStatistics, mean: FloatArray) -> FloatAr
     The sum of squares about X̄_j is taken as that about the mean of each direction and that of these means
     about X̄_j: two sums of squares, in which nothing cancels.
 
-    Parameters
-    ----------
-    mean : (..., position) array
-        X̄_j.
+    `mean`, (..., position): X̄_j.
     """
     count = statistics.count
     degrees_of_freedom = count.sum(axis=-2) - 1
@@ -266,10 +263,7 @@ def position_spread(statistics: PositionStatistics, mean: FloatArray) -> FloatAr
 def parameters(mean: FloatArray, spread: FloatArray) -> dict[str, FloatArray]:
     """Return the parameters of the axis by symbol, each of shape (...).
 
-    Parameters
-    ----------
-    mean, spread : (..., position) arrays
-        X̄_j and P_sj.
+    `mean`, `spread`, (..., position): X̄_j and P_sj.
     """
     upper, lower = mean + spread / 2, mean - spread / 2
     return {

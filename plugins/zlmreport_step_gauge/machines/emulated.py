@@ -40,14 +40,10 @@ def errors_along(
 ) -> Errors:
     """Return errors that act along a line.
 
-    Parameters
-    ----------
-    direction : (3,) array
-        Of the line, a unit vector.
-    origin : (3,) array
-        Where the positions count from, m.
-    positions, deviations : (m,) arrays
-        Along the line, m; between them the deviation is interpolated, beyond it stays.
+    `direction`, (3,): Of the line, a unit vector.
+    `origin`, (3,): Where the positions count from, m.
+    `positions`, `deviations`, (m,): Along the line, m; between them the deviation is interpolated, beyond it
+        stays.
     """
 
     def errors(points: FloatArray) -> FloatArray:
@@ -152,21 +148,12 @@ _FAR = 100.0
 def machine_of_job(job: Job, *, scale_error: float, noise: float) -> CoordinateMachine:
     """Return the machine.
 
-    Parameters
-    ----------
-    job
-        With a step gauge that is located by initial points; its faces stand where they were calibrated.
-    scale_error
-        Of the machine along the gauge: what is shown − where it is, over the distance from the first block.
-    noise
-        Standard deviation of a coordinate, m.
+    `job`: With a step gauge that is located by initial points; its faces stand where they were calibrated.
+    `scale_error`: Of the machine along the gauge: what is shown − where it is, over the distance from the
+        first block.
+    `noise`: Standard deviation of a coordinate, m.
 
-    Raises
-    ------
-    AccessError
-        If a file of the gauge cannot be read.
-    InputError
-        If the path cannot be planned.
+    Raises `AccessError` if a file of the gauge cannot be read; `InputError` if the path cannot be planned.
     """
     keys = job.own_keys("step_gauge")
     if keys is None:

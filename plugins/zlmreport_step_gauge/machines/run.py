@@ -51,17 +51,8 @@ Key = tuple[int, int]
 class Journal:
     """A journal that is open; leave it as a context manager.
 
-    Attributes
-    ----------
-    done
-        The faces and cycles that it holds.
-
-    Raises
-    ------
-    AccessError
-        If it cannot be written, another run writes it, or the result is there already.
-    InputError
-        If there is a journal of another path.
+    Raises `AccessError` if it cannot be written, another run writes it, or the result is there already;
+    `InputError` if there is a journal of another path.
     """
 
     def __init__(self, result: Path, path: ProbingPath) -> None:
@@ -74,7 +65,7 @@ class Journal:
             )
         self._file = JournalFile(self._part, "is being written by another run on this gauge; end that first")
         try:
-            self.done = self._sound()
+            self.done = self._sound()  #: The faces and cycles that it holds.
         except BaseException:
             self._file.close()
             raise
@@ -180,12 +171,8 @@ class LiveProbing:
 def live_probing(job: Job, keys: StepGaugeKeys) -> LiveProbing | None:
     """Return what a job asks to be probed live; None if its data source is none that a machine probes for.
 
-    Raises
-    ------
-    AccessError
-        If a file of the gauge cannot be read.
-    InputError
-        If no machine is stated, or the path cannot be planned.
+    Raises `AccessError` if a file of the gauge cannot be read; `InputError` if no machine is stated, or the
+    path cannot be planned.
     """
     options = job.source.options
     if not hasattr(options, "machine"):
@@ -203,13 +190,9 @@ def live_probing(job: Job, keys: StepGaugeKeys) -> LiveProbing | None:
 def run_probing(probing: LiveProbing, watcher: Watcher) -> Path:
     """Probe what is missing, and return the table of all points.
 
-    Raises
-    ------
-    AccessError
-        If the machine cannot be reached or stops, if faces were missed, or the table cannot be written: with
-        what the operator can do. What was probed is kept.
-    InputError
-        If what is there was probed on another path.
+    Raises `AccessError` if the machine cannot be reached or stops, if faces were missed, or the table cannot
+    be written: with what the operator can do. What was probed is kept. Raises `InputError` if what is there
+    was probed on another path.
     """
     whole = probing.planned.path
     with Journal(probing.result, whole) as journal:

@@ -78,11 +78,6 @@ class DmeServer:
         What goes wrong, by the number of the measuring move since the server was started, from 1.
     temperature
         Of the part, °C, for who asks for it with each point.
-
-    Attributes
-    ----------
-    is_gone
-        Whether the connection is to be lost.
     """
 
     def __init__(
@@ -93,7 +88,7 @@ class DmeServer:
         temperature: float = 20.0,
     ) -> None:
         self.machine = machine
-        self.is_gone = False
+        self.is_gone = False  #: Whether the connection is to be lost.
         self._tools = tools
         self._faults = dict(faults or {})
         self._temperature = temperature

@@ -79,10 +79,7 @@ def read_answer(line: str) -> Answer:
     >>> read_answer("00120 # X(1.5)")
     Answer(tag='00120', kind=<Kind.DATA: '#'>, text='X(1.5)')
 
-    Raises
-    ------
-    UnreadableError
-        If it is no answer.
+    Raises `UnreadableError` if it is no answer.
     """
     found = _LINE.fullmatch(line)
     if found is None:
@@ -96,10 +93,7 @@ def read_error(text: str) -> MachineError:
     >>> read_error('Error(3, 1006, PtMeas, "Surface not found")').number
     1006
 
-    Raises
-    ------
-    UnreadableError
-        If it is none.
+    Raises `UnreadableError` if it is none.
     """
     found = _ERROR.fullmatch(text)
     if found is None:
@@ -113,10 +107,7 @@ def read_data(text: str) -> Mapping[str, tuple[float, ...]]:
     >>> read_data("X(1.5), IJK(0, 0, 1)")
     {'X': (1.5,), 'IJK': (0.0, 0.0, 1.0)}
 
-    Raises
-    ------
-    UnreadableError
-        If there is anything else.
+    Raises `UnreadableError` if there is anything else.
     """
     found: dict[str, tuple[float, ...]] = {}
     position = 0
@@ -177,12 +168,8 @@ class Outcome:
 class Session:
     """A session with a server.
 
-    Parameters
-    ----------
-    timeout
-        How long a command may take from its acknowledgement to its end, s.
-    event
-        Is told what the server sends unasked, as it is written.
+    `timeout`: How long a command may take from its acknowledgement to its end, s.
+    `event`: Is told what the server sends unasked, as it is written.
     """
 
     def __init__(self, connection: Connection, timeout: float, event: Callable[[str], None]) -> None:
@@ -194,10 +181,7 @@ class Session:
     def order(self, command: str) -> list[str]:
         """Give a command that must succeed; return its data.
 
-        Raises
-        ------
-        AccessError
-            For any error that is in the way, and for a machine that does not answer.
+        Raises `AccessError` for any error that is in the way, and for a machine that does not answer.
         """
         outcome = self.ask(command)
         self._see_to(outcome)
@@ -307,10 +291,7 @@ _PATIENCE = 10.0
 class Connection:
     """Lines to and from a server.
 
-    Raises
-    ------
-    AccessError
-        If it cannot be reached; here and in every method, with what the operator can do.
+    Raises `AccessError` if it cannot be reached; here and in every method, with what the operator can do.
     """
 
     def __init__(self, host: str, port: int) -> None:

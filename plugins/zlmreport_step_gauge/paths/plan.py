@@ -84,15 +84,10 @@ def plan_path(  # noqa: PLR0913 - a gauge, where it lies, and how, for whom
 ) -> PlannedPath:
     """Return the path over the faces of a section, every move of it free.
 
-    Parameters
-    ----------
-    size
-        Width and height of the blocks, m.
+    `size`: Width and height of the blocks, m.
 
-    Raises
-    ------
-    InputError
-        If the tip would touch what it does not measure, or leave the working volume: with the moves.
+    Raises `InputError` if the tip would touch what it does not measure, or leave the working volume: with the
+    moves.
     """
     frame = GaugeFrame.of(location)
     width, height = size
@@ -152,10 +147,7 @@ def remaining(planned: PlannedPath, done: Collection[tuple[int, int]]) -> Probin
     All moves to a face and away from it begin and end where the tip passes the blocks, so that those of
     others can be left out; what then follows upon each other is held against the gauge again.
 
-    Raises
-    ------
-    InputError
-        If a move of what is left is not free.
+    Raises `InputError` if a move of what is left is not free.
     """
     left = [move for move in planned.path.moves if move.cycle and (move.face, move.cycle) not in done]
     if not left:
@@ -200,12 +192,8 @@ def _end(move: Move) -> Point:
 def path_of_job(job: Job, keys: StepGaugeKeys) -> PlannedPath:
     """Return the path over the step gauge of a job.
 
-    Raises
-    ------
-    AccessError
-        If a file cannot be read.
-    InputError
-        If the job says too little, the gauge cannot be located, or the path is not free.
+    Raises `AccessError` if a file cannot be read; `InputError` if the job says too little, the gauge cannot
+    be located, or the path is not free.
     """
     place = job.place_of("step_gauge")
     missing = {

@@ -69,10 +69,7 @@ def beginning(path: ProbingPath, tool: str | None) -> Iterator[str]:
     face. Whether a server counts them from the surface or from the centre of the tip is (check); with an
     approach larger than the radius, the tip is free either way.
 
-    Raises
-    ------
-    InputError
-        If the path asks for points of the surface: this protocol reports centres of the tip.
+    Raises `InputError` if the path asks for points of the surface: this protocol reports centres of the tip.
     """
     if path.radius_correction:
         raise InputError.at(

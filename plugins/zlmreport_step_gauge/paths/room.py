@@ -47,10 +47,7 @@ def refuse_collisions(path: ProbingPath, room: Room) -> None:
 
     A measuring move touches its own block, and so does the one that leads away from it.
 
-    Raises
-    ------
-    InputError
-        With the moves and the faces to which they lead.
+    Raises `InputError` with the moves and the faces to which they lead.
     """
     problems = [*_outside(path, room), *_collisions(path, room)]
     if len(problems) > _NAMED:
@@ -213,14 +210,9 @@ class Obstacles:
 def obstacles(gauge: StepGauge, first_block: int, width: float, height: float) -> Obstacles:
     """Return the boxes of a gauge.
 
-    Parameters
-    ----------
-    gauge
-        The whole gauge: blocks outside the section that is used stand in the way, too.
-    first_block
-        Number of the block whose centre is the origin.
-    width, height
-        Of the blocks, m.
+    `gauge`: The whole gauge: blocks outside the section that is used stand in the way, too.
+    `first_block`: Number of the block whose centre is the origin.
+    `width`, `height`: Of the blocks, m.
     """
     ends = {block: block_ends(gauge, block) for block in gauge.blocks}
     origin = sum(ends[first_block]) / 2

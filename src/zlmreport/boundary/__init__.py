@@ -34,10 +34,7 @@ class Unacceptable(Exception):  # noqa: N818 - it ends in the call that met it, 
 class Guarded:
     """An object of a plugin, as the core has it: the same attributes, and methods that are looked after.
 
-    Parameters
-    ----------
-    who
-        What messages call it: ``standard 'house' of plugin house (zlmreport-house 1.0)``.
+    `who`: What messages call it: ``standard 'house' of plugin house (zlmreport-house 1.0)``.
     """
 
     def __init__(self, kind: Kind[Any], offered: Any, who: str) -> None:
@@ -100,10 +97,7 @@ class Guarded:
     ) -> Callable[..., Any]:
         """Return a function of the plugin that is looked after.
 
-        Parameters
-        ----------
-        accept
-            Takes this object, the answer and what was asked, and returns what is handed on; raises
+        `accept`: Takes this object, the answer and what was asked, and returns what is handed on; raises
             `Unacceptable` for what no plugin must answer.
         """
 
@@ -155,10 +149,7 @@ class _GuardedConnection(Guarded):
 def guarded(kind: Kind[Any], offered: Any, by: str) -> Any:
     """Return an object of a plugin behind the boundary; it stands wherever the object would.
 
-    Parameters
-    ----------
-    by
-        Where it comes from: ``plugin house (zlmreport-house 1.0)``.
+    `by`: Where it comes from: ``plugin house (zlmreport-house 1.0)``.
     """
     return Guarded(kind, offered, f"{kind.label} {offered.identifier!r} of {by}")
 

@@ -64,14 +64,6 @@ class Follower:
     the stability range and inside the tolerance, and it is clear which visit of the list that is. Whatever
     else happens it names, and takes nothing.
 
-    Attributes
-    ----------
-    progress
-        How far the capture has come.
-    is_halted
-        Whether nothing more is taken: it is over, or an operator must see to something. Another follower
-        goes on, from ``progress``.
-
     Parameters
     ----------
     progress
@@ -91,9 +83,11 @@ class Follower:
         is_watched: bool = False,
         last: float | None = None,
     ) -> None:
-        self.progress = progress
+        self.progress = progress  #: How far the capture has come.
         self._is_watched = is_watched
         self._programme = Programme(progress.visits, settings)
+        #: Whether nothing more is taken: it is over, or an operator must see to something. Another follower
+        #: goes on, from ``progress``.
         self.is_halted = progress.is_over
         self._settings = settings
         self._window = Window(settings.stability, settings.dwell)
@@ -135,10 +129,7 @@ class Follower:
     def told(self, visit: ListedVisit | None, late: float | None = None) -> list[Event]:
         """Return what happens when the operator says which visit an unclear stop is; None for none.
 
-        Parameters
-        ----------
-        late
-            How long ago the stop was, s; without it, it was seen by this follower.
+        `late`: How long ago the stop was, s; without it, it was seen by this follower.
         """
         return self._lived_through(self._answered(visit, late))
 

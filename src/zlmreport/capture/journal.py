@@ -210,25 +210,16 @@ class Journal(Closable):
     """A journal that is open for records; only one capture can have it.
 
     Make one by `begun` or `continued`, and leave it as a context manager.
-
-    Attributes
-    ----------
-    header
-        Its first line.
-    progress
-        How far the capture has come, by what is in it.
-    elapsed
-        Of its last record, s from the start of the capture.
-    visited
-        When the last reading was, s from the start of the capture; None before.
-    asked
-        When the question that is open was asked, s from the start of the capture.
     """
 
     def __init__(self, file: JournalFile, header: Header, last_sum: str) -> None:
-        self.header = header
+        self.header = header  #: Its first line.
+        #: How far the capture has come, by what is in it.
         self.progress = Progress.begin(header.visits, header.datum)
+        #: elapsed: Of its last record, s from the start of the capture.
+        #: asked: When the question that is open was asked, s from the start of the capture.
         self.elapsed = self.asked = 0.0
+        #: When the last reading was, s from the start of the capture; None before.
         self.visited: float | None = None
         self._file = file
         self._sum = last_sum
@@ -237,10 +228,7 @@ class Journal(Closable):
     def begun(cls, path: Path, header: Header) -> Self:
         """Begin a journal.
 
-        Raises
-        ------
-        AccessError
-            If there is one of this name that holds a capture, or it cannot be written.
+        Raises `AccessError` if there is one of this name that holds a capture, or it cannot be written.
         """
         with _closed_on_error(_opened(path)) as file:
             demand_nothing_captured(path)
@@ -253,10 +241,7 @@ class Journal(Closable):
     def continued(cls, path: Path) -> Self:
         """Go on with a journal; what was torn off at its end is cut away.
 
-        Raises
-        ------
-        AccessError
-            If there is none, it is damaged or being written, or it cannot be written.
+        Raises `AccessError` if there is none, it is damaged or being written, or it cannot be written.
         """
         read_history(path)  # before it is opened, which would make one
         with _closed_on_error(_opened(path)) as file:
@@ -280,15 +265,9 @@ class Journal(Closable):
     def append(self, event: Event, elapsed: float) -> None:
         """Write an event; when this returns, a power cut cannot take it away.
 
-        Parameters
-        ----------
-        elapsed
-            When, s from the start of the capture; a clock that was set back does not let time go back.
+        `elapsed`: When, s from the start of the capture; a clock that was set back does not let time go back.
 
-        Raises
-        ------
-        AccessError
-            If it cannot be written.
+        Raises `AccessError` if it cannot be written.
         """
         self.elapsed = max(self.elapsed, elapsed)
         self._write({"elapsed": round(self.elapsed, 4), **to_record(event)})
@@ -310,10 +289,7 @@ class Journal(Closable):
 def demand_nothing_captured(path: Path) -> None:
     """Refuse to begin a journal where there is one with readings in it, or a file of somebody else.
 
-    Raises
-    ------
-    AccessError
-        At the journal, with how to go on.
+    Raises `AccessError` at the journal, with how to go on.
     """
     if not path.exists() or (path.is_file() and not path.stat().st_size):
         return
@@ -360,15 +336,10 @@ def captured(
 ) -> Iterator[Event]:
     """Follow readings, write down what happens, and yield it; end when nothing more is taken.
 
-    Parameters
-    ----------
-    follower
-        It begins with the progress of the journal.
-    elapsed
-        From the time of a reading to s from the start of the capture.
-    show
-        Is called with each reading, when all that happened with it is on the disk; returns what the operator
-        orders then.
+    `follower`: It begins with the progress of the journal.
+    `elapsed`: From the time of a reading to s from the start of the capture.
+    `show`: Is called with each reading, when all that happened with it is on the disk; returns what the
+        operator orders then.
     """
 
     def kept(events: Iterable[Event], time: float) -> Iterator[Event]:

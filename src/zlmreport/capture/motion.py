@@ -13,25 +13,15 @@ from zlmreport.measurement.approach import Approach
 
 
 class Route:
-    """Where the axis turned round, from afar: what is less than a threshold is no turn.
-
-    Attributes
-    ----------
-    turns
-        Turning points so far, m or rad.
-    breaks, silence
-        How often the axis was out of sight; for how long in all, s.
-    heading
-        Which way it goes; None as long as that is not known.
-    first, last
-        Where it was seen first, and last, m or rad; None before, and after a break.
-    """
+    """Where the axis turned round, from afar: what is less than a threshold is no turn."""
 
     def __init__(self, threshold: float) -> None:
-        self.turns: list[float] = []
+        self.turns: list[float] = []  #: Turning points so far, m or rad.
+        #: breaks, silence: How often the axis was out of sight; for how long in all, s.
         self.breaks = 0
         self.silence = 0.0
-        self.heading: Approach | None = None
+        self.heading: Approach | None = None  #: Which way it goes; None as long as that is not known.
+        #: first, last: Where it was seen first, and last, m or rad; None before, and after a break.
         self.first: float | None = None
         self.last: float | None = None
         self._threshold = threshold

@@ -100,10 +100,7 @@ def options_of(job: Job) -> CaptureOptions | None:
 def assignment_of(job: Job, plan: Plan) -> Assignment:
     """Return what a job asks to be captured.
 
-    Raises
-    ------
-    InputError
-        If its data source is not captured live, or its limits do not fit the plan.
+    Raises `InputError` if its data source is not captured live, or its limits do not fit the plan.
     """
     options = options_of(job)
     if options is None:
@@ -152,10 +149,7 @@ def header_of(job: Job, assignment: Assignment, started: dt.datetime) -> Header:
 def demand_same_test(history: History, job: Job, assignment: Assignment, place: Place) -> None:
     """Refuse a journal of another job, or of another plan.
 
-    Raises
-    ------
-    AccessError
-        At the journal's place, with what differs.
+    Raises `AccessError` at the journal's place, with what differs.
     """
     header = history.header
     other = _difference(header, job, assignment)

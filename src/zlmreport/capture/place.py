@@ -89,13 +89,6 @@ class _Guess:
 class Place:
     """Follows the program by its stops.
 
-    Attributes
-    ----------
-    undecided
-        The stops of which it is not clear which visit they are, first come first.
-    left_out
-        Numbers of the visits that the operator leaves out: that they go unseen is no wonder.
-
     Parameters
     ----------
     taken
@@ -108,7 +101,9 @@ class Place:
     def __init__(
         self, programme: Programme, settings: Settings, taken: int, last: float | None = None
     ) -> None:
+        #: The stops of which it is not clear which visit they are, first come first.
         self.undecided: list[Stop] = []
+        #: Numbers of the visits that the operator leaves out: that they go unseen is no wonder.
         self.left_out: frozenset[int] = frozenset()
         self._programme = programme
         self._settings = settings

@@ -182,16 +182,10 @@ class Progress:
     def retake(self, text: str, place: Place) -> Retake:
         """Return what takes visits again.
 
-        Parameters
-        ----------
-        text
-            The number of a visit, or ``run`` and that of a run.
+        `text`: The number of a visit, or ``run`` and that of a run.
 
-        Raises
-        ------
-        InputError
-            If there is no such visit or run, the capture has not come so far, or a datum is gone without
-            which a part of the test would be read under two.
+        Raises `InputError` if there is no such visit or run, the capture has not come so far, or a datum is
+        gone without which a part of the test would be read under two.
         """
         word, _, number = text.strip().rpartition("run")
         is_run = "run" in text

@@ -25,15 +25,10 @@ class Pace:
     A reading is stamped when it arrives. Where a computer was busy, what had been waiting arrives at once,
     and what had no room was dropped; so readings that are missing count for the time that they should have
     taken.
-
-    Attributes
-    ----------
-    shortest
-        How far apart the first readings were at least, s; 0 before it is known.
     """
 
     def __init__(self) -> None:
-        self.shortest = 0.0
+        self.shortest = 0.0  #: How far apart the first readings were at least, s; 0 before it is known.
         self._first: list[float] = []
         self._elapsed = 0.0
         self._count = 0
@@ -41,12 +36,8 @@ class Pace:
     def gap(self, before: float, now: float, lost: int) -> float:
         """Return how long no reading came, s.
 
-        Parameters
-        ----------
-        before, now
-            When the last reading arrived, and this one, s.
-        lost
-            How many between them did not arrive or were not understood.
+        `before`, `now`: When the last reading arrived, and this one, s.
+        `lost`: How many between them did not arrive or were not understood.
         """
         elapsed = now - before
         expected = (lost + 1) * self._elapsed / self._count if self._count and lost else 0.0
@@ -64,15 +55,6 @@ class Track:
     The direction is that of the last motion that went further than a threshold; a smaller one back, such as
     an overshoot, does not turn it.
 
-    Attributes
-    ----------
-    position
-        The median of the last three readings, m or rad; None as long as there are fewer.
-    before
-        The one before.
-    direction
-        None as long as no motion has been seen.
-
     Parameters
     ----------
     motion
@@ -80,9 +62,10 @@ class Track:
     """
 
     def __init__(self, motion: float) -> None:
+        #: The median of the last three readings, m or rad; None as long as there are fewer.
         self.position: float | None = None
-        self.before: float | None = None
-        self.direction: Approach | None = None
+        self.before: float | None = None  #: The one before.
+        self.direction: Approach | None = None  #: None as long as no motion has been seen.
         self._motion = motion
         self._last: list[float] = []
         self._lowest = self._highest = 0.0
@@ -131,12 +114,8 @@ class Window:
 
     Adding a reading takes the same time however many there are.
 
-    Parameters
-    ----------
-    stability
-        Largest − smallest value that is still, m or rad.
-    dwell
-        How long makes a standstill, s.
+    `stability`: Largest − smallest value that is still, m or rad.
+    `dwell`: How long makes a standstill, s.
     """
 
     def __init__(self, stability: float, dwell: float) -> None:
@@ -230,12 +209,8 @@ def expected_deviation(
 ) -> tuple[float, float]:
     """Return what a visit should read, as a deviation, and how far it may be off, m or rad.
 
-    Parameters
-    ----------
-    read
-        What was read under this datum: the latest reading of each target from each side.
-    settings
-        With the stability range, in which the limits count.
+    `read`: What was read under this datum: the latest reading of each target from each side.
+    `settings`: With the stability range, in which the limits count.
     """
     earlier = read.get((visit.target, visit.approach))
     if earlier is not None and earlier.visit.number != visit.number:
@@ -257,16 +232,10 @@ def misread_by(
 ) -> float | None:
     """Return the factor by which a display reads wrong, if its stop were at one of the next visits by it.
 
-    Parameters
-    ----------
-    value
-        What the display shows, by its own zero, m or rad.
-    zero
-        The position at which it shows 0, m or rad.
-    right
-        Where it was last known to be right: the datum, or its own zero, m or rad.
-    near
-        How far off a stop may be, m or rad.
+    `value`: What the display shows, by its own zero, m or rad.
+    `zero`: The position at which it shows 0, m or rad.
+    `right`: Where it was last known to be right: the datum, or its own zero, m or rad.
+    `near`: How far off a stop may be, m or rad.
     """
     position = value + zero
     targets = [visit.position for visit, _ in zip(following, range(_AHEAD), strict=False)]

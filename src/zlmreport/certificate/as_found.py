@@ -114,10 +114,7 @@ def beside_as_found(  # noqa: PLR0913, PLR0917 - two measurements of everything
 ) -> Iterator[Section]:
     """Yield the comparison, the results as left, and those as found; each says which it is.
 
-    Parameters
-    ----------
-    before, after
-        Evaluations of the two measurements, by the same standards in the same order.
+    `before`, `after`: Evaluations of the two measurements, by the same standards in the same order.
     """
     state_before, state_after = NAMES[keys.work]
     yield _comparison(keys, before, after, writer)

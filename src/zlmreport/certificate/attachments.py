@@ -159,10 +159,7 @@ def source_attachments(sources: Iterable[Source], language: Language) -> Iterato
 def arranged(attachments: Iterable[Attachment], number: str) -> tuple[Attachment, ...]:
     """Return the attachments of the certificate of this number in the order in which a PDF lists them.
 
-    Raises
-    ------
-    InputError
-        If they are more, or larger, than a certificate carries.
+    Raises `InputError` if they are more, or larger, than a certificate carries.
     """
     found = sorted(attachments, key=lambda each: each.name.encode())
     size = sum(len(each.content) for each in found)

@@ -53,14 +53,9 @@ def build(  # noqa: PLR0913, PLR0917 - what a document is made of
 ) -> Certificate:
     """Build the document.
 
-    Parameters
-    ----------
-    evaluated
-        At least one evaluation; all are of the same measurements.
-    modelled
-        The error model, studied; None where the job names none.
-    as_found
-        Evaluations of the axis before it was adjusted, by the same standards; empty where it was not.
+    `evaluated`: At least one evaluation; all are of the same measurements.
+    `modelled`: The error model, studied; None where the job names none.
+    `as_found`: Evaluations of the axis before it was adjusted, by the same standards; empty where it was not.
     """
     certificate = job.keys.certificate
     measurements = evaluated[0].evaluation.measurements

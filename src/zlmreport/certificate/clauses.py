@@ -120,10 +120,7 @@ def missing_items(job: Job) -> Iterator[Problem]:
 def demand_mandatory_items(job: Job) -> None:
     """Refuse a calibration certificate that lacks mandatory items.
 
-    Raises
-    ------
-    InputError
-        With every missing item, its clause, and the key that states it.
+    Raises `InputError` with every missing item, its clause, and the key that states it.
     """
     missing = tuple(missing_items(job))
     if missing:

@@ -78,12 +78,8 @@ def findings(
 ) -> Iterator[Finding]:
     """Yield what a standard asks to be reported, held against the job.
 
-    Parameters
-    ----------
-    measurements
-        Its readings, with the temperatures that were logged beside them.
-    budget
-        Of their uncertainty: it knows the thermal expansion that is not corrected.
+    `measurements`: Its readings, with the temperatures that were logged beside them.
+    `budget`: Of their uncertainty: it knows the thermal expansion that is not corrected.
     """
     for each in asked:
         if each is not Information.REFERENCE_TEMPERATURE:

@@ -98,10 +98,7 @@ class Linked:
 def linked(section: str, study: Study, whole: Fitted, diagnosis: Diagnosis, language: Language) -> Linked:
     """Return the linked graphs of a studied model.
 
-    Parameters
-    ----------
-    study
-        The readings, none set aside.
+    `study`: The readings, none set aside.
     """
     return Linked(
         section,
@@ -131,10 +128,7 @@ def failure_values(row: FailureRow, diagnosis: Diagnosis, study: Study) -> dict[
 def graphs(study: Study, whole: Fitted, language: Language) -> dict[str, Any]:
     """Return what both graphs draw, in the units of the page.
 
-    Parameters
-    ----------
-    study
-        The readings, none set aside.
+    `study`: The readings, none set aside.
     """
     observed, axis = study.observed, study.job.axis
     design = observed.design

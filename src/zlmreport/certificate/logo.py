@@ -25,13 +25,9 @@ class Logo:
 def read_logo(path: Path, place: Place) -> Logo:
     """Return the logo.
 
-    Raises
-    ------
-    AccessError
-        If it cannot be read.
-    InputError
-        If it is too large, or neither PNG nor JPEG: formats that hold a picture and nothing else. If its
-        colours are those of a printing press, for which an archived document has no meaning.
+    Raises `AccessError` if it cannot be read; `InputError` if it is too large, or neither PNG nor JPEG:
+    formats that hold a picture and nothing else. If its colours are those of a printing press, for which an
+    archived document has no meaning.
     """
     try:
         content = read(path, _LARGEST)

@@ -34,10 +34,7 @@ def section(
 ) -> Section:
     """Return the section that lets anyone evaluate again: files with digests, program and plugins.
 
-    Parameters
-    ----------
-    measurements
-        What was read: the axis as left, and as found if it was adjusted.
+    `measurements`: What was read: the axis as left, and as found if it was adjusted.
     """
     programs = Facts(
         (

@@ -37,13 +37,8 @@ _RESTRICTED = 0x2
 def read_look(job: Job) -> Look:
     """Return the look that a job asks for.
 
-    Raises
-    ------
-    AccessError
-        If a file or the folder cannot be read.
-    InputError
-        If a file of the typeface is no font, lacks letters or must not be embedded; if the folder holds what
-        is no template.
+    Raises `AccessError` if a file or the folder cannot be read; `InputError` if a file of the typeface is no
+    font, lacks letters or must not be embedded; if the folder holds what is no template.
     """
     style = job.keys.certificate.style
     typeface = None

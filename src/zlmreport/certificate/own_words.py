@@ -30,17 +30,10 @@ _MANDATORY = {
 def filled(text: str, job: Job, key: str) -> str:
     """Return a text with the values of the keys that it names in braces.
 
-    Parameters
-    ----------
-    text
-        As the job states it at `key`.
-    job
-        The job; its texts, numbers and dates can be named.
+    `text`: As the job states it at `key`.
+    `job`: The job; its texts, numbers and dates can be named.
 
-    Raises
-    ------
-    InputError
-        If it names a key that the job does not state: every such key.
+    Raises `InputError` if it names a key that the job does not state: every such key.
     """
     known = dict(_values(job.keys.model_dump(exclude_none=True)))
     problems = tuple(

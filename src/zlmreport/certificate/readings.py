@@ -43,10 +43,7 @@ _INDICATION = Words(
 def section(measurements: MeasurementSet, writer: Writer, key: str = "measurement.source") -> Section:
     """Return the section of raw readings: one row a target, runs as columns.
 
-    Parameters
-    ----------
-    key
-        The job key that names their source: marked if the readings are the customer's.
+    `key`: The job key that names their source: marked if the readings are the customer's.
     """
     blocks: list[Block] = [
         *missing_readings(measurements, writer),

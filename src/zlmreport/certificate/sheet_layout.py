@@ -50,10 +50,8 @@ class _Item:
 def lay_out(of: Material) -> LaidOut:
     """Return the document.
 
-    Raises
-    ------
-    InputError
-        If a calibration certificate has more to state than its pages hold: every item that does not fit.
+    Raises `InputError` if a calibration certificate has more to state than its pages hold: every item that
+    does not fit.
     """
     beyond = dict(_of_no_sheet(of))
     sections: list[Section] = []

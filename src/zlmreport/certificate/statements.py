@@ -158,10 +158,7 @@ def in_a_paragraph(blocks: Iterable[Block]) -> Iterator[Block]:
 def exclusion_notice(measurements: MeasurementSet, writer: Writer, key: str = _KEY) -> Iterator[Notice]:
     """Yield the notice that names every reading that was set aside, with its value and the reason.
 
-    Parameters
-    ----------
-    key
-        The job key that names them: marked if that was the customer's decision.
+    `key`: The job key that names them: marked if that was the customer's decision.
     """
     exclusions = measurements.provenance.exclusions
     if exclusions:

@@ -189,11 +189,8 @@ def capture(  # noqa: PLR0913 - whom, what, with what, shown where, and how to g
 ) -> None:
     """Capture the test of a job to its end.
 
-    Raises
-    ------
-    AccessError
-        If the instrument or the journal fails, or there is no operator to see to something; with how to go
-        on.
+    Raises `AccessError` if the instrument or the journal fails, or there is no operator to see to something;
+    with how to go on.
     """
     if resume:
         demand_own_journal(job, assignment, words)

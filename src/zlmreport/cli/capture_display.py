@@ -112,16 +112,10 @@ def order_of(line: str, progress: Progress) -> Order:
 
 
 class Keyboard:
-    """Lines that are typed at a terminal, read without waiting for them; it shows them nowhere itself.
-
-    Attributes
-    ----------
-    typed
-        What was typed of a line that is not finished.
-    """
+    """Lines that are typed at a terminal, read without waiting for them; it shows them nowhere itself."""
 
     def __init__(self) -> None:
-        self.typed = ""
+        self.typed = ""  #: What was typed of a line that is not finished.
         self._file = sys.stdin.fileno()
 
     @property

@@ -75,14 +75,9 @@ def put_on_line(
 ) -> int:
     """Let an emulated instrument speak until it is unplugged, or the user ends it; return the exit code.
 
-    Parameters
-    ----------
-    options
-        Of the command: ``link`` or ``port``, and ``fault``.
-    announce
-        Returns what is printed once the line is there, from its address.
-    heard
-        Called with it from when somebody reads the instrument.
+    `options`: Of the command: ``link`` or ``port``, and ``fault``.
+    `announce`: Returns what is printed once the line is there, from its address.
+    `heard`: Called with it from when somebody reads the instrument.
     """
     signal.signal(signal.SIGTERM, _as_after_ctrl_c)
     troubles = troubles_of(options)

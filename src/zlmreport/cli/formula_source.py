@@ -33,12 +33,8 @@ _TAKEN = {"self", "design", "theta", "np", "columns", "each"}
 def tokens_of(effect: FormulaEffect, kind: AxisKind) -> dict[str, str]:
     """Return what the skeleton of a formula is filled with.
 
-    Parameters
-    ----------
-    effect
-        The formula; it has no variable v.
-    kind
-        Of the axis that it is meant for.
+    `effect`: The formula; it has no variable v.
+    `kind`: Of the axis that it is meant for.
     """
     formula, searched = effect.formula, _with_range(effect)
     variables = {name: _variable(name) for name in (*formula.names, *effect.keys.parameters)}

@@ -96,10 +96,7 @@ def look(options: Namespace) -> int:
 def looked_at(path: Path, registry: Registry) -> Looked:
     """Return how a file can be read.
 
-    Raises
-    ------
-    ZlmreportError
-        If no data source reads it: what the likeliest of them says.
+    Raises `ZlmreportError` if no data source reads it: what the likeliest of them says.
     """
     suffix = path.suffix.casefold()
     sources = sorted(registry.sources, key=lambda each: suffix not in getattr(each, "suffixes", ()))

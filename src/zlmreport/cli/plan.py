@@ -316,15 +316,9 @@ def chosen_programs(
 ) -> tuple[Choice, ...]:
     """Return the programs that the command line names, or else those of the job.
 
-    Parameters
-    ----------
-    named
-        Identifiers on the command line, parted by commas; None if there are none.
+    `named`: Identifiers on the command line, parted by commas; None if there are none.
 
-    Raises
-    ------
-    InputError
-        If there is none of that name, or no folder to write it into.
+    Raises `InputError` if there is none of that name, or no folder to write it into.
     """
     if named is None:
         return stated
@@ -346,15 +340,9 @@ def program_files(
 ) -> tuple[Document, ...]:
     """Return the files of part programs.
 
-    Parameters
-    ----------
-    subject
-        Returns what the programs are written of, asked for at a place.
+    `subject`: Returns what the programs are written of, asked for at a place.
 
-    Raises
-    ------
-    InputError
-        With everything that one of the controls or machines cannot be told.
+    Raises `InputError` with everything that one of the controls or machines cannot be told.
     """
     problems: list[Problem] = []
     documents: list[Document] = []

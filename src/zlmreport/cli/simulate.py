@@ -123,10 +123,7 @@ def written(table: Document, job: Document) -> Iterator[str]:
 def remarks(file: SimulationFile, kind: str) -> tuple[str, ...]:
     """Return what the head of a table says of its origin.
 
-    Parameters
-    ----------
-    kind
-        What the table holds, in a sentence.
+    `kind`: What the table holds, in a sentence.
     """
     origin = f"sha256 {file.source.sha256[:16]}…, seed {file.keys.seed}"
     return kind, f"Source: zlmreport simulate {file.source.name} ({origin})"

@@ -44,15 +44,9 @@ class Confirmation:
 def confirm(basis: Basis, after: ErrorCurve, table: CompensationTable, place: Place) -> Confirmation:
     """Hold a second test against the table that the first one gave.
 
-    Parameters
-    ----------
-    basis
-        What is known of the axis from the first test; between its targets, too.
+    `basis`: What is known of the axis from the first test; between its targets, too.
 
-    Raises
-    ------
-    InputError
-        If the two tests have no common length.
+    Raises `InputError` if the two tests have no common length.
     """
     before = basis.curve
     inside = (after.positions >= before.positions[0] - 1e-9) & (

@@ -63,10 +63,7 @@ class CompensationTable:
 def curve_of(measurements: MeasurementSet, place: Place) -> ErrorCurve:
     """Return the curve of a test.
 
-    Raises
-    ------
-    InputError
-        At the place, if a target lacks a mean in a direction that was measured.
+    Raises `InputError` at the place, if a target lacks a mean in a direction that was measured.
     """
     statistics = position_statistics(measurements.deviations())
     sign = -1.0 if measurements.is_indication else 1.0
@@ -95,14 +92,9 @@ def table_of(
 ) -> CompensationTable:
     """Return the table of deviations, with that of a table that was active during the test added.
 
-    Parameters
-    ----------
-    deviations : (2, g) array
-        What is left at the rows, forward and reverse, m or rad.
-    rows : (g,) array
-        m or rad.
-    axis, number, place
-        As of `CompensationTable`; the axis has the table that was active.
+    `deviations`, (2, g): What is left at the rows, forward and reverse, m or rad.
+    `rows`, (g,): m or rad.
+    `axis`, `number`, `place`: As of `CompensationTable`; the axis has the table that was active.
     """
     old = axis.compensation_table
     forward, reverse = (

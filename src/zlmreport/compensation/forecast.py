@@ -82,10 +82,7 @@ def forecast(
 ) -> Forecast:
     """Return the forecast of a table.
 
-    Parameters
-    ----------
-    budget
-        Of the set-up with which both tests are done; None where nothing is known of it.
+    `budget`: Of the set-up with which both tests are done; None where nothing is known of it.
     """
     curve = basis.curve
     means = np.stack([curve.forward, curve.reverse])
@@ -157,10 +154,7 @@ def _unknown(basis: Basis, own: FloatArray, random: np.random.Generator) -> Floa
     means show there, t being the trust of the part. Nothing is drawn twice: what lies along the model's
     directions cannot be told from the model.
 
-    Parameters
-    ----------
-    own : (N, 1) array
-        u, m or rad.
+    `own`, (N, 1): u, m or rad.
     """
     drawn = []
     for part in basis.parts:

@@ -64,15 +64,9 @@ def grid_of(
 ) -> Grid:
     """Return the grid of a table.
 
-    Parameters
-    ----------
-    step
-        Distance of the rows, m or rad; None for the rule.
+    `step`: Distance of the rows, m or rad; None for the rule.
 
-    Raises
-    ------
-    InputError
-        If the step does not divide the measured length into at least one interval.
+    Raises `InputError` if the step does not divide the measured length into at least one interval.
     """
     targets = basis.curve.positions
     first, last, count = float(targets[0]), float(targets[-1]), len(targets)
@@ -153,19 +147,13 @@ def make(  # noqa: PLR0913, PLR0917 - of what, on which grid, for whom
 ) -> Made:
     """Make a table.
 
-    Parameters
-    ----------
-    axis, number, place
-        The axis with the table that was active; the name of the job; where the table is asked for.
-    step
-        Distance of the rows, m or rad; None for the grid that `grid_of` chooses.
-    budget
-        Of the measuring set-up; None where nothing is known of it.
+    `axis`, `number`, `place`: The axis with the table that was active; the name of the job; where the table
+        is asked for.
+    `step`: Distance of the rows, m or rad; None for the grid that `grid_of` chooses.
+    `budget`: Of the measuring set-up; None where nothing is known of it.
 
-    Raises
-    ------
-    InputError
-        If the control would refuse the table, or cut it off; if a wave is wanted that no row can follow.
+    Raises `InputError` if the control would refuse the table, or cut it off; if a wave is wanted that no row
+    can follow.
     """
     most = getattr(controller, "most_rows", None)
     grid = grid_of(basis, place, step=step, is_equidistant=controller.is_equidistant, most_rows=most)

@@ -38,14 +38,9 @@ _KEY = "measurement.excluded"
 def displacement_in_air(displayed: FloatArray, index: FloatArray, assumed_index: float) -> FloatArray:
     """Return the displacement by the true wavelength, D·nₐ/n.
 
-    Parameters
-    ----------
-    displayed : (N,) array
-        Displacement from the datum as the instrument displayed it, m.
-    index : (N,) array
-        n at each reading.
-    assumed_index
-        nₐ.
+    `displayed`, (N,): Displacement from the datum as the instrument displayed it, m.
+    `index`, (N,): n at each reading.
+    `assumed_index`: nₐ.
     """
     return displayed * (assumed_index / index)
 
@@ -53,14 +48,9 @@ def displacement_in_air(displayed: FloatArray, index: FloatArray, assumed_index:
 def dead_path_error(index: FloatArray, index_at_datum: float, dead_path: float) -> FloatArray:
     """Return how far the air along the dead path has moved the datum, Dp·(n − n₀)/n, m.
 
-    Parameters
-    ----------
-    index : (N,) array
-        n at each reading.
-    index_at_datum
-        n₀, when the instrument was set to zero.
-    dead_path
-        Dp, m.
+    `index`, (N,): n at each reading.
+    `index_at_datum`: n₀, when the instrument was set to zero.
+    `dead_path`: Dp, m.
     """
     return dead_path * (index - index_at_datum) / index
 
@@ -180,10 +170,7 @@ def without_excluded(measurements: MeasurementSet, job: Job) -> MeasurementSet:
 
     A reading that is set aside is missing from the set, and stands in its provenance with its value.
 
-    Raises
-    ------
-    InputError
-        For each that there is not, that is missing already, or that is named twice.
+    Raises `InputError` for each that there is not, that is missing already, or that is named twice.
     """
     keys = job.keys.measurement.excluded
     if not keys:
@@ -251,10 +238,7 @@ _NANOMETRE = 1e-9
 def corrections_of(job: Job, measurements: MeasurementSet) -> Corrections | None:
     """Return what a job corrects its readings for; None where it asks for nothing.
 
-    Raises
-    ------
-    InputError
-        With everything that a correction needs and neither the readings nor the job tell.
+    Raises `InputError` with everything that a correction needs and neither the readings nor the job tell.
     """
     keys = job.keys.corrections
     if keys is None or not (keys.air or keys.dead_path or keys.material):
@@ -289,10 +273,7 @@ def _datum(measurements: MeasurementSet) -> float:
 def air_conditions(job: Job, measurements: MeasurementSet) -> list[FloatArray]:
     """Return temperature, pressure and humidity of the air at each reading, SI.
 
-    Raises
-    ------
-    InputError
-        If one of them is known neither from the readings nor from the job.
+    Raises `InputError` if one of them is known neither from the readings nor from the job.
     """
     problems: list[Problem] = []
     found = _conditions(STATE_OF_AIR, "corrections.air", job, measurements, problems)

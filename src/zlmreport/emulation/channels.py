@@ -41,15 +41,9 @@ class Channel(Protocol):
 class PseudoTerminal(Closable):
     """A terminal that a program opens like a serial port.
 
-    Parameters
-    ----------
-    link
-        A name for it that does not change from one emulation to the next; it is removed in the end.
+    `link`: A name for it that does not change from one emulation to the next; it is removed in the end.
 
-    Raises
-    ------
-    AccessError
-        If the name is taken, or cannot be made.
+    Raises `AccessError` if the name is taken, or cannot be made.
     """
 
     def __init__(self, link: Path | None = None) -> None:
@@ -135,15 +129,9 @@ class PseudoTerminal(Closable):
 class LocalSocket(Closable):
     """A socket on this computer that serves one host after the other.
 
-    Parameters
-    ----------
-    number
-        Of the TCP port; 0 for any that is free.
+    `number`: Of the TCP port; 0 for any that is free.
 
-    Raises
-    ------
-    AccessError
-        If the port is taken.
+    Raises `AccessError` if the port is taken.
     """
 
     def __init__(self, number: int = 0) -> None:
@@ -220,12 +208,8 @@ def serve(
 
     The line is left to the caller to close.
 
-    Parameters
-    ----------
-    troubles
-        What goes wrong: here, what goes wrong on the line.
-    clock
-        Time in s; it begins anywhere.
+    `troubles`: What goes wrong: here, what goes wrong on the line.
+    `clock`: Time in s; it begins anywhere.
     """
     start = clock()
     noise = Random(1)  # noqa: S311 - no secret

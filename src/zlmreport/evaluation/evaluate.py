@@ -151,10 +151,7 @@ def doubts(
 ) -> Iterator[Finding]:
     """Yield a finding on each value that is not plausible: wrong units and signs in a plugin's formulas show.
 
-    Parameters
-    ----------
-    values
-        Parameters with their values, m or rad; none of them NaN.
+    `values`: Parameters with their values, m or rad; none of them NaN.
     """
     farthest = reach(statistics)
     for quantity, value in values:

@@ -60,10 +60,7 @@ _MOST_DECIMALS = 3
 def doubts(job: Job, evaluations: Sequence[Evaluation]) -> tuple[Words, ...]:
     """Return a sentence for each value of a job or its readings that seems to be in another unit.
 
-    Parameters
-    ----------
-    evaluations
-        Of its readings, at least one, with the limits that it states.
+    `evaluations`: Of its readings, at least one, with the limits that it states.
     """
     measurements = evaluations[0].measurements
     return (

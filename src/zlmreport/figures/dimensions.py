@@ -146,10 +146,8 @@ def beside_targets(
 ) -> tuple[Dimension, ...]:
     """Return the dimensions beside their targets, where they cover least and never one another.
 
-    Parameters
-    ----------
-    marks, lines : (N, 2) arrays
-        Points that a dimension should not cover, and points along lines that its label should not.
+    `marks`, `lines`, (N, 2): Points that a dimension should not cover, and points along lines that its label
+        should not.
     """
     placed: list[Dimension] = []
     for span in sorted(spans, key=lambda span: -span.length):

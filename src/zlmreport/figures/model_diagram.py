@@ -94,12 +94,8 @@ class ModelDiagram:
     def means(self, notation: str, role: Role, x: FloatArray, values: FloatArray, group: IntArray) -> Curve:
         """Return a curve through the means of groups of readings.
 
-        Parameters
-        ----------
-        x, values : (k,) arrays
-            Of readings: in the unit of the page, and m or rad.
-        group : (k,) integer array
-            The group of each reading; the curve follows their numbers.
+        `x`, `values`, (k,): Of readings: in the unit of the page, and m or rad.
+        `group`, (k,) integer: The group of each reading; the curve follows their numbers.
         """
         _, place, count = np.unique(group, return_inverse=True, return_counts=True)
         mean_x = np.bincount(place, weights=x) / count

@@ -213,10 +213,7 @@ _Y_TITLE = Words(en="Root mean square error", de="Quadratischer Mittelwert")
 def fall_chart(history: Sequence[Fitted], missing: Candidate | None = None) -> Figure:
     """Return the fall chart of a model, from the readings without a model to the whole of it.
 
-    Parameters
-    ----------
-    missing
-        What the model lacks: a last bar shows the error with it.
+    `missing`: What the model lacks: a last bar shows the error with it.
     """
     axis = history[-1].fit.design.axis
     unit = axis.deviation_unit

@@ -54,15 +54,9 @@ def new_axes(figure: Figure) -> list[Axes]:
 def put(figure: Figure, axes: Axes | Sequence[Axes], language: Language = Language.ENGLISH) -> None:
     """Draw a figure on axes: on one for each of its panels, from top to bottom.
 
-    Parameters
-    ----------
-    axes
-        Empty ones, in the size that they will have; legend and brackets stand inside.
+    `axes`: Empty ones, in the size that they will have; legend and brackets stand inside.
 
-    Raises
-    ------
-    ValueError
-        If there are not as many axes as panels.
+    Raises `ValueError` if there are not as many axes as panels.
     """
     all_axes = list(axes) if isinstance(axes, Sequence | np.ndarray) else [axes]
     if len(all_axes) != len(figure.panels):

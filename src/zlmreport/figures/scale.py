@@ -82,12 +82,8 @@ def value_scales(
 
     Beyond the outermost values a part of the span is left free.
 
-    Parameters
-    ----------
-    part
-        Of the span, left free at both ends.
-    most
-        Largest number of ticks; of a flat graph more, so that there are three.
+    `part`: Of the span, left free at both ends.
+    `most`: Largest number of ticks; of a flat graph more, so that there are three.
     """
     limits = [with_zero(*extremes(values)) for values in panels]
     longest = max((upper - lower for lower, upper in limits), default=0.0)
@@ -123,16 +119,10 @@ def position_scale(
     Labels stand at the targets where they fit and are written whole, else at round positions, and small
     ticks at the targets.
 
-    Parameters
-    ----------
-    targets
-        Positions at which something is drawn, in any order.
-    width
-        Of the axis, in points.
-    room
-        Between the outermost targets and the ends of the axis, in points.
-    width_of
-        Returns the width of a label in points.
+    `targets`: Positions at which something is drawn, in any order.
+    `width`: Of the axis, in points.
+    `room`: Between the outermost targets and the ends of the axis, in points.
+    `width_of`: Returns the width of a label in points.
     """
     positions = tuple(np.unique(targets[np.isfinite(targets)]).tolist())
     lower, upper = widened(*extremes(targets), room / (width - 2 * room))
@@ -161,12 +151,8 @@ def category_scale(names: Sequence[str], width: float, width_of: Callable[[str],
     Names that do not fit are parted into two lines at a hyphen; where even that is too long for one of them,
     all have numbers instead.
 
-    Parameters
-    ----------
-    width
-        Of the axis, in points.
-    width_of
-        Returns the width of a label in points.
+    `width`: Of the axis, in points.
+    `width_of`: Returns the width of a label in points.
     """
     number = len(names)
     room = width / max(1, number) - _LABEL_DISTANCE

@@ -160,11 +160,8 @@ class Disk:
 def changes(basis: Basis, disk: Disk, now: Basis) -> Iterator[str]:
     """Yield what has changed since a certificate was made, in words.
 
-    Parameters
-    ----------
-    now
-        The programs, formats and defaults of tonight; formats are empty where the job itself names them, and
-        files are looked for on the disk.
+    `now`: The programs, formats and defaults of tonight; formats are empty where the job itself names them,
+        and files are looked for on the disk.
     """
     for file in basis.files:
         if not disk.still_has(file):
@@ -275,12 +272,9 @@ def files_behind(
 ) -> Iterator[KnownFile]:
     """Yield every file that a certificate was made from, once; those that nobody wrote are none.
 
-    Parameters
-    ----------
-    named
-        Of `named_files`, before the work on it began.
-    begun
-        When the work on it began, s: a file written after that may be another than the one that was read.
+    `named`: Of `named_files`, before the work on it began.
+    `begun`: When the work on it began, s: a file written after that may be another than the one that was
+        read.
     """
     folder = fleet.path.parent
     # With defaults the first file extends them, too, and nobody wrote it.

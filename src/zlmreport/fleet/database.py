@@ -147,12 +147,8 @@ class Database:
     def transaction(self) -> Iterator[Connection]:
         """Yield a connection whose work is kept whole or not at all.
 
-        Raises
-        ------
-        AccessError
-            If the database cannot be used.
-        IntegrityError
-            If the work is against the rules of the tables.
+        Raises `AccessError` if the database cannot be used; `IntegrityError` if the work is against the rules
+        of the tables.
         """
         try:
             with self.engine.begin() as connection:
@@ -166,19 +162,11 @@ class Database:
 def open_database(address: str, *, create: bool) -> Database:
     """Open the database of a ledger, with its tables.
 
-    Parameters
-    ----------
-    address
-        Path of an SQLite file, or the URL of a database.
-    create
-        Whether a file that is not there is made; if not, the ledger is as if it were empty.
+    `address`: Path of an SQLite file, or the URL of a database.
+    `create`: Whether a file that is not there is made; if not, the ledger is as if it were empty.
 
-    Raises
-    ------
-    InputError
-        If the address is none, or the ledger is of another version of the program.
-    AccessError
-        If the database cannot be opened.
+    Raises `InputError` if the address is none, or the ledger is of another version of the program;
+    `AccessError` if the database cannot be opened.
     """
     url = url_of(address)
     is_new_file = url.get_backend_name() == "sqlite" and not Path(url.database or "").exists()
@@ -303,10 +291,7 @@ _KEY = int.from_bytes(hashlib.sha256(b"zlmreport fleet").digest()[:8], "big", si
 def locked(database: Database, holder: str) -> Iterator[None]:
     """Hold the lock of a ledger.
 
-    Raises
-    ------
-    AccessError
-        If another holds it.
+    Raises `AccessError` if another holds it.
     """
     if database.engine.url.get_backend_name() == "sqlite":
         with _locked_file(Path(f"{database.engine.url.database}.lock"), database.address, holder):

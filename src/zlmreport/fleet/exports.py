@@ -228,10 +228,8 @@ def priors(taught: Iterable[Taught], folder: Path) -> Iterator[Document]:
     A file is named after the last day of whose tests it knows, and stays as it is: certificates are made with
     it. The same ledger gives the same bytes.
 
-    Parameters
-    ----------
-    taught
-        In the order of measurement; a test of a machine without a manufacturer and model teaches nobody.
+    `taught`: In the order of measurement; a test of a machine without a manufacturer and model teaches
+        nobody.
     """
     from zlmreport.model.priors import Lesson, as_text, learned  # noqa: PLC0415 - only where there is a model
 

@@ -43,10 +43,7 @@ class Laid:
 def laid(folder: Path, files: Iterable[Finished]) -> Iterator[Laid]:
     """Write files under hidden names, and push them to the disk; what gets no name within is removed.
 
-    Raises
-    ------
-    OSError
-        If one cannot be written.
+    Raises `OSError` if one cannot be written.
     """
     files = tuple(files)
     digests = {folder / file.path: file.sha256 for file in files}

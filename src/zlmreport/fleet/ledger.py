@@ -83,10 +83,7 @@ class Night:
         A number that this fleet gave before keeps its first entry, and its files are those of now. The lesson
         is what its readings teach other tests, as `zlmreport.model.priors.Lesson` gives it.
 
-        Raises
-        ------
-        NumberTakenError
-            If the number is that of another fleet's certificate.
+        Raises `NumberTakenError` if the number is that of another fleet's certificate.
         """
         kept = [file.as_json() for file in files]
         own = select(ENTRIES.c.id).where(ENTRIES.c.fleet == self.fleet)
@@ -123,10 +120,7 @@ class Night:
     def report(self, news: Sequence[News], *, is_all: bool = True) -> None:
         """Note what is new: what is not known yet, or had ended.
 
-        Parameters
-        ----------
-        is_all
-            Whether a condition that is not among them has ended.
+        `is_all`: Whether a condition that is not among them has ended.
         """
         with self.database.transaction() as connection:
             rows = connection.execute(select(NEWS).where(NEWS.c.fleet == self.fleet)).all()
@@ -264,19 +258,11 @@ class Ledger(Closable):
     def open(cls, address: str, fleet: str, *, create: bool = True) -> Self:
         """Open a ledger.
 
-        Parameters
-        ----------
-        fleet
-            Name of the fleet: several may share one ledger.
-        create
-            Whether a ledger that is not there is made; if not, it is as if it were empty.
+        `fleet`: Name of the fleet: several may share one ledger.
+        `create`: Whether a ledger that is not there is made; if not, it is as if it were empty.
 
-        Raises
-        ------
-        InputError
-            If the address is none, or the ledger is of another version of the program.
-        AccessError
-            If the database cannot be opened.
+        Raises `InputError` if the address is none, or the ledger is of another version of the program;
+        `AccessError` if the database cannot be opened.
         """
         return cls(open_database(address, create=create), fleet)
 
@@ -388,17 +374,11 @@ class Ledger(Closable):
     def night(self, began: str, fleet_file: str) -> Iterator[Night]:
         """Let one night at a time write to the ledger, whichever fleet it is.
 
-        Parameters
-        ----------
-        began
-            Date and time, ISO 8601 in UTC.
+        `began`: Date and time, ISO 8601 in UTC.
+
+        Raises `AccessError` if another is at work on it.
 
         One of this host that has given no sign of life for `STUCK` is killed, and this one takes its place.
-
-        Raises
-        ------
-        AccessError
-            If another is at work on it.
         """
         holder = f"{fleet_file} on {socket.gethostname()}, since {began}"
         with contextlib.ExitStack() as stack:

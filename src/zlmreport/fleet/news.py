@@ -221,10 +221,7 @@ class Ways:
 def ways_of(fleet: FleetFile, plugins: tuple[Path, ...]) -> Ways:
     """Return the ways that a fleet file names, each with its own keys checked.
 
-    Raises
-    ------
-    InputError
-        With every mistake in these keys, in the order of their places.
+    Raises `InputError` with every mistake in these keys, in the order of their places.
     """
     if not fleet.keys.notify:
         return Ways()

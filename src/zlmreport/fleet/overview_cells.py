@@ -112,10 +112,7 @@ class _Frame:
 def small_graph(trend: Trend, period: Period, alternative: str) -> str:
     """Return the graph as SVG.
 
-    Parameters
-    ----------
-    trend
-        What is shown. With a limit the graph is as high as the limit, or the largest value.
+    `trend`: What is shown. With a limit the graph is as high as the limit, or the largest value.
     """
     calibrations = trend.series.calibrations
     frame = _Frame(period, *_span(calibrations))

@@ -35,17 +35,10 @@ class Rebuilt:
 def rebuild(fleet: FleetFile, registry: Registry, now: str) -> Rebuilt:
     """Make the ledger of a fleet again; the next night makes each certificate anew, and compares.
 
-    Parameters
-    ----------
-    now
-        Date and time, ISO 8601 in UTC.
+    `now`: Date and time, ISO 8601 in UTC.
 
-    Raises
-    ------
-    InputError
-        If the ledger knows certificates of the fleet already.
-    AccessError
-        If it cannot be used, or a night is at work on it.
+    Raises `InputError` if the ledger knows certificates of the fleet already; `AccessError` if it cannot be
+    used, or a night is at work on it.
     """
     files = _by_number(fleet.output)
     numbers: list[str] = []

@@ -145,10 +145,7 @@ def designation(machine: Machine) -> str:
 def folder_of(keys: JobKeys, layout: str) -> PurePosixPath:
     """Return the folder of a job's certificate, below that of all certificates.
 
-    Parameters
-    ----------
-    layout
-        Names of folders with placeholders, as `zlmreport.job.fleet` has them.
+    `layout`: Names of folders with placeholders, as `zlmreport.job.fleet` has them.
     """
     machine = keys.machine
     values = {

@@ -122,12 +122,8 @@ def state_of(
 ) -> FleetState:
     """Return the state of a fleet.
 
-    Parameters
-    ----------
-    entries
-        The whole ledger, oldest first.
-    jobs
-        That the fleet has now: of one that it no longer has, only the certificates count.
+    `entries`: The whole ledger, oldest first.
+    `jobs`: That the fleet has now: of one that it no longer has, only the certificates count.
     """
     history = tuple(entries)
     latest = {entry.job: entry for entry in history}

@@ -58,10 +58,7 @@ def standing(entries: Iterable[Entry]) -> tuple[Entry, ...]:
     A job that was made again, and one that amends, replaces what it said of the same measurement before.
     Drafts are not issued and failures state nothing.
 
-    Parameters
-    ----------
-    entries
-        Of the ledger, in its order.
+    `entries`: Of the ledger, in its order.
     """
     standing: dict[tuple[str, str], Entry] = {}
     for entry in entries:  # not by the night: its clock may have been set back
@@ -95,10 +92,7 @@ def rank_p_value(values: Sequence[float]) -> float:
     Equal values count as neither, and half a fall is taken as a whole one: with ties the chance comes out too
     large rather than too small.
 
-    Parameters
-    ----------
-    values
-        In the order of time, two or more.
+    `values`: In the order of time, two or more.
     """
     surplus = abs(sum((later > earlier) - (later < earlier) for earlier, later in combinations(values, 2)))
     number = len(values)

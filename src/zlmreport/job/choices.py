@@ -121,10 +121,7 @@ def effect_choices(
 ) -> tuple[EffectChoice, ...]:
     """Return the effects of a list.
 
-    Parameters
-    ----------
-    listed
-        The list; anything else has been refused before, and gives none.
+    `listed`: The list; anything else has been refused before, and gives none.
     """
     items = listed.items if isinstance(listed, Items) else ()
     return tuple(_effects(items, registry, problems, within))
@@ -239,12 +236,8 @@ def program_choices(
 ) -> tuple[Choice, ...]:
     """Return the programs of a list.
 
-    Parameters
-    ----------
-    listed
-        The list; anything else has been refused before, and gives none.
-    problems
-        Where mistakes are added: two that would write the same file among them.
+    `listed`: The list; anything else has been refused before, and gives none.
+    `problems`: Where mistakes are added: two that would write the same file among them.
     """
     items = listed.items if isinstance(listed, Items) else ()
     choices = tuple(_programs(items, find, problems, within))
@@ -280,10 +273,8 @@ def programs_by_name(
 ) -> tuple[Choice, ...]:
     """Return programs that somebody names instead of those of a job, with the keys that it states.
 
-    Raises
-    ------
-    InputError
-        For each that no plugin provides, and each that would write the same file as one before it.
+    Raises `InputError` for each that no plugin provides, and each that would write the same file as one
+    before it.
     """
     problems: list[Problem] = []
     of_job = {choice.identifier: choice for choice in stated}

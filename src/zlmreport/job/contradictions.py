@@ -42,10 +42,7 @@ def validate(
 ) -> Model | None:
     """Return a group of keys as its model, or None and all that is wrong with it.
 
-    Parameters
-    ----------
-    also_known
-        Keys that belong to the group and are not the model's, for messages.
+    `also_known`: Keys that belong to the group and are not the model's, for messages.
     """
     found, mistakes = _read(model, keys)
     problems.extend(problem(mistake, model, within, also_known) for mistake in mistakes)

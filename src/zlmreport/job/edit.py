@@ -61,12 +61,8 @@ class Edit:
     def write(self) -> None:
         """Write the file, whole or not at all.
 
-        Raises
-        ------
-        InputError
-            If the file is no longer the one that the change was made from.
-        AccessError
-            If it cannot be written.
+        Raises `InputError` if the file is no longer the one that the change was made from; `AccessError` if
+        it cannot be written.
         """
         place = Place(str(self.path))
         rewrite(self.path, self.content, lambda found: _refuse_changed(found, self.digest, place))
@@ -75,10 +71,7 @@ class Edit:
 def named_effect(text: str, registry: Installed, place: Place) -> NamedEffect:
     """Return an effect that a person names: ``backlash``, or ``polynomial: {order: 5}`` as in a job.
 
-    Raises
-    ------
-    InputError
-        If there is no such effect, or it has no such key, with the nearest that there is.
+    Raises `InputError` if there is no such effect, or it has no such key, with the nearest that there is.
     """
     node: Node
     node = parse(text.encode(), place.file) if ":" in text or "{" in text else Scalar(place, text.strip())
@@ -110,13 +103,8 @@ def edit_effects(
 ) -> Edit:
     """Return the change of a job that adds an effect at the end of its model, or takes effects out.
 
-    Raises
-    ------
-    InputError
-        If the file has changed since it was loaded, or its list of effects is written in a way in which
-        nothing can be changed without changing more.
-    AccessError
-        If the file cannot be read.
+    Raises `InputError` if the file has changed since it was loaded, or its list of effects is written in a
+    way in which nothing can be changed without changing more; `AccessError` if the file cannot be read.
     """
     removed = [index for index, choice in enumerate(job.effects) if choice.identifier in remove]
     kept = [choice for choice in job.effects if choice.identifier not in remove]
@@ -130,18 +118,11 @@ def edit_list(
 ) -> Edit:
     """Return the change of one list of a job.
 
-    Parameters
-    ----------
-    is_meant
-        Whether a job with the change says in that list what is meant; in all else it must be as before.
+    `is_meant`: Whether a job with the change says in that list what is meant; in all else it must be as
+        before.
 
-    Raises
-    ------
-    InputError
-        If the file has changed since it was loaded, or the list is written in a way in which nothing can be
-        changed without changing more.
-    AccessError
-        If the file cannot be read.
+    Raises `InputError` if the file has changed since it was loaded, or the list is written in a way in which
+    nothing can be changed without changing more; `AccessError` if the file cannot be read.
     """
     content = content_of(path, job)
     where, listed = change.where, listed_items(job, change.where)

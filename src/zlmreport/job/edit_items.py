@@ -40,13 +40,9 @@ class ParameterChoice:
 def edit_parameter(path: Path, job: Job, registry: Installed, wanted: ParameterChoice) -> Edit:
     """Return the change of a job that fixes a parameter of its model, or frees it.
 
-    Raises
-    ------
-    InputError
-        If the model has no such effect, or that no such parameter; if the file has changed, or the list is
-        written in a way in which nothing can be changed without changing more.
-    AccessError
-        If the file cannot be read.
+    Raises `InputError` if the model has no such effect, or that no such parameter; if the file has changed,
+    or the list is written in a way in which nothing can be changed without changing more. Raises
+    `AccessError` if the file cannot be read.
     """
     effect, parameter, value = wanted.effect, wanted.name, wanted.value
     found = [index for index, choice in enumerate(job.effects) if choice.identifier == effect]
@@ -106,13 +102,8 @@ EXCLUDED = ListKey("measurement", "excluded")
 def exclude(path: Path, job: Job, registry: Installed, exclusions: Sequence[ExclusionKeys]) -> Edit:
     """Return the change of a job that sets readings aside.
 
-    Raises
-    ------
-    InputError
-        If the file has changed since it was loaded, or is written in a way in which nothing can be changed
-        without changing more.
-    AccessError
-        If the file cannot be read.
+    Raises `InputError` if the file has changed since it was loaded, or is written in a way in which nothing
+    can be changed without changing more; `AccessError` if the file cannot be read.
     """
     wanted = [*job.keys.measurement.excluded, *exclusions]
     change = ListChange(EXCLUDED, added=[_exclusion_node(each) for each in exclusions])
@@ -148,20 +139,12 @@ def edit_keys(
 ) -> Edit:
     """Return the change of a job that states keys which it does not state yet; nothing else changes.
 
-    Parameters
-    ----------
-    stated
-        The values by their keys, as ``customer.name``; numbers in the units of the job.
-    units
-        Symbols by key, for the remark beside a number that has a line of its own.
+    `stated`: The values by their keys, as ``customer.name``; numbers in the units of the job.
+    `units`: Symbols by key, for the remark beside a number that has a line of its own.
 
-    Raises
-    ------
-    InputError
-        If the file has changed since it was loaded, or is written in a way in which nothing can be added
-        without changing more; or with what is wrong with the job as it would be.
-    AccessError
-        If the file cannot be read.
+    Raises `InputError` if the file has changed since it was loaded, or is written in a way in which nothing
+    can be added without changing more; or with what is wrong with the job as it would be. Raises
+    `AccessError` if the file cannot be read.
     """
     content = content_of(path, job)
     mark = codecs.BOM_UTF8 if content.startswith(codecs.BOM_UTF8) else b""

@@ -37,15 +37,9 @@ def refuse_other_format(
 ) -> None:
     """Refuse a file of another kind by one message, instead of by one for each of its keys.
 
-    Parameters
-    ----------
-    others
-        Returns formats that extensions add; asked only for a file of none that the core knows.
+    `others`: Returns formats that extensions add; asked only for a file of none that the core knows.
 
-    Raises
-    ------
-    InputError
-        If its schema is that of another command.
+    Raises `InputError` if its schema is that of another command.
     """
     entry = tree.entries.get("schema")
     named = entry.value if entry else None
@@ -131,17 +125,10 @@ class Composition:
 def compose(path: Path, content: bytes | None = None, defaults: Defaults | None = None) -> Composition:
     """Read a job file and every file that it extends.
 
-    Parameters
-    ----------
-    defaults
-        Keys that it builds on as if it extended a file of them.
+    `defaults`: Keys that it builds on as if it extended a file of them.
 
-    Raises
-    ------
-    AccessError
-        If a file cannot be read.
-    InputError
-        If a file is no YAML, or files extend each other in a circle.
+    Raises `AccessError` if a file cannot be read; `InputError` if a file is no YAML, or files extend each
+    other in a circle.
     """
     reader = _Reader({} if content is None else {os.path.realpath(path): content})
     keys = reader.keys(path, (), None)

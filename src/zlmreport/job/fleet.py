@@ -241,17 +241,9 @@ def load_fleet(
 ) -> FleetFile:
     """Read a fleet file and check all that can be checked without its jobs.
 
-    Parameters
-    ----------
-    extensions
-        Returns the groups of job keys that plugins add; asked only for what the core does not know.
+    `extensions`: Returns the groups of job keys that plugins add; asked only for what the core does not know.
 
-    Raises
-    ------
-    InputError
-        With every mistake, in the order of their places.
-    AccessError
-        If it cannot be read.
+    Raises `InputError` with every mistake, in the order of their places; `AccessError` if it cannot be read.
     """
     if content is None:
         content = demanded(path, LARGEST)
@@ -296,10 +288,7 @@ def _escaping(fleet: FleetFile) -> Iterator[Problem]:
 def job_files(fleet: FleetFile) -> tuple[Path, ...]:
     """Return the job files of a fleet, in the order of their names.
 
-    Raises
-    ------
-    InputError
-        For each pattern that matches no file.
+    Raises `InputError` for each pattern that matches no file.
     """
     found: set[Path] = set()
     problems = []
@@ -325,12 +314,7 @@ def is_retired(job: str, fleet: FleetFile) -> bool:
 def number_of(job: Path, defaults: Defaults | None) -> tuple[str, Place]:
     """Return the number of a job's certificate and where it stands; nothing else of the job is checked.
 
-    Raises
-    ------
-    InputError
-        If the job is no YAML.
-    AccessError
-        If it, or a file that it extends, cannot be read.
+    Raises `InputError` if the job is no YAML; `AccessError` if it, or a file that it extends, cannot be read.
     """
     tree = compose(job, defaults=defaults).keys
     found = list(walk(tree, ("certificate", "number")))

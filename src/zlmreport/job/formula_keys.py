@@ -164,50 +164,33 @@ class FormulaKeys(Options):
 
 
 class Formula:
-    """A formula on one kind of axis: in SI, and parted into what is solved and what is searched.
-
-    Attributes
-    ----------
-    tree
-        The formula.
-    units
-        Of all names.
-    columns
-        Logged columns that stand in it.
-    linear
-        The parameters that are factors of whole terms, in the order of the file.
-    searched
-        The others.
-    stated
-        Values of parameters that the file gives.
-    multiplied
-        What each linear parameter is multiplied with.
-    """
+    """A formula on one kind of axis: in SI, and parted into what is solved and what is searched."""
 
     def __init__(self, keys: FormulaKeys, tree: Tree, units: Mapping[str, UnitOf]) -> None:
-        self.tree = tree
-        self.units = units
+        self.tree = tree  #: The formula.
+        self.units = units  #: Of all names.
         self.names = names_in(tree)
         known = {*keys.parameters, *VARIABLES}
+        #: Logged columns that stand in it.
         self.columns = tuple(name for name in self.names if name not in known)
         terms = terms_of(tree)
+        #: The parameters that are factors of whole terms, in the order of the file.
         self.linear = _linear(terms, list(keys.parameters))
-        self.searched = tuple(name for name in keys.parameters if name not in self.linear)
+        self.searched = tuple(name for name in keys.parameters if name not in self.linear)  #: The others.
+        #: Values of parameters that the file gives.
         self.stated = {
             name: each.value / units[name].per_si
             for name, each in keys.parameters.items()
             if each.value is not None
         }
+        #: What each linear parameter is multiplied with.
         self.multiplied = {name: _multiplied_with(name, terms) for name in self.linear}
 
     @classmethod
     def of(cls, keys: FormulaKeys, kind: AxisKind) -> Formula:
         """Return the formula of a file on one kind of axis.
 
-        Raises
-        ------
-        FormulaError
-            With what is wrong with it.
+        Raises `FormulaError` with what is wrong with it.
         """
         tree = parse_formula(keys.formula)
         _refuse_names(keys, names_in(tree))
@@ -227,10 +210,7 @@ class Formula:
     def values(self, readings: Mapping[str, FloatArray], searched: Mapping[str, float]) -> FloatArray:
         """Return what each linear parameter is multiplied with, SI, shape (N, len(linear)).
 
-        Parameters
-        ----------
-        readings
-            Of each variable and each column that stands in it, SI but temperatures in °C, shape (N,).
+        `readings`: Of each variable and each column that stands in it, SI but temperatures in °C, shape (N,).
         """
         known: dict[str, FloatArray | float] = {**readings, **searched}
         count = max((np.size(each) for each in readings.values()), default=1)

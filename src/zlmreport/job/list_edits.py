@@ -241,12 +241,8 @@ def _with_value(written: Written, key: Extent, value: Extent, in_line: str, line
 def as_text(node: Node, quote: str = "", *, in_lines: bool = False) -> str:
     """Return a value as it is written within a line.
 
-    Parameters
-    ----------
-    quote
-        The quotation mark of text; empty for none where none is needed.
-    in_lines
-        Whether a single key needs no braces.
+    `quote`: The quotation mark of text; empty for none where none is needed.
+    `in_lines`: Whether a single key needs no braces.
     """
     if isinstance(node, Scalar):
         if node.is_nothing:

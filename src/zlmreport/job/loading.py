@@ -53,19 +53,11 @@ def load(
 ) -> Job:
     """Read a job file and check all that can be checked without reading measurements.
 
-    Parameters
-    ----------
-    content
-        What the job file is to hold, instead of what it holds: to see what a change would come to.
-    defaults
-        Keys that it builds on as if it extended a file of them.
+    `content`: What the job file is to hold, instead of what it holds: to see what a change would come to.
+    `defaults`: Keys that it builds on as if it extended a file of them.
 
-    Raises
-    ------
-    InputError
-        With every mistake, in the order of their places.
-    AccessError
-        If the job, or a file that it extends, cannot be read.
+    Raises `InputError` with every mistake, in the order of their places; `AccessError` if the job, or a file
+    that it extends, cannot be read.
     """
     job = _checked(compose(path, content, defaults), path.parent, registry, formats)
     sessions, priors = _sessions(job, path, registry), _priors(job)
@@ -149,10 +141,7 @@ def _priors(job: Job) -> KeysFile[PriorsKeys] | None:
 def _sessions(job: Job, path: Path, registry: Installed) -> tuple[Job, ...]:
     """Return the jobs of further tests of an axis; the sessions that these name are not theirs to add.
 
-    Raises
-    ------
-    InputError
-        If one is the job itself, stands there twice, or is of another axis.
+    Raises `InputError` if one is the job itself, stands there twice, or is of another axis.
     """
     keys, found = job.keys, list[Job]()
     named = [path.resolve()]
@@ -268,10 +257,8 @@ def _formats(
 def chosen_formats(named: Iterable[tuple[str, Place]], registry: Installed) -> tuple[str, ...]:
     """Return the identifiers of output formats.
 
-    Raises
-    ------
-    InputError
-        For each that no plugin provides, and each that would write the same file as one before it.
+    Raises `InputError` for each that no plugin provides, and each that would write the same file as one
+    before it.
     """
     problems: list[Problem] = []
     by_suffix: dict[str, str] = {}
@@ -295,12 +282,7 @@ def chosen_formats(named: Iterable[tuple[str, Place]], registry: Installed) -> t
 def axis_in_si(keys: AxisKeys) -> Axis:
     """Return the axis with its lengths in metres, or its angles in radians, and with its tables.
 
-    Raises
-    ------
-    AccessError
-        If the file of a table cannot be read.
-    InputError
-        If it is not such a table.
+    Raises `AccessError` if the file of a table cannot be read; `InputError` if it is not such a table.
     """
     bare = Axis(keys.name, keys.kind)
     to_si = bare.position_unit.to_si

@@ -47,10 +47,7 @@ _ADVICE = "'zlmreport init DIR' writes one to begin with"
 def decoded(content: bytes, file: str) -> str:
     """Return the text of a job file.
 
-    Raises
-    ------
-    InputError
-        If it is not UTF-8, or holds characters that cannot be seen.
+    Raises `InputError` if it is not UTF-8, or holds characters that cannot be seen.
     """
     if len(content) > LARGEST:
         raise InputError.at(
@@ -115,10 +112,7 @@ def _place(before: str, file: str) -> Place:
 def parse(content: bytes, file: str) -> Keys:
     """Return the keys of a job file.
 
-    Raises
-    ------
-    InputError
-        With every mistake that does not hide the rest of the file.
+    Raises `InputError` with every mistake that does not hide the rest of the file.
     """
     text = decoded(content, file)
     if _LET_PASS.isdisjoint(text):

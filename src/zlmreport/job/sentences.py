@@ -145,12 +145,8 @@ def _bounded(words: str, bound: Any) -> str:
 def problem(mistake: Mistake, model: type[BaseModel], within: str, also_known: Collection[str]) -> Problem:
     """Return the problem that the user reads.
 
-    Parameters
-    ----------
-    model
-        What describes the keys: a message quotes its descriptions and examples.
-    within
-        The dotted path of the model's keys in the job.
+    `model`: What describes the keys: a message quotes its descriptions and examples.
+    `within`: The dotted path of the model's keys in the job.
     """
     field = field_at(model, mistake.path)
     name = _dotted(within, mistake.path)

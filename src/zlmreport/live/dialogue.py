@@ -106,10 +106,7 @@ class Decoder(Protocol):
     def feed(self, data: bytes, now: float) -> Sequence[LiveReading]:
         """Return the readings that these bytes complete; `now` is when they arrived, s.
 
-        Raises
-        ------
-        WrongDeviceError
-            If it is another instrument; the text says which, or what to do.
+        Raises `WrongDeviceError` if it is another instrument; the text says which, or what to do.
         """
 
 

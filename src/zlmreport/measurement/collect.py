@@ -216,10 +216,7 @@ def _capped(problems: Sequence[Problem]) -> list[Problem]:
 def problems_of(measurements: MeasurementSet, places: Sequence[Place]) -> list[Problem]:
     """Return everything that is wrong with the readings together.
 
-    Parameters
-    ----------
-    measurements
-        The readings, arranged but not checked.
+    `measurements`: The readings, arranged but not checked.
     """
     misread = list(_columns_are_what_they_say(measurements, places))
     return misread or [problem for check in _CHECKS for problem in check(measurements, places)]

@@ -38,12 +38,7 @@ def read_position_table(
     Tab, semicolon or comma parts the columns; a decimal comma is taken where no comma parts columns; lines
     that begin with ``#`` and empty lines are left out.
 
-    Raises
-    ------
-    AccessError
-        If the file cannot be read.
-    InputError
-        With every defect and its place.
+    Raises `AccessError` if the file cannot be read; `InputError` with every defect and its place.
     """
     text = read_text(path)
     header, *rows = text.rows() or [[]]

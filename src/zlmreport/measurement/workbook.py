@@ -30,11 +30,8 @@ def is_workbook(content: bytes) -> bool:
 def sheet_lines(content: bytes, file: Place, largest: int) -> list[str]:
     """Return the rows of the only sheet with content, cells apart by tabs; a formula as its last value.
 
-    Raises
-    ------
-    InputError
-        If it is damaged, unpacks to more than `largest` bytes, holds several sheets with content or none, or
-        a cell that no line can hold.
+    Raises `InputError` if it is damaged, unpacks to more than `largest` bytes, holds several sheets with
+    content or none, or a cell that no line can hold.
     """
     from openpyxl import load_workbook  # noqa: PLC0415 (slow to load)
 

@@ -129,12 +129,8 @@ class Bases:
     def roots(self, metric: Metric, shared: FloatArray) -> tuple[FloatArray, ...]:
         """Return for each group the inverse roots of its blocks' Gram matrices, shape (blocks, k, k).
 
-        Parameters
-        ----------
-        metric
-            The inner product for one φ.
-        shared : (r, K) array
-            ZᵀU, products of the noise's factors and the columns.
+        `metric`: The inner product for one φ.
+        `shared`, (r, K): ZᵀU, products of the noise's factors and the columns.
         """
         found = []
         coordinates = metric.coordinates(shared)
@@ -153,13 +149,9 @@ class Bases:
 def bases_of(design: Design, space: Contrasts, entries: Iterable[Entry], least_visible: float) -> Bases:
     """Return what effects could add to a model.
 
-    Parameters
-    ----------
-    entries
-        Forms of effects that can be tested on the design, those of one effect share its identifier; and the
-        values of their searched parameters that are tried.
-    least_visible
-        Share of a block's length below which nothing is left of it but rounding.
+    `entries`: Forms of effects that can be tested on the design, those of one effect share its identifier;
+        and the values of their searched parameters that are tried.
+    `least_visible`: Share of a block's length below which nothing is left of it but rounding.
     """
     found = [(effect, _visible(design, space, effect, thetas, least_visible)) for effect, thetas in entries]
     seen = sorted((each for _, each in found if each), key=lambda each: each.blocks.shape[2])

@@ -104,14 +104,9 @@ class Comparison:
     ) -> Comparison:
         """Prepare a comparison.
 
-        Parameters
-        ----------
-        base : (N, q) array
-            Columns of the base model, tangents of its searched parameters included.
-        weights : (N,) array
-            w, the variance of each reading over the mean one.
-        least_visible
-            Share of an effect's length below which the base model imitates it entirely.
+        `base`, (N, q): Columns of the base model, tangents of its searched parameters included.
+        `weights`, (N,): w, the variance of each reading over the mean one.
+        `least_visible`: Share of an effect's length below which the base model imitates it entirely.
         """
         parts = noise_parts(design)
         space = contrasts_of(base, parts, weights)
@@ -128,13 +123,9 @@ class Comparison:
     ) -> Comparison:
         """Prepare a comparison that takes a tenth of the time, as simulations of many plans need it.
 
-        Parameters
-        ----------
-        design, base, effects
-            As for `of`.
-        ratios
-            φ by source, where it is taken for known: then there are no nameless shapes. Without it, each
-            source has none or a middling share.
+        `design`, `base`, `effects`: As for `of`.
+        `ratios`: φ by source, where it is taken for known: then there are no nameless shapes. Without it,
+            each source has none or a middling share.
         """
         parts = noise_parts(design)
         space = contrasts_of(base, parts, np.ones(len(base)))
@@ -182,12 +173,8 @@ class Comparison:
     def scores(self, deviations: FloatArray, known: float = 0.0, told: Told = untold) -> Scores:
         """Return the likelihood ratios on sets of deviations.
 
-        Parameters
-        ----------
-        deviations : (N, B) array
-            m or rad.
-        known
-            Standard deviation of a noise of known size that stands beside σ, m or rad.
+        `deviations`, (N, B): m or rad.
+        `known`: Standard deviation of a noise of known size that stands beside σ, m or rad.
         """
         sets = deviations.shape[1]
         null = np.full(sets, np.inf)

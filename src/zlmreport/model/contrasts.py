@@ -72,14 +72,9 @@ class Contrasts:
     def restricted(self, contrast: FloatArray, ratios: FloatArray, known: float = 0.0) -> tuple[float, float]:
         """Return −2 ln(restricted likelihood) and the residual sum of squares, σ profiled out.
 
-        Parameters
-        ----------
-        contrast : (N,) array
-            Of the deviations.
-        ratios : (parts,) array
-            φ.
-        known
-            Residual sum of squares of a noise of known size that stands beside σ.
+        `contrast`, (N,): Of the deviations.
+        `ratios`, (parts,): φ.
+        `known`: Residual sum of squares of a noise of known size that stands beside σ.
         """
         total = float(contrast @ contrast)
         active, roots, gram = self._active(ratios)
@@ -109,12 +104,8 @@ class Contrasts:
 def contrasts_of(base: FloatArray, parts: Sequence[NoisePart], weights: FloatArray) -> Contrasts:
     """Return the space of error contrasts.
 
-    Parameters
-    ----------
-    base : (N, q) array
-        Columns of the model; those that depend on others count once.
-    weights : (N,) array
-        w, the variance of each reading over the mean one.
+    `base`, (N, q): Columns of the model; those that depend on others count once.
+    `weights`, (N,): w, the variance of each reading over the mean one.
     """
     scale = 1.0 / np.sqrt(weights)
     weighted = base * scale[:, np.newaxis]
@@ -132,16 +123,10 @@ def restricted_estimate(
 ) -> tuple[FloatArray, float]:
     """Return φ̂ and σ̂² by restricted maximum likelihood.
 
-    Parameters
-    ----------
-    contrasts : (N,) array
-        Of the deviations.
-    grid : (f, parts) array
-        Ratios that the search begins with.
-    largest : (parts,) array
-        Ratios that it does not exceed.
-    known
-        Residual sum of squares of a noise of known size that stands beside σ; σ̂² contains it.
+    `contrasts`, (N,): Of the deviations.
+    `grid`, (f, parts): Ratios that the search begins with.
+    `largest`, (parts,): Ratios that it does not exceed.
+    `known`: Residual sum of squares of a noise of known size that stands beside σ; σ̂² contains it.
     """
 
     def criterion(ratios: FloatArray) -> float:

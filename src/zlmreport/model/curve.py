@@ -34,10 +34,7 @@ _GOLDEN = (5.0**0.5 - 1.0) / 2.0
 def curve_positions(fitted: Fit, approach: Approach, span: tuple[float, float] | None = None) -> FloatArray:
     """Return the positions of the curve of a model, rising, m or rad, shape (M,).
 
-    Parameters
-    ----------
-    span
-        The part of the travel that is drawn, m or rad; without it all that was measured.
+    `span`: The part of the travel that is drawn, m or rad; without it all that was measured.
     """
     design = fitted.design
     pairs = list(zip(fitted.model.terms, fitted.solution.thetas, strict=True))
@@ -50,10 +47,7 @@ def effect_positions(
 ) -> FloatArray:
     """Return the positions of the curve of one effect alone, all its linear parameters one, shape (M,).
 
-    Parameters
-    ----------
-    span
-        The part of the travel that is drawn, m or rad.
+    `span`: The part of the travel that is drawn, m or rad.
     """
     at = partial(at_positions, design, approach=approach)
     return _positions(

@@ -116,10 +116,7 @@ class Design:
 def at_positions(design: Design, positions: FloatArray, approach: Approach) -> Design:
     """Return the design of one approach to positions, all else being as it was in the mean of the job's test.
 
-    Parameters
-    ----------
-    positions : (M,) array
-        Within its travel, m or rad.
+    `positions`, (M,): Within its travel, m or rad.
     """
     count = len(positions)
     own = design.session == 0
@@ -145,12 +142,8 @@ def at_positions(design: Design, positions: FloatArray, approach: Approach) -> D
 def outside_of_measured(name: str, unit: Unit, positions: FloatArray, span: tuple[float, float]) -> list[str]:
     """Return a sentence on each position at which nothing may be said: a model knows nothing beyond its data.
 
-    Parameters
-    ----------
-    positions : (M,) array
-        m or rad.
-    span
-        First and last position that was measured, m or rad.
+    `positions`, (M,): m or rad.
+    `span`: First and last position that was measured, m or rad.
     """
     first, last = (unit.from_si(end) for end in span)
     # Positions come in decimal units: an end itself may be off by a rounding.
@@ -166,10 +159,7 @@ def outside_of_measured(name: str, unit: Unit, positions: FloatArray, span: tupl
 def of_position(order: int, span: tuple[float, float]) -> FloatArray:
     """Return T with T·c = coefficients of 1, P, P² …, where c are those of p, which is −1 … 1 over the span.
 
-    Parameters
-    ----------
-    span
-        First and last position, m or rad.
+    `span`: First and last position, m or rad.
     """
     middle, half = (span[0] + span[1]) / 2, (span[1] - span[0]) / 2
     turn = np.zeros((order + 1, order + 1))

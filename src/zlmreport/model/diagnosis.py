@@ -151,10 +151,7 @@ def diagnose(  # noqa: PLR0913 - what is known, what may be, and who is told
 ) -> Diagnosis:
     """Hold a model against the readings of a test, and try every effect that might be missing.
 
-    Raises
-    ------
-    ModelError
-        If the model makes no sense on these readings, or they are too few to tell anything.
+    Raises `ModelError` if the model makes no sense on these readings, or they are too few to tell anything.
     """
     observed = thinned(observed)
     count = len(observed.deviation)

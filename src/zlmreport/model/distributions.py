@@ -18,12 +18,8 @@ _MOST_TERMS = 100_000
 def gamma_tail(shape: float, x: float) -> float:
     """Return Q(a, x) = Γ(a, x)/Γ(a): the chance that a standard gamma variable exceeds x.
 
-    Parameters
-    ----------
-    shape
-        a > 0.
-    x
-        In units of the scale.
+    `shape`: a > 0.
+    `x`: In units of the scale.
     """
     if x <= 0:
         return 1.0

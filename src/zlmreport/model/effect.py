@@ -100,10 +100,7 @@ _READINGS = Unit("readings", "readings", 1.0)
 def unit_of(dimension: Dimension, kind: AxisKind, *, time_is_counted: bool = False) -> Unit:
     """Return the unit in which a parameter is read and printed.
 
-    Parameters
-    ----------
-    time_is_counted
-        Whether the design counts readings instead of seconds.
+    `time_is_counted`: Whether the design counts readings instead of seconds.
     """
     if dimension is Dimension.TIME and time_is_counted:
         return _READINGS

@@ -35,23 +35,13 @@ _FACTORS = 25
 
 @dataclass(frozen=True, slots=True)
 class InstrumentError:
-    """Standard uncertainty of the instrument; what readings share does not average out.
+    """Standard uncertainty of the instrument; what readings share does not average out."""
 
-    Attributes
-    ----------
-    common
-        u(δ), the same at all positions, m or rad.
-    proportional
-        Per distance from the first position, m/m or rad/rad: the paper has none, a laser's wavelength does.
-    at_each_position
-        Shared by all readings at one position, and by no others, m or rad.
-    between_directions
-        Shared by all readings of the negative direction, against those of the positive one, m or rad.
-    """
-
-    common: float = 0.0
+    common: float = 0.0  #: u(δ), the same at all positions, m or rad.
+    #: Per distance from the first position, m/m or rad/rad: the paper has none, a laser's wavelength does.
     proportional: float = 0.0
-    at_each_position: float = 0.0
+    at_each_position: float = 0.0  #: Shared by all readings at one position, and by no others, m or rad.
+    #: Shared by all readings of the negative direction, against those of the positive one, m or rad.
     between_directions: float = 0.0
 
     def factor(self, design: Design) -> FloatArray:
@@ -69,28 +59,17 @@ class InstrumentError:
 
 @dataclass(frozen=True, slots=True)
 class VarianceOfVariance:
-    """What is needed to judge the variance of any linear combination of parameters.
+    """What is needed to judge the variance of any linear combination of parameters."""
 
-    Attributes
-    ----------
-    covariance : (c, c) array
-        Of the estimated variance components, in units of σ̂⁴.
-    slopes : sequence of (r, p) arrays
-        For each component a matrix S with ∂(jᵀ·Cov·j)/∂(component) = |S·j|².
-    """
-
-    covariance: FloatArray
+    covariance: FloatArray  #: (c, c): Of the estimated variance components, in units of σ̂⁴.
+    #: sequence of (r, p): For each component a matrix S with ∂(jᵀ·Cov·j)/∂(component) = |S·j|².
     slopes: tuple[FloatArray, ...]
 
     def degrees(self, combination: FloatArray, variance: float) -> float:
         """Return the effective degrees of freedom of jᵀ·Cov·j, given in units of σ̂².
 
-        Parameters
-        ----------
-        combination : (p,) array
-            j.
-        variance
-            jᵀ·Cov·j / σ̂².
+        `combination`, (p,): j.
+        `variance`: jᵀ·Cov·j / σ̂².
         """
         gradient = np.array([float(np.sum((slope @ combination) ** 2)) for slope in self.slopes])
         spread = float(gradient @ self.covariance @ gradient)
@@ -102,10 +81,7 @@ class VarianceOfVariance:
 def variance_of_variance(space: Contrasts, noise: Noise, weighted: FloatArray) -> VarianceOfVariance:
     """Return how well the variance of the parameters is known.
 
-    Parameters
-    ----------
-    weighted : (N, p) array
-        V⁻¹J(JᵀV⁻¹J)⁻¹: the weight of each reading in each parameter.
+    `weighted`, (N, p): V⁻¹J(JᵀV⁻¹J)⁻¹: the weight of each reading in each parameter.
     """
     active = [index for index, part in enumerate(space.parts) if noise.ratios.get(part.source, 0.0) > _ACTIVE]
     ratios = np.array([noise.ratios.get(part.source, 0.0) for part in space.parts])
@@ -145,39 +121,20 @@ class Plausibility(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Estimate:
-    """A parameter of the model as estimated.
+    """A parameter of the model as estimated."""
 
-    Attributes
-    ----------
-    effect
-        Identifier of its effect.
-    parameter
-        What it is.
-    value
-        SI.
-    standard_uncertainty
-        SI; 0 for a given value. Of a scanned value, that of a rectangular distribution.
-    degrees
-        Effective degrees of freedom of the uncertainty; infinite for a given value.
-    is_given
-        Whether it was given and not estimated.
-    expected
-        The value that follows from the job, SI; None where none does.
-    is_scanned
-        Whether it was found among the values of a grid, and nothing is known of what lies between them: its
-        expanded uncertainty is then the whole half-width of the interval that holds it.
-    equals
-        The parameter of another effect that it is and that is estimated once, ``effect.parameter``.
-    """
-
-    effect: str
-    parameter: Parameter
-    value: float
+    effect: str  #: Identifier of its effect.
+    parameter: Parameter  #: What it is.
+    value: float  #: SI.
+    #: SI; 0 for a given value. Of a scanned value, that of a rectangular distribution.
     standard_uncertainty: float
-    degrees: float
-    is_given: bool = False
-    expected: float | None = None
+    degrees: float  #: Effective degrees of freedom of the uncertainty; infinite for a given value.
+    is_given: bool = False  #: Whether it was given and not estimated.
+    expected: float | None = None  #: The value that follows from the job, SI; None where none does.
+    #: Whether it was found among the values of a grid, and nothing is known of what lies between them: its
+    #: expanded uncertainty is then the whole half-width of the interval that holds it.
     is_scanned: bool = False
+    #: The parameter of another effect that it is and that is estimated once, ``effect.parameter``.
     equals: str = ""
 
     @property
@@ -229,24 +186,12 @@ def coverage_factors(degrees: FloatArray) -> FloatArray:
 
 @dataclass(frozen=True, slots=True)
 class Uncertainties:
-    """What the uncertainty of every estimate follows from.
+    """What the uncertainty of every estimate follows from."""
 
-    Attributes
-    ----------
-    sigma
-        Standard deviation of a single reading, m or rad.
-    inverse : (p, p) array
-        (JᵀV⁻¹J)⁻¹.
-    systematic : (p, …) array
-        What the instrument's error does to the parameters.
-    variances
-        How well the variance is known.
-    """
-
-    sigma: float
-    inverse: FloatArray
-    systematic: FloatArray
-    variances: VarianceOfVariance
+    sigma: float  #: Standard deviation of a single reading, m or rad.
+    inverse: FloatArray  #: (p, p): (JᵀV⁻¹J)⁻¹.
+    systematic: FloatArray  #: (p, …): What the instrument's error does to the parameters.
+    variances: VarianceOfVariance  #: How well the variance is known.
 
     @property
     def covariance(self) -> FloatArray:

@@ -90,14 +90,9 @@ def evidence_of(
 ) -> Evidence:
     """Return the evidence of one set of deviations.
 
-    Parameters
-    ----------
-    deviation : (N,) array
-        x, m or rad.
-    least_visible
-        Share of an effect's length below which the base model imitates it entirely.
-    known
-        Standard deviation of a noise of known size that stands beside σ, m or rad.
+    `deviation`, (N,): x, m or rad.
+    `least_visible`: Share of an effect's length below which the base model imitates it entirely.
+    `known`: Standard deviation of a noise of known size that stands beside σ, m or rad.
     """
     criteria = comparison.criteria(deviation, known)
     families = _tried(comparison, criteria)
@@ -215,10 +210,7 @@ class Ranking:
     def without(self, design: Design, rejected: Sequence[Ranked], impossible: Sequence[Ranked]) -> Ranking:
         """Return the ranking of the others, as if those rejected had never been likely.
 
-        Parameters
-        ----------
-        impossible
-            Those among them whose estimates are physically impossible.
+        `impossible`: Those among them whose estimates are physically impossible.
         """
         left = 1.0 - sum(each.probability for each in rejected)
         kept = [

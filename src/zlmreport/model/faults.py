@@ -98,12 +98,8 @@ def run_faults(fitted: Fit, rivals: Sequence[Fit] = (), shape_evidence: float = 
     An effect that changes with time makes runs differ as well: a slip must leave less within the repeats than
     any effect does, also one that is physically impossible, and surpass every shape without a name.
 
-    Parameters
-    ----------
-    rivals
-        The same with each of the best effects.
-    shape_evidence
-        Evidence of the best shape without a name.
+    `rivals`: The same with each of the best effects.
+    `shape_evidence`: Evidence of the best shape without a name.
     """
     design, deviation = fitted.design, fitted.deviation
     runs = np.unique(design.cycle)
@@ -139,10 +135,7 @@ def _within(fitted: Fit) -> float:
 def lagging_sensors(fitted: Fit, rivals: Sequence[Fit], effects: Iterable[Effect]) -> tuple[Fault, ...]:
     """Return a temperature log that explains as much as any effect, if its sensor lagged behind.
 
-    Parameters
-    ----------
-    rivals
-        The same with each of the best effects; nothing is said where none is better than nothing.
+    `rivals`: The same with each of the best effects; nothing is said where none is better than nothing.
     """
     design, readings = fitted.design, len(fitted.deviation)
     floor = noise_floor(design, fitted.deviation)

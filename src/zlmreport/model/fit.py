@@ -151,17 +151,14 @@ def fit(
 ) -> Fit:
     """Fit a model to the readings of a test.
 
+    Raises `ModelError` if the model makes no sense on the design, or its columns depend on each other.
+
     Parameters
     ----------
     deviation : (N,) array
         x, m or rad.
     start
         Searched parameters near their best values; the whole grid is searched if they are not given.
-
-    Raises
-    ------
-    ModelError
-        If the model makes no sense on the design, or its columns depend on each other.
 
     Notes
     -----
@@ -285,10 +282,7 @@ def cross_validated_rms(
     What depends on position alone is repeated in every run, so this number is too kind to it. It is one to
     watch, not one to rank by.
 
-    Parameters
-    ----------
-    thetas
-        Searched parameters of the whole test; refined anew without each run.
+    `thetas`: Searched parameters of the whole test; refined anew without each run.
     """
     cycle = design.cycle
     runs = np.unique(cycle)

@@ -72,24 +72,14 @@ def _starts(parameter: Parameter, design: Design) -> FloatArray:
 class FormulaEffect(Effect):
     """An effect that is written as a formula in a file.
 
-    Raises
-    ------
-    FormulaError
-        If it cannot be meant for an axis of this kind.
-
-    Attributes
-    ----------
-    keys
-        As the file says it.
-    formula
-        In SI, and parted into what is solved and what is searched.
+    Raises `FormulaError` if it cannot be meant for an axis of this kind.
     """
 
     ranges_from = _STATED
 
     def __init__(self, keys: FormulaKeys, kind: AxisKind) -> None:
-        self.formula = Formula.of(keys, kind)
-        self.keys = keys
+        self.formula = Formula.of(keys, kind)  #: In SI, and parted into what is solved and what is searched.
+        self.keys = keys  #: As the file says it.
         dimensions = {unit_of(each, kind).ascii: each for each in reversed(Dimension)}
         self.identifier = keys.name
         self.title = same(keys.title or keys.name)

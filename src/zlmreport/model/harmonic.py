@@ -80,12 +80,8 @@ def harmonics(
 ) -> tuple[Harmonic, ...]:
     """Return the harmonics among estimated parameters; empty for an effect that is not periodic.
 
-    Parameters
-    ----------
-    values : (k,) array
-        Their estimates, SI.
-    covariance : (k, k) array
-        Of the estimates.
+    `values`, (k,): Their estimates, SI.
+    `covariance`, (k, k): Of the estimates.
     """
     index = {parameter.name: place for place, parameter in enumerate(parameters)}
     found = []

@@ -107,10 +107,7 @@ def side_by_side(
 def modes(metric: Metric, shared: FloatArray, group: ShapeGroup) -> ShapeModes:
     """Return the independent modes of the shapes of a group under one φ.
 
-    Parameters
-    ----------
-    shared : (r, K) array
-        Products of the noise's factors and the features.
+    `shared`, (r, K): Products of the noise's factors and the features.
     """
     coordinates = metric.coordinates(shared)[:, group.places].transpose(1, 0, 2)
     strengths, vectors = np.linalg.eigh(group.gram - coordinates.transpose(0, 2, 1) @ coordinates)

@@ -74,14 +74,10 @@ def simulate_null(
 ) -> NullDistribution:
     """Make the comparison on simulated tests without any effect.
 
-    Parameters
-    ----------
-    design
-        The test; its content alone seeds the simulation: the same test gives the same digits.
-    ratios : (parts,) array
-        φ̂.
-    posterior : (f,) array or None
-        Probability of each φ of the comparison's grid, where it is to be averaged over instead.
+    `design`: The test; its content alone seeds the simulation: the same test gives the same digits.
+    `ratios`, (parts,): φ̂.
+    `posterior`, (f,) array or None: Probability of each φ of the comparison's grid, where it is to be
+        averaged over instead.
     """
     scores = comparison.scores(_simulated(comparison, design, ratios, posterior), told=told)
     usual = np.quantile(scores.ratios, 1 - LEVEL, axis=1)

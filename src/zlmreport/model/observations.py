@@ -113,18 +113,11 @@ def thinned(observed: Observations) -> Observations:
 def observations_of(measurements: MeasurementSet, *, overrun: float | None = None) -> Observations:
     """Return what the error model works on; missing readings are dropped, the order is kept.
 
-    Parameters
-    ----------
-    measurements
-        The readings, in the order in which they were taken.
-    overrun
-        How far the axis runs over a target before it returns to it, m or rad; `OVERRUN` where it is not
-        known.
+    `measurements`: The readings, in the order in which they were taken.
+    `overrun`: How far the axis runs over a target before it returns to it, m or rad; `OVERRUN` where it is
+        not known.
 
-    Raises
-    ------
-    ModelError
-        If every reading is missing.
+    Raises `ModelError` if every reading is missing.
     """
     axis = measurements.axis
     beyond = OVERRUN[axis.kind] if overrun is None else overrun
@@ -229,12 +222,8 @@ class Smoothed:
 def smoothed(moments: FloatArray, log: FloatArray) -> Smoothed:
     """Return a log without its noise.
 
-    Parameters
-    ----------
-    moments : (N,) array
-        When it was logged; any unit, not falling.
-    log : (N,) array
-        The values; complete.
+    `moments`, (N,): When it was logged; any unit, not falling.
+    `log`, (N,): The values; complete.
     """
     extent = float(np.ptp(moments))
     intervals = min(_MOST_INTERVALS, len(log) // _READINGS_PER_INTERVAL)

@@ -131,10 +131,7 @@ def learned(lessons: Sequence[Lesson]) -> PriorsKeys:
     population from which the tests come, by the maximum of their common likelihood, beside one imagined test
     that knows nothing.
 
-    Parameters
-    ----------
-    lessons
-        Of axes of one kind; at least one.
+    `lessons`: Of axes of one kind; at least one.
     """
     sizes: dict[str, list[float]] = defaultdict(list)
     for lesson in lessons:

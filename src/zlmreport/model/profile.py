@@ -32,22 +32,16 @@ _LARGEST_STEP, _SMALLEST_SHARE = 2.0, 0.05
 
 @dataclass(frozen=True, slots=True)
 class Interval:
-    """The values of a parameter that the readings do not exclude.
+    """The values of a parameter that the readings do not exclude."""
 
-    Attributes
-    ----------
-    effect, parameter
-        Of what: the identifier of the effect.
-    low, high
-        Ends, SI; infinite where the readings exclude nothing and there is no bound.
-    low_is_open, high_is_open
-        Whether the end is the bound of what is searched or allowed, and the readings do not exclude it.
-    """
-
+    #: effect and parameter: Of what: the identifier of the effect.
     effect: str
     parameter: Parameter
+    #: low and high: Ends, SI; infinite where the readings exclude nothing and there is no bound.
     low: float
     high: float
+    #: low_is_open and high_is_open: Whether the end is the bound of what is searched or allowed, and the
+    #: readings do not exclude it.
     low_is_open: bool = False
     high_is_open: bool = False
 

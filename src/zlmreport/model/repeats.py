@@ -110,10 +110,7 @@ def noise_floor(design: Design, deviation: FloatArray) -> float | None:
     slowly than a reading drops out. Otherwise the pure error is drift-free as it is. The standard deviations
     of ISO 230-2 contain the drift and are no floor.
 
-    Parameters
-    ----------
-    deviation : (N,) array
-        x, m or rad.
+    `deviation`, (N,): x, m or rad.
     """
     within = repeats(design, deviation)
     if within.degrees < 1:
@@ -267,12 +264,8 @@ def _drift_free(design: Design, values: FloatArray, variance: FloatArray | None 
     A pass is what one run takes in one direction. Without it, an effect that grows with position and time
     would pass for scatter, and be given little weight just where it shows.
 
-    Parameters
-    ----------
-    values : (N, B) array
-        Deviations of B sets.
-    variance : (N,) array or None
-        Of each reading over the mean one; the readings of a cell share it.
+    `values`, (N, B): Deviations of B sets.
+    `variance`, (N,) array or None: Of each reading over the mean one; the readings of a cell share it.
     """
     cell = cells(design)
     count = np.bincount(cell)
@@ -344,10 +337,7 @@ class Outliers:
 def outliers(design: Design, deviation: FloatArray) -> Outliers:
     """Return the readings that stand off from their repeats and from their neighbours in time.
 
-    Parameters
-    ----------
-    deviation : (N,) array
-        x, m or rad.
+    `deviation`, (N,): x, m or rad.
     """
     cell = cells(design)
     count = np.bincount(cell)

@@ -73,10 +73,7 @@ def report(
 ) -> dict[str, Any]:
     """Return a diagnosis as plain values for a JSON file.
 
-    Parameters
-    ----------
-    experiment
-        What tells the first candidate from its equals, with these under the key ``effects``.
+    `experiment`: What tells the first candidate from its equals, with these under the key ``effects``.
     """
     fitted = diagnosis.fit
     axis = fitted.design.axis

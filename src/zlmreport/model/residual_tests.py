@@ -271,12 +271,8 @@ def _strongest_wave(
 ) -> tuple[float, float, Words]:
     """Return the period that explains most, the chance of it, and the amplitude in words.
 
-    Parameters
-    ----------
-    where : (N,) array
-        Position or time.
-    most
-        Periods within the test that the readings can tell.
+    `where`, (N,): Position or time.
+    `most`: Periods within the test that the readings can tell.
     """
     extent = float(np.ptp(where))
     counts = np.arange(_FEWEST_PERIODS, min(most, _MOST_PERIODS), 1 / _STEPS_PER_PERIOD)

@@ -120,10 +120,7 @@ class Residuals:
 
         The chance is that of the whole search, counted on simulated independent residuals.
 
-        Parameters
-        ----------
-        columns : (g, N, k) array
-            The blocks.
+        `columns`, (g, N, k): The blocks.
         """
         blocks = self.blocks(columns)
         size, readings, width = blocks.shape

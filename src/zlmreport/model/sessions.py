@@ -66,6 +66,8 @@ def with_zeros(model: AxisModel, design: Design) -> AxisModel:
 def held_together(own: Observations, others: Sequence[tuple[str, Observations]]) -> Observations:
     """Return the readings of several tests below one another.
 
+    Raises `ModelError` if some sessions tell their times and others do not.
+
     Parameters
     ----------
     others
@@ -75,11 +77,6 @@ def held_together(own: Observations, others: Sequence[tuple[str, Observations]])
     -------
     Observations
         Targets are numbered anew, equal positions alike; readings of other sessions have the place −1.
-
-    Raises
-    ------
-    ModelError
-        If some sessions tell their times and others do not.
     """
     if not others:
         return own

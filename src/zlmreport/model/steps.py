@@ -75,12 +75,8 @@ def compared(
 ) -> Step:
     """Return a comparison of all effects beside a fitted model.
 
-    Parameters
-    ----------
-    first
-        The model with which a diagnosis began, where effects have been added on trial since.
-    expected
-        What earlier tests say, sizes in units of σ.
+    `first`: The model with which a diagnosis began, where effects have been added on trial since.
+    `expected`: What earlier tests say, sizes in units of σ.
     """
     design, deviation = fitted.design, fitted.open_deviation
     entered = effects_to_try(fitted.model, design, effects)

@@ -85,10 +85,7 @@ class Study:
     ) -> Study:
         """Begin the study of a job.
 
-        Parameters
-        ----------
-        sessions
-            The readings of the further sessions that the job names.
+        `sessions`: The readings of the further sessions that the job names.
         """
         find = {effect.identifier: effect for effect in effects}.__getitem__
         own = _with_feed(observations_of(measurements), job)
@@ -144,10 +141,7 @@ class Study:
 
         So a history needs no record beside the job, and says of every model what is true of it today.
 
-        Parameters
-        ----------
-        whole
-            The fit of the whole model, where it is there already.
+        `whole`: The fit of the whole model, where it is there already.
         """
         terms = self.model.terms
         parts = [self._fitted(AxisModel(terms[:count])) for count in range(len(terms))]
@@ -212,15 +206,10 @@ def addition(
 ) -> tuple[NamedEffect, tuple[str, ...]]:
     """Return an effect that a person names, and the effects of the model that it takes the place of.
 
-    Parameters
-    ----------
-    text
-        ``backlash``, or ``polynomial: {order: 5}`` as in a job, or the name of a formula of its candidates.
+    `text`: ``backlash``, or ``polynomial: {order: 5}`` as in a job, or the name of a formula of its
+        candidates.
 
-    Raises
-    ------
-    InputError
-        If there is no such effect, or it stands in the model already.
+    Raises `InputError` if there is no such effect, or it stands in the model already.
     """
     named = _listed(text.strip(), job) or named_effect(text, registry, place)
     identifier = named.choice.identifier
@@ -242,10 +231,7 @@ def _listed(name: str, job: Job) -> NamedEffect | None:
 def refuse_useless(added: str, before: Fitted, after: Fitted, job: Job) -> None:
     """Refuse an effect that does not lower the error.
 
-    Raises
-    ------
-    InputError
-        With both errors.
+    Raises `InputError` with both errors.
     """
     if after.error.rms >= before.error.rms:
         raise InputError.at(
@@ -269,10 +255,7 @@ def _meaning(choice: EffectChoice) -> tuple[object, ...]:
 def corrected(measurements: MeasurementSet, observed: Observations, fitted: Fit) -> MeasurementSet:
     """Return the readings less what a model explains of them; none is left out, flagged ones neither.
 
-    Parameters
-    ----------
-    observed
-        The same as the model sees them, none set aside.
+    `observed`: The same as the model sees them, none set aside.
     """
     left = measurements.deviation.copy()
     taken = []

@@ -49,14 +49,9 @@ def plan_visibility(
 ) -> tuple[Visibility, ...]:
     """Return what a planned test can see beside a model, if single readings scatter independently by σ.
 
-    Parameters
-    ----------
-    model
-        The effects that are taken for granted; their searched parameters at the first of their values.
-    design
-        The plan: a visit list with times and conditions as they are expected.
-    sigma
-        Repeatability of a single reading, m or rad.
+    `model`: The effects that are taken for granted; their searched parameters at the first of their values.
+    `design`: The plan: a visit list with times and conditions as they are expected.
+    `sigma`: Repeatability of a single reading, m or rad.
     """
     columns = [_known_columns(term, design) for term in model.terms]
     base = np.concatenate([np.empty((len(design.position), 0)), *columns], axis=1)
@@ -77,12 +72,8 @@ def visibility(
 ) -> tuple[Visibility, ...]:
     """Return what a test can see, in the order of the comparison; what it cannot see at all comes last.
 
-    Parameters
-    ----------
-    ratios : (parts,) array
-        φ̂.
-    sigma
-        σ̂, m or rad.
+    `ratios`, (parts,): φ̂.
+    `sigma`: σ̂, m or rad.
     """
     metric = comparison.space.metric(ratios)
     found = []

@@ -54,10 +54,7 @@ class Readings:
 def side_by_side(lines: Sequence[Line], approach: Approach, second: str = "R") -> Readings:
     """Return the readings of lines in one direction of approach, those that stand off set aside.
 
-    Parameters
-    ----------
-    lines
-        In any order.
+    `lines`: In any order.
     """
     kept = [_one_way(line, approach) for line in lines]
     designs = [each.design for each in kept]

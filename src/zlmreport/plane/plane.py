@@ -40,10 +40,7 @@ class Plane:
 def plane_of(measured: Sequence[Measured]) -> Plane:
     """Fit the deviation over the plane that jobs have measured line by line.
 
-    Raises
-    ------
-    InputError
-        With every reason why the jobs are no lines of one plane.
+    Raises `InputError` with every reason why the jobs are no lines of one plane.
     """
     places = _places([job for job, _ in measured])
     problems = list(_differences(measured, places))
@@ -133,10 +130,7 @@ def _arrows(measurements: MeasurementSet) -> str:
 def report(plane: Plane, points: Sequence[tuple[float, float]]) -> dict[str, Any]:
     """Return a plane as plain values for a JSON file.
 
-    Parameters
-    ----------
-    points
-        Where the deviation is asked for: P and R, m.
+    `points`: Where the deviation is asked for: P and R, m.
     """
     millimetre = plane.axis.position_unit
     return {

@@ -43,14 +43,9 @@ def coefficient_names(orders: tuple[int, int]) -> tuple[str, ...]:
 class Powers(Effect):
     """The powers of both positions, each scaled to −1 … 1 of what was measured, without interaction.
 
-    Parameters
-    ----------
-    orders
-        Highest power along the axis, and across it.
-    across
-        First and last position of the second axis, m.
-    interaction
-        Whether the product of the two positions is added, which equation (13) leaves out.
+    `orders`: Highest power along the axis, and across it.
+    `across`: First and last position of the second axis, m.
+    `interaction`: Whether the product of the two positions is added, which equation (13) leaves out.
     """
 
     identifier = "plane"
@@ -131,15 +126,9 @@ class Surface:
     def predict(self, places: Sequence[tuple[float, float]]) -> Prediction:
         """Return the deviation at points of the plane, measured or not.
 
-        Parameters
-        ----------
-        places
-            P and R of each, m.
+        `places`: P and R of each, m.
 
-        Raises
-        ------
-        ModelError
-            If a point lies outside what was measured: a polynomial knows nothing there.
+        Raises `ModelError` if a point lies outside what was measured: a polynomial knows nothing there.
         """
         along, across = np.array(places, dtype=np.float64).reshape(-1, 2).T
         axis = self.fit.design.axis
@@ -165,10 +154,7 @@ def surface(readings: Readings, instrument: InstrumentError) -> Surface:
 
     The orders are 3, or less by one than the number of positions or lines where these are fewer than four.
 
-    Raises
-    ------
-    ModelError
-        If the points do not determine the coefficients.
+    Raises `ModelError` if the points do not determine the coefficients.
     """
     design = readings.design
     lines = np.unique(readings.across)

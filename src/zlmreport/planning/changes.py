@@ -117,12 +117,8 @@ def further_changes(
 ) -> Iterator[Change]:
     """Yield each change that may tell effects apart, or show one.
 
-    Parameters
-    ----------
-    period
-        Of an effect in question, m or rad: the targets are to see all its phases.
-    goes_on
-        Whether the test can be held together with the one before.
+    `period`: Of an effect in question, m or rad: the targets are to see all its phases.
+    `goes_on`: Whether the test can be held together with the one before.
     """
     many = max(_MANY_TARGETS, _FACTOR * len(plan.targets))
     yield from _of_targets(axis, plan, seed, many, period)

@@ -51,10 +51,7 @@ def experiment_of_tie(
 ) -> Experiment | None:
     """Return the experiment that tells the first candidate of a diagnosis from its equals; None without any.
 
-    Parameters
-    ----------
-    told
-        Is told the share of the plans that are simulated.
+    `told`: Is told the share of the plans that are simulated.
     """
     question = question_of_tie(diagnosis)
     return None if question is None else _of_study(study, diagnosis.fit, question, effects, told)
@@ -84,16 +81,10 @@ def deciding_experiment(
 ) -> Experiment:
     """Return the experiment that tells effects apart that somebody names, or shows the one that is named.
 
-    Parameters
-    ----------
-    study
-        Of its readings; None if there are none yet: then the effects are taken to be three times as large as
-        the repeatability that the plan expects.
+    `study`: Of its readings; None if there are none yet: then the effects are taken to be three times as
+        large as the repeatability that the plan expects.
 
-    Raises
-    ------
-    InputError
-        If none is named, one twice, or one that there is not.
+    Raises `InputError` if none is named, one twice, or one that there is not.
     """
     known = {each.identifier: each for each in (study.tried(effects) if study else effects)}
     model = study.model if study else model_of(job, effects)
@@ -179,12 +170,8 @@ def _of_study(
 def question_of(base: Fit, rivals: Sequence[Rival], fits: Sequence[Fit]) -> Question:
     """Return the question which of some effects it is.
 
-    Parameters
-    ----------
-    base
-        The fitted model beside which they stand.
-    fits
-        Of the model with one of them; the best one tells the noise.
+    `base`: The fitted model beside which they stand.
+    `fits`: Of the model with one of them; the best one tells the noise.
     """
     best = min(fits, key=lambda each: each.rms, default=base)
     # What is larger than noise may be, the model lacks: another effect than those in question.

@@ -45,21 +45,13 @@ Path: TypeAlias = Iterator[Stop]
 def path(method: Method, targets: Sequence[float], runs: int, overrun: float) -> tuple[Stop, ...]:
     """Return the stops of a test, in their order.
 
-    Parameters
-    ----------
-    targets
-        Target positions, rising, m or rad.
-    runs
-        How often each is read in each direction.
-    overrun
-        How far beyond a target the axis turns round, so that the next approach has its direction: the
+    `targets`: Target positions, rising, m or rad.
+    `runs`: How often each is read in each direction.
+    `overrun`: How far beyond a target the axis turns round, so that the next approach has its direction: the
         approach length at the start, the loop at the end, m or rad.
 
-    Raises
-    ------
-    ValueError
-        If the targets do not rise, or the overrun is lost in the rounding of one: then a reading would not be
-        approached from its stated side.
+    Raises `ValueError` if the targets do not rise, or the overrun is lost in the rounding of one: then a
+    reading would not be approached from its stated side.
     """
     if any(later <= earlier for earlier, later in pairwise(targets)):
         raise ValueError("target positions must rise")
@@ -137,10 +129,7 @@ class Visit:
 def visits(path: Iterable[Stop]) -> tuple[Visit, ...]:
     """Return the readings on a path; direction and distances are those of the motion that leads to them.
 
-    Raises
-    ------
-    ValueError
-        If a reading stands at the start of the path, where no motion leads to it.
+    Raises `ValueError` if a reading stands at the start of the path, where no motion leads to it.
     """
     found = []
     position = turning_point = direction = None
@@ -173,12 +162,8 @@ def half_way(listed: Sequence[Visit]) -> int:
 def times(listed: Sequence[Visit], feed: float, dwell: float) -> FloatArray:
     """Return when each reading is taken, s from the first, shape (N,).
 
-    Parameters
-    ----------
-    feed
-        m/s or rad/s; the way to a target is travelled at this speed.
-    dwell
-        Time at rest at a target until the reading is taken, s.
+    `feed`: m/s or rad/s; the way to a target is travelled at this speed.
+    `dwell`: Time at rest at a target until the reading is taken, s.
     """
     elapsed = np.cumsum([visit.travelled / feed + dwell for visit in listed])
     return np.asarray(elapsed - elapsed[0])
@@ -189,12 +174,8 @@ def planned_design(
 ) -> Design:
     """Return a planned test as effects see it; nobody knows its conditions yet.
 
-    Parameters
-    ----------
-    targets : (m,) array
-        Target positions, rising, m or rad.
-    feed, dwell
-        As `times` takes them.
+    `targets`, (m,): Target positions, rising, m or rad.
+    `feed`, `dwell`: As `times` takes them.
     """
     index = np.array([visit.target for visit in listed])
     return Design(

@@ -71,19 +71,12 @@ class Proposal:
 def propose(job: Job, standards: Sequence[PlannedStandard]) -> Proposal:
     """Return the plan of a job's test.
 
-    Parameters
-    ----------
-    job
-        The job; its readings need not exist.
-    standards
-        The standards that it names, each with its own keys: their requirements choose the numbers that the
-        job leaves open.
+    `job`: The job; its readings need not exist.
+    `standards`: The standards that it names, each with its own keys: their requirements choose the numbers
+        that the job leaves open.
 
-    Raises
-    ------
-    InputError
-        If the axis has no travel and the plan no list of targets, if its targets do not fit, or if there are
-        more readings than anybody takes.
+    Raises `InputError` if the axis has no travel and the plan no list of targets, if its targets do not fit,
+    or if there are more readings than anybody takes.
     """
     keys, axis = job.keys.plan, job.axis
     if axis.travel is None and keys.targets.positions is None:
@@ -248,14 +241,9 @@ def expected_conditions(
 ) -> Mapping[str, FloatArray]:
     """Return every condition that files may log, by its name, as it may be expected at each reading, SI.
 
-    Parameters
-    ----------
-    rise
-        Of temperatures from the first reading to the last, K.
-    time : (N,) array
-        Of the readings, s from the first.
-    pause, half_way
-        What changes temperatures beside that, and before which reading.
+    `rise`: Of temperatures from the first reading to the last, K.
+    `time`, (N,): Of the readings, s from the first.
+    `pause`, `half_way`: What changes temperatures beside that, and before which reading.
     """
     duration = float(time[-1]) or 1.0
     warming = np.expm1(-_TIME_CONSTANTS * time / duration) / math.expm1(-_TIME_CONSTANTS)
@@ -296,10 +284,7 @@ def chosen_count(
 ) -> int:
     """Return the least number of targets that meets as many requirements as can be met.
 
-    Parameters
-    ----------
-    axis
-        An axis with a travel.
+    `axis`: An axis with a travel.
     """
     assert axis.travel is not None  # noqa: S101 - the caller has seen to it
     intervals = math.ceil((axis.travel[1] - axis.travel[0]) / _LARGEST_INTERVAL[axis.kind] - _ROUNDING)

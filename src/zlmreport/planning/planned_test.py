@@ -65,10 +65,7 @@ class PlannedTest:
 def planned_test(job: Job, standards: Sequence[PlannedStandard], effects: Sequence[Effect]) -> PlannedTest:
     """Return what can be said of a job's test before it is done.
 
-    Raises
-    ------
-    InputError
-        If the targets cannot be planned, or are too few for anything to be seen.
+    Raises `InputError` if the targets cannot be planned, or are too few for anything to be seen.
     """
     proposal = propose(job, standards)
     plan = proposal.plan

@@ -191,10 +191,7 @@ def _moving(stops: Iterable[ProgramStop]) -> Iterator[ProgramStop]:
 def motion_of(number: str, axis: Axis, plan: Plan, place: Place) -> Motion:
     """Return the motion of a plan.
 
-    Raises
-    ------
-    InputError
-        If the feed or the dwell is too small for any control.
+    Raises `InputError` if the feed or the dwell is too small for any control.
     """
     feed = axis.position_unit.from_si(plan.feed) * _SECONDS_PER_MINUTE
     for key, value in (("measurement.feed", feed), ("measurement.dwell", plan.dwell)):

@@ -45,20 +45,12 @@ def target_positions(
     The random fractions r let the targets see every phase of a periodic error; the interval p leaves room
     for them at the end.
 
-    Parameters
-    ----------
-    travel
-        First and last position, m or rad.
-    count
-        m, the number of targets; two at least.
-    period
-        The greatest period that is expected, m or rad: r is drawn anew for each target, evenly from 0 up to
-        it. 0 gives even targets.
+    `travel`: First and last position, m or rad.
+    `count`: m, the number of targets; two at least.
+    `period`: The greatest period that is expected, m or rad: r is drawn anew for each target, evenly from 0
+        up to it. 0 gives even targets.
 
-    Raises
-    ------
-    ValueError
-        If targets so many do not fit: p must not be smaller than the period.
+    Raises `ValueError` if targets so many do not fit: p must not be smaller than the period.
     """
     first, last = travel
     interval = (last - first - period) / (count - 1)
@@ -91,22 +83,13 @@ def drawn_targets(axis: Axis, count: int, overrun: float, period: float | None, 
     They keep the overrun's distance from the ends of the travel, for there the axis must turn round; not on
     an axis that makes whole turns. On rotary axes the targets next to whole quarter turns are moved there.
 
-    Parameters
-    ----------
-    axis
-        An axis with a travel.
-    count
-        m, two at least.
-    overrun
-        m or rad.
-    period
-        Whose random fractions r are, m or rad; 0 for even targets; None for the pitch that the axis states,
-        or else a quarter of the interval, as far as they fit.
+    `axis`: An axis with a travel.
+    `count`: m, two at least.
+    `overrun`: m or rad.
+    `period`: Whose random fractions r are, m or rad; 0 for even targets; None for the pitch that the axis
+        states, or else a quarter of the interval, as far as they fit.
 
-    Raises
-    ------
-    ValueError
-        If so many targets do not fit.
+    Raises `ValueError` if so many targets do not fit.
     """
     assert axis.travel is not None  # noqa: S101 - the caller has seen to it
     first, last = axis.travel
@@ -163,14 +146,9 @@ def _at_quarter_turns(targets: FloatArray, first: float, last: float) -> FloatAr
 def periods_at_phases(axis: Axis, targets: FloatArray, number: int) -> list[Words]:
     """Return the known periods of an axis at exactly so many phases of which targets lie.
 
-    Parameters
-    ----------
-    axis
-        Which states its periods, or none.
-    targets : (m,) array
-        m or rad.
-    number
-        1 or 2.
+    `axis`: Which states its periods, or none.
+    `targets`, (m,): m or rad.
+    `number`: 1 or 2.
     """
     return [
         _PERIODS[key].given(period=position_in_words(axis, period))

@@ -75,12 +75,8 @@ Key: TypeAlias = tuple[str, str]
 class Candidate:
     """A plugin that is loaded when somebody asks for what it offers.
 
-    Parameters
-    ----------
-    load
-        Returns its module, or any object that has hooks.
-    declared
-        What it is known to offer before it is loaded; None if nobody knows.
+    `load`: Returns its module, or any object that has hooks.
+    `declared`: What it is known to offer before it is loaded; None if nobody knows.
     """
 
     def __init__(

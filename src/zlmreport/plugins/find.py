@@ -117,23 +117,13 @@ def find_plugins(
     loaded here only if nobody knows what it offers: its distribution declares nothing (entry points of the
     group ``zlmreport.offers`` do), and it was not asked before.
 
-    Parameters
-    ----------
-    environment
-        Its variable ``ZLMREPORT_DISABLE_PLUGINS`` names entry points, parted by commas, that stay off;
-        ``ZLMREPORT_PLUGINS`` names files that are plugins, parted as in ``PATH``.
-    files
-        More of them, from the command line.
-    lenient
-        Whether what would be raised is kept as `Registry.refused`: for a listing of what does work.
+    `environment`: Its variable ``ZLMREPORT_DISABLE_PLUGINS`` names entry points, parted by commas, that stay
+        off; ``ZLMREPORT_PLUGINS`` names files that are plugins, parted as in ``PATH``.
+    `files`: More of them, from the command line.
+    `lenient`: Whether what would be raised is kept as `Registry.refused`: for a listing of what does work.
 
-    Raises
-    ------
-    AccessError
-        If there is no such file.
-    InputError
-        If a file that is named does not work; if a plugin has a misspelt hook: what it offers would be
-        missing in silence.
+    Raises `AccessError` if there is no such file; `InputError` if a file that is named does not work; if a
+    plugin has a misspelt hook: what it offers would be missing in silence.
     """
     off = {name.strip() for name in environment.get(DISABLE, "").split(",")}
     installed = entry_points()

@@ -66,16 +66,11 @@ class Offer:
 class Registry:
     """The plugins there are, by kind and name.
 
-    Parameters
-    ----------
-    candidates
-        All of them. One of which nobody knows what it offers is loaded at once, any other when it is needed.
+    `candidates`: All of them. One of which nobody knows what it offers is loaded at once, any other when it
+        is needed.
 
-    Raises
-    ------
-    InputError
-        If a plugin has a misspelt hook: what it offers would be missing in silence. So does everything that
-        loads one.
+    Raises `InputError` if a plugin has a misspelt hook: what it offers would be missing in silence. So does
+    everything that loads one.
     """
 
     def __init__(self, candidates: Iterable[Candidate] = (), disabled: Iterable[str] = ()) -> None:
@@ -86,10 +81,7 @@ class Registry:
     def find(self, kind: Kind[Wanted], identifier: str, named_at: Place | None = None) -> Wanted:
         """Return what jobs call by this name.
 
-        Raises
-        ------
-        InputError
-            At the place that names it, if there is none, or more than one.
+        Raises `InputError` at the place that names it, if there is none, or more than one.
         """
         key, place = (kind.name, identifier), named_at or Place("zlmreport")
         for candidate in self._one(key, place):

@@ -46,10 +46,7 @@ class Marks:
     def after(self, *keys: str) -> str:
         """Return the marks behind the name of what comes from these keys: ``' †'``; empty for most.
 
-        Parameters
-        ----------
-        keys
-            Dotted. A group is marked if anything in it is somebody else's, and a key if its group is.
+        `keys`: Dotted. A group is marked if anything in it is somebody else's, and a key if its group is.
         """
         found = [
             mark

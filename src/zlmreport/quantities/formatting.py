@@ -96,14 +96,9 @@ def p_value(
 ) -> str:
     r"""Write the p-value of a test with as many digits as it is known to; no line ends within it.
 
-    Parameters
-    ----------
-    value
-        A probability.
-    least
-        A power of ten: below it, a smaller chance is no stronger evidence.
-    is_extrapolated
-        Whether no simulated test came near it: then it has one digit.
+    `value`: A probability.
+    `least`: A power of ten: below it, a smaller chance is no stronger evidence.
+    `is_extrapolated`: Whether no simulated test came near it: then it has one digit.
 
     >>> p_value(0.0123), p_value(3.21e-5, DecimalSign.COMMA), p_value(1e-9)
     ('p\xa0=\xa00.012', 'p\xa0=\xa03,2·10⁻⁵', 'p\xa0<\xa010⁻⁶')
@@ -130,10 +125,7 @@ def rounded_pair(
 ) -> tuple[str, str]:
     """Write a value and its uncertainty: the uncertainty with two significant digits, the value as far.
 
-    Parameters
-    ----------
-    value, expanded_uncertainty
-        In the unit that is printed.
+    `value`, `expanded_uncertainty`: In the unit that is printed.
 
     >>> rounded_pair(-4.01187, 0.1319), rounded_pair(12.3456, 0.0996), rounded_pair(5678.9, 432.1)
     (('−4.01', '0.13'), ('12.35', '0.10'), ('5680', '430'))

@@ -124,10 +124,7 @@ class UnitOf(NamedTuple):
 def parse_formula(text: str) -> Tree:
     """Return a formula as a tree.
 
-    Raises
-    ------
-    FormulaError
-        If it is none.
+    Raises `FormulaError` if it is none.
     """
     if len(text) > _LONGEST:
         raise FormulaError(f"a formula has at most {_LONGEST} characters; this one has {len(text)}")
@@ -236,10 +233,7 @@ def in_si(tree: Tree, units: Mapping[str, UnitOf]) -> tuple[Tree, Extent]:
 
     A bare number beside a name, as in ``axis_temperature - 20`` or ``P - 300``, is in the unit of the name.
 
-    Raises
-    ------
-    FormulaError
-        If quantities are added that cannot be, or a function takes none of its kind.
+    Raises `FormulaError` if quantities are added that cannot be, or a function takes none of its kind.
     """
     if isinstance(tree, Number):
         return tree, NUMBER

@@ -39,22 +39,14 @@ def open_signer(
 ) -> Iterator[Signer]:
     """Open the key that a user names.
 
-    Parameters
-    ----------
-    named
-        A PKCS#12 file (``laboratory.p12``), or the address of a key in a PKCS#11 token (``pkcs11:…``).
-    ask_password
-        Returns the password of the file, or the PIN of the token; it is told what the password is of.
-    authorities
-        Certificates of those that issued the signer's and the time stamps', where these do not bring them.
+    `named`: A PKCS#12 file (``laboratory.p12``), or the address of a key in a PKCS#11 token (``pkcs11:…``).
+    `ask_password`: Returns the password of the file, or the PIN of the token; it is told what the password is
+        of.
+    `authorities`: Certificates of those that issued the signer's and the time stamps', where these do not
+        bring them.
 
-    Raises
-    ------
-    InputError
-        If pyHanko is not installed, the password or the address is wrong, or the certificate is not valid
-        today.
-    AccessError
-        If the file or the token cannot be read.
+    Raises `InputError` if pyHanko is not installed, the password or the address is wrong, or the certificate
+    is not valid today; `AccessError` if the file or the token cannot be read.
     """
     try:
         import pkcs11.exceptions  # noqa: F401, PLC0415 (an optional extra, as all of pyHanko below)
@@ -278,11 +270,8 @@ class TokenUri:
 def parse_token_uri(text: str, place: Place) -> TokenUri:
     """Read an address.
 
-    Raises
-    ------
-    InputError
-        If it lacks a part, or has one that is not known here. A PIN in it is refused: everybody on the
-        machine can read a command line.
+    Raises `InputError` if it lacks a part, or has one that is not known here. A PIN in it is refused:
+    everybody on the machine can read a command line.
     """
     found: dict[str, str] = {}
     for name, value in _attributes(text):

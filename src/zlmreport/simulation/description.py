@@ -155,14 +155,9 @@ def true_course(course: Course, time: FloatArray) -> FloatArray:
 def logged_course(course: Course, true: FloatArray, seed: int, sensor: int) -> FloatArray:
     """Return what a sensor logs of a condition.
 
-    Parameters
-    ----------
-    course
-        With the sensor's noise and resolution.
-    true : (N,) array
-        The condition, SI.
-    sensor
-        Number of the sensor: each has noise of its own.
+    `course`: With the sensor's noise and resolution.
+    `true`, (N,): The condition, SI.
+    `sensor`: Number of the sensor: each has noise of its own.
     """
     noise = course.sensor_noise * Stream.LOG.generator(seed, sensor).standard_normal(len(true))
     return rounded(true + noise, course.resolution)

@@ -45,10 +45,8 @@ _DIRECTIONS = {Approach.POSITIVE: "+", Approach.NEGATIVE: "-"}
 def description_of(file: SimulationFile, find: Callable[[str], Effect]) -> Description:
     """Return what a simulation file describes.
 
-    Raises
-    ------
-    InputError
-        If its targets do not fit into the travel, an effect lacks a parameter, or cannot act on this test.
+    Raises `InputError` if its targets do not fit into the travel, an effect lacks a parameter, or cannot act
+    on this test.
     """
     keys, axis = file.keys, file.axis
     position = axis.position_unit
@@ -204,12 +202,8 @@ def _in_users_unit(name: str, values: FloatArray) -> FloatArray:
 def job_text(file: SimulationFile, folder: Path, readings: str) -> str:
     """Return a job that evaluates simulated readings, and models them.
 
-    Parameters
-    ----------
-    folder
-        Where the job will stand: tables of the axis are named from there.
-    readings
-        Name of the file with the readings, beside the job.
+    `folder`: Where the job will stand: tables of the axis are named from there.
+    `readings`: Name of the file with the readings, beside the job.
     """
     source = {"plugin": "laser-csv", "file": readings}
     return "\n".join([*_job_lines(file, folder, source), _OUTPUT]) + "\n"

@@ -47,10 +47,7 @@ class Simulation:
 def simulate(description: Description) -> Simulation:
     """Return a test of the axis that is described.
 
-    Raises
-    ------
-    ValueError
-        If a searched parameter of an effect has no value.
+    Raises `ValueError` if a searched parameter of an effect has no value.
     """
     design = design_of(description)
     systematic = deviation_by_all(description, design)
@@ -72,10 +69,7 @@ def design_of(description: Description) -> Design:
 def deviation_by_all(description: Description, design: Design) -> FloatArray:
     """Return the deviation that all effects of a description make, shape (N,), m or rad.
 
-    Raises
-    ------
-    ValueError
-        If a searched parameter of an effect has no value.
+    Raises `ValueError` if a searched parameter of an effect has no value.
     """
     systematic = np.zeros(len(design.position))
     for each in description.effects:
@@ -86,16 +80,10 @@ def deviation_by_all(description: Description, design: Design) -> FloatArray:
 def deviation_by(effect: Effect, design: Design, values: Mapping[str, float]) -> FloatArray:
     """Return the deviation that an effect makes, shape (N,), m or rad.
 
-    Parameters
-    ----------
-    values
-        Its parameters by name, SI. Linear ones that are left out are 0; searched ones may be left out where
-        the axis tells them (a stated pitch).
+    `values`: Its parameters by name, SI. Linear ones that are left out are 0; searched ones may be left out
+        where the axis tells them (a stated pitch).
 
-    Raises
-    ------
-    ValueError
-        If a searched parameter has no value.
+    Raises `ValueError` if a searched parameter has no value.
     """
     known = {**effect.expected(design.axis), **values}
     missing = [parameter.name for parameter in effect.searched if parameter.name not in known]
@@ -109,10 +97,7 @@ def deviation_by(effect: Effect, design: Design, values: Mapping[str, float]) ->
 def observed(description: Description, design: Design, systematic: FloatArray) -> MeasurementSet:
     """Return what an instrument gives of deviations, with all noise of the description.
 
-    Parameters
-    ----------
-    systematic : (N,) array
-        The deviation without noise, m or rad.
+    `systematic`, (N,): The deviation without noise, m or rad.
     """
     noise, seed = description.noise, description.seed
     shown = rounded(systematic + noise_of(noise, design, seed), noise.resolution)
@@ -178,11 +163,6 @@ class EmulatedMachine:
 class StartedMachine:
     """A machine whose program begins when somebody starts it; until then it rests where that begins.
 
-    Attributes
-    ----------
-    elapsed
-        How long it has been started, s; None before.
-
     Parameters
     ----------
     machine
@@ -190,7 +170,7 @@ class StartedMachine:
     """
 
     def __init__(self, machine: EmulatedMachine) -> None:
-        self.elapsed: float | None = None
+        self.elapsed: float | None = None  #: How long it has been started, s; None before.
         self._machine = machine
         self._started_at: float | None = None
         self._is_started = False
@@ -225,15 +205,9 @@ def emulated_machine(description: Description, lead: float) -> EmulatedMachine:
     description says of an instrument, its resolution and its missing readings, is left to the instrument that
     watches.
 
-    Parameters
-    ----------
-    lead
-        How long the axis rests before its program begins, s.
+    `lead`: How long the axis rests before its program begins, s.
 
-    Raises
-    ------
-    ValueError
-        If a searched parameter of an effect has no value.
+    Raises `ValueError` if a searched parameter of an effect has no value.
     """
     seen = _without_instrument(description)
     design = design_of(seen)

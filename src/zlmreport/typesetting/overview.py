@@ -15,10 +15,7 @@ from zlmreport.typesetting.resources import PACKAGE, Face, font, font_faces, sty
 def drawing(image: str) -> Markup:
     """Return a graph of our own as markup.
 
-    Parameters
-    ----------
-    image
-        As `zlmreport.figures.canvas.SvgCanvas` writes it, which escapes all text.
+    `image`: As `zlmreport.figures.canvas.SvgCanvas` writes it, which escapes all text.
     """
     return Markup(image.strip())  # noqa: S704 (the canvas has escaped every text)
 

@@ -232,10 +232,8 @@ def environment(own: tuple[tuple[str, str], ...] = ()) -> ImmutableSandboxedEnvi
 def render(context: Context, own: tuple[tuple[str, str], ...] = ()) -> Markup:
     """Render the template that belongs to a context; characters that XML cannot hold are shown as U+FFFD.
 
-    Raises
-    ------
-    InputError
-        If a template of a laboratory's own is wrong, or leaves out a word that the usual one prints.
+    Raises `InputError` if a template of a laboratory's own is wrong, or leaves out a word that the usual one
+    prints.
     """
     values = {field.name: getattr(context, field.name) for field in fields(context)}
     name = template_of(type(context))

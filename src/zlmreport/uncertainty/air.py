@@ -32,10 +32,7 @@ _SOURCE = Words(
 def air_contributions(job: Job, measurements: MeasurementSet, length: float) -> Iterator[Contribution]:
     """Yield the contributions of the air; none where the readings are not corrected for it.
 
-    Parameters
-    ----------
-    length
-        L, m.
+    `length`: L, m.
     """
     corrections = job.keys.corrections
     if corrections is None or corrections.air is None:

@@ -134,14 +134,9 @@ def temperature_range(expansion_coefficient: float, length: float, temperature_r
 def expansion_range(length: float, difference: float, coefficient_range: float) -> float:
     """Return the range L·ΔT·R(α) of the error from the expansion coefficient of machine or device, m.
 
-    Parameters
-    ----------
-    length
-        L, m.
-    difference
-        ΔT, the largest distance of the temperature from 20 °C, K.
-    coefficient_range
-        R(α), 1/K.
+    `length`: L, m.
+    `difference`: ΔT, the largest distance of the temperature from 20 °C, K.
+    `coefficient_range`: R(α), 1/K.
     """
     return length * abs(difference) * coefficient_range
 

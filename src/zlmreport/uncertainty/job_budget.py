@@ -57,15 +57,9 @@ def budget_of(
 ) -> Budget | NoBudget:
     """Return the budget of a job's set-up; none where the job gives no number for the instrument.
 
-    Parameters
-    ----------
-    of_the_instrument
-        The instrument's own contributions where it is no device of one uncertainty.
+    `of_the_instrument`: The instrument's own contributions where it is no device of one uncertainty.
 
-    Raises
-    ------
-    InputError
-        If a figure is stated without what its formula needs beside it.
+    Raises `InputError` if a figure is stated without what its formula needs beside it.
     """
     set_up = SetUp.of(job, measurements)
     keys = job.keys.uncertainty
@@ -388,10 +382,7 @@ def demanded(keys: JobKeys) -> tuple[str, ...]:
 def refusals(job: Job, budget: Budget | NoBudget) -> Iterator[Problem]:
     """Yield what a calibration certificate must state of its uncertainty and does not.
 
-    Parameters
-    ----------
-    job
-        The job; a report may leave out what it says that it leaves out.
+    `job`: The job; a report may leave out what it says that it leaves out.
     """
     if job.keys.certificate.kind != "certificate":
         return

@@ -77,10 +77,7 @@ class Stated:
 def stated_by(carrier: Carrier) -> Stated | None:
     """Return what the results file of a certificate states; None if it carries none that can be read.
 
-    Raises
-    ------
-    ValueError
-        If there is one, and it is no sound results file.
+    Raises `ValueError` if there is one, and it is no sound results file.
     """
     for file in carrier.carried.values():
         if file.relationship != "Data" or not file.name.endswith(".json"):
@@ -138,10 +135,7 @@ class Layout:
 def laid_out(sources: Sequence[StatedSource], carried: Mapping[str, Carried]) -> Iterator[Layout]:
     """Write each attached source into a folder of its own; jobs name these files only while it lasts.
 
-    Parameters
-    ----------
-    carried
-        The attachments, by name: each is a name and no path.
+    `carried`: The attachments, by name: each is a name and no path.
     """
     with tempfile.TemporaryDirectory(prefix="zlmreport-verify-") as folder:
         files: dict[str, Path] = {}
@@ -179,10 +173,7 @@ def compare(
 ) -> tuple[Finding, ...]:
     """Return a finding for each file that is attached, or should be.
 
-    Parameters
-    ----------
-    again
-        What it carries when it is made again, by name; None if it cannot be.
+    `again`: What it carries when it is made again, by name; None if it cannot be.
     """
     stated = {source.name: source for source in sources}
     findings = []
@@ -230,17 +221,10 @@ _MOST_DEFECTS = 3
 def digital_findings(carried: Mapping[str, Carried], schema: Path) -> Iterator[Finding]:
     """Yield what PTB's rules and PTB's schema say of the attached digital certificates.
 
-    Parameters
-    ----------
-    schema
-        A folder with PTB's ``dcc.xsd`` and what it imports.
+    `schema`: A folder with PTB's ``dcc.xsd`` and what it imports.
 
-    Raises
-    ------
-    AccessError
-        If the folder holds no schema.
-    InputError
-        If the optional libraries that check are not installed.
+    Raises `AccessError` if the folder holds no schema; `InputError` if the optional libraries that check are
+    not installed.
     """
     place = Place(str(schema))
     if not (schema / _SCHEMA).is_file():

@@ -65,12 +65,7 @@ class Carrier:
 def read_file(path: Path) -> bytes:
     """Return the bytes of a PDF file.
 
-    Raises
-    ------
-    AccessError
-        If it cannot be read.
-    InputError
-        If it is no PDF, or larger than any certificate.
+    Raises `AccessError` if it cannot be read; `InputError` if it is no PDF, or larger than any certificate.
     """
     place = Place(str(path))
     content = demanded(path, LARGEST)
@@ -84,10 +79,7 @@ def read_file(path: Path) -> bytes:
 def opened(content: bytes, place: Place) -> Carrier:
     """Open a PDF and take out its attachments.
 
-    Raises
-    ------
-    InputError
-        If it is damaged or encrypted, or carries more than any certificate.
+    Raises `InputError` if it is damaged or encrypted, or carries more than any certificate.
     """
     return guarded(lambda: _opened(content, place), place)
 
@@ -205,17 +197,9 @@ class TooLargeError(ValueError):
 def unpacked(stream: Any, most: int) -> bytes:
     """Return the bytes of a stream of pypdf.
 
-    Parameters
-    ----------
-    most
-        Bytes that it may unpack to.
+    `most`: Bytes that it may unpack to.
 
-    Raises
-    ------
-    DamagedError
-        If it is damaged.
-    TooLargeError
-        If it unpacks to more.
+    Raises `DamagedError` if it is damaged; `TooLargeError` if it unpacks to more.
     """
     from pypdf.errors import LimitReachedError  # noqa: PLC0415 - slow to load
 

@@ -26,10 +26,8 @@ _EXTENDED_BY_SIGNATURES = frozenset({"/Annots", "/K"})
 class Fingerprints:
     """Digests of the parts of one document.
 
-    Parameters
-    ----------
-    pages
-        Numbers of the pages by the numbers of their objects: a part that leads to a page does not hold it.
+    `pages`: Numbers of the pages by the numbers of their objects: a part that leads to a page does not hold
+        it.
     """
 
     def __init__(self, pages: Mapping[int, int], place: Place) -> None:

@@ -33,14 +33,10 @@ Digest = Callable[[Any], str]
 def show_the_same(font: Any, again: Any, digest: Digest, digest_again: Digest, *, completely: bool) -> bool:
     """Compare two fonts entry by entry, and glyph by glyph: shape, width, and the text that it stands for.
 
-    Parameters
-    ----------
-    font, again
-        Fonts of pypdf, of the certificate and of the one printed again.
-    digest, digest_again
-        Return the digests of the objects of either document.
-    completely
-        Whether every glyph of the font printed again must be there; otherwise those that both have count.
+    `font`, `again`: Fonts of pypdf, of the certificate and of the one printed again.
+    `digest`, `digest_again`: Return the digests of the objects of either document.
+    `completely`: Whether every glyph of the font printed again must be there; otherwise those that both have
+        count.
     """
     parts, parts_again = _parts(font), _parts(again)
     if parts is None or parts_again is None:

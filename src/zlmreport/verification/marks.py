@@ -108,15 +108,9 @@ class _Pen:
 def marks(page: Any, digest: Callable[[Any], str], known_fonts: dict[str, Any]) -> list[Mark]:
     """Return what a page of pypdf draws.
 
-    Parameters
-    ----------
-    known_fonts
-        The glyphs of fonts that were met, by their digests; it is added to.
+    `known_fonts`: The glyphs of fonts that were met, by their digests; it is added to.
 
-    Raises
-    ------
-    ForeignError
-        If it draws in a way in which no certificate is drawn.
+    Raises `ForeignError` if it draws in a way in which no certificate is drawn.
     """
     from pypdf.generic import ContentStream  # noqa: PLC0415 - slow to load
 

@@ -28,10 +28,8 @@ _LONGEST = 40
 def compare(content: bytes, again: bytes, is_alike: Sequence[bool]) -> dict[int, Finding]:
     """Return what is seen otherwise, by the number of the page from 0.
 
-    Parameters
-    ----------
-    is_alike
-        For each page whether both draw stroke for stroke alike; otherwise marks may be off by a pixel.
+    `is_alike`: For each page whether both draw stroke for stroke alike; otherwise marks may be off by a
+        pixel.
     """
     import pypdfium2  # noqa: PLC0415 - slow to load
 

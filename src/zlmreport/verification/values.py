@@ -22,11 +22,9 @@ _NAMES = ("standard", "symbol", "name", "target", "effect", "path", "requirement
 def compare(stated: Any, recomputed: Any, *, same_programs: bool) -> tuple[Value, ...]:
     """Return every value of two results files, side by side.
 
-    Parameters
-    ----------
-    same_programs
-        Whether both come from the same releases. Otherwise readings, parameters and limits are compared;
-        words, uncertainties, what only this release states, and whatever else differs are left open.
+    `same_programs`: Whether both come from the same releases. Otherwise readings, parameters and limits are
+        compared; words, uncertainties, what only this release states, and whatever else differs are left
+        open.
     """
     return tuple(
         value if same_programs else _of_another_release(value) for value in _walk(stated, recomputed, ())

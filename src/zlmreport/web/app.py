@@ -259,10 +259,7 @@ class Workbench:
 def serve(workbench: Workbench, port: int, ready: Callable[[str], None], *, open_browser: bool) -> None:
     """Listen on the loopback address until the user ends it; the workbench ends then, or if it cannot begin.
 
-    Parameters
-    ----------
-    port
-        On which; 0 for any free one.
+    `port`: On which; 0 for any free one.
     """
     try:
         with _listening(port) as listener:

@@ -147,10 +147,7 @@ class Bench:
     def with_effect(self, loaded: Loaded, text: str) -> Fitted:
         """Return the fit of the model with an effect that a person names, in place of what that contains.
 
-        Raises
-        ------
-        InputError
-            If there is no such effect, or it cannot be fitted to these readings.
+        Raises `InputError` if there is no such effect, or it cannot be fitted to these readings.
         """
         with self.lock:
             job, installed = loaded.job, self.registry.effects
@@ -165,10 +162,7 @@ class Bench:
     def _read(self, job: Job) -> _Readings:
         """Return the readings: as before, if only the model has changed; read, if more than exclusions has.
 
-        Raises
-        ------
-        InputError
-            If they cannot be read, or a standard of the job cannot evaluate them.
+        Raises `InputError` if they cannot be read, or a standard of the job cannot evaluate them.
         """
         before = self._readings
         if before is None or before.basis != _basis(job, before.measurements):

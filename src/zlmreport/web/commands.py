@@ -61,10 +61,7 @@ class Commands:
     def begin(self, name: str, wanted: Wanted) -> dict[str, Any]:
         """Begin to make something, and return how far it is.
 
-        Raises
-        ------
-        InputError
-            If a format, a control, an effect or a second test is none that the page offered.
+        Raises `InputError` if a format, a control, an effect or a second test is none that the page offered.
         """
         loaded, path = self.bench.loaded(), self.bench.path
         if name == "certificate":

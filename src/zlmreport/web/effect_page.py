@@ -85,12 +85,8 @@ def effect_page(bench: Bench, loaded: Loaded, identifier: str, language: Languag
 def sketch(effect: Effect, design: Design, language: Language) -> dict[str, Any] | None:
     """Return the effect alone as the residuals of a test show it: over position or time, by direction.
 
-    Parameters
-    ----------
-    effect
-        The effect; its searched parameters are in the middle of their values.
-    design
-        Of the test at hand; a complete one is taken instead if that cannot show the effect.
+    `effect`: The effect; its searched parameters are in the middle of their values.
+    `design`: Of the test at hand; a complete one is taken instead if that cannot show the effect.
     """
     reason = effect.untestable(design)
     words = _HERE.given(unit=design.axis.deviation_unit.symbol)

@@ -86,10 +86,7 @@ class Door:
 class Guard:
     """Stands before the application, and lets through what `Door` says.
 
-    Parameters
-    ----------
-    door
-        Where it listens, and what opens it.
+    `door`: Where it listens, and what opens it.
     """
 
     def __init__(self, app: ASGIApp, door: Door) -> None:

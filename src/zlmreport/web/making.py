@@ -88,10 +88,7 @@ class Making:
     def begin(self, stamp: str, *arguments: str) -> None:
         """Begin a command on a state of the job, unless one is under way.
 
-        Parameters
-        ----------
-        arguments
-            As on the terminal; ``--json`` is added.
+        `arguments`: As on the terminal; ``--json`` is added.
         """
         with self._lock:
             if self._process is not None:

@@ -108,10 +108,7 @@ class Panels:
     def standards(self, results: Sequence[Evaluated]) -> list[dict[str, Any]]:
         """Return the parameters of each standard: now, by a table of positions, and by the whole model.
 
-        Parameters
-        ----------
-        results
-            Of the job's standards, in their order.
+        `results`: Of the job's standards, in their order.
         """
         study, whole = self.loaded.study, self.whole.fit
         tests = [

@@ -90,15 +90,9 @@ def results(bench: Bench, loaded: Loaded, language: Language) -> dict[str, Any]:
 def before_and_after(bench: Bench, loaded: Loaded, step: str, language: Language) -> dict[str, Any]:
     """Return what the graphs draw before and after a step of the model.
 
-    Parameters
-    ----------
-    step
-        The number of an effect of the model, from 1; or an effect that is not in it, as a job names it.
+    `step`: The number of an effect of the model, from 1; or an effect that is not in it, as a job names it.
 
-    Raises
-    ------
-    InputError
-        If there is no such effect, or it cannot be fitted.
+    Raises `InputError` if there is no such effect, or it cannot be fitted.
     """
     history = bench.history(loaded)
     if step.isdecimal() and 0 < int(step) < len(history):
@@ -115,15 +109,9 @@ def before_and_after(bench: Bench, loaded: Loaded, step: str, language: Language
 def closer(bench: Bench, loaded: Loaded, ends: tuple[float, float]) -> dict[str, Any]:
     """Return the curves of the model on a part of the travel, as finely as that part needs.
 
-    Parameters
-    ----------
-    ends
-        Of the part: positions in the unit of the page.
+    `ends`: Of the part: positions in the unit of the page.
 
-    Raises
-    ------
-    InputError
-        If there is no such part.
+    Raises `InputError` if there is no such part.
     """
     whole, unit = bench.whole(loaded), loaded.job.axis.position_unit
     first, last = whole.fit.design.span

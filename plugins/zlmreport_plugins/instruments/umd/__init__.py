@@ -72,15 +72,10 @@ class UmdDecoder:
     and DISP has gone on by VEL, which is the difference of the cycles REF and MEAS. A line that does not
     follow its predecessor so is no reading, and neither is the first after one. Homodyne displays send no
     VEL, REF and MEAS: there the number alone is checked, and a lost beam is not seen.
-
-    Attributes
-    ----------
-    understood
-        How many lines were lines of a µMD.
     """
 
     def __init__(self, model: Model, setup: Setup) -> None:
-        self.understood = 0
+        self.understood = 0  #: How many lines were lines of a µMD.
         self._model = model
         self._setup = setup
         self._lines = WholeLines()
@@ -94,10 +89,7 @@ class UmdDecoder:
     def feed(self, data: bytes, now: float) -> list[LiveReading]:
         """Return the readings that these bytes complete.
 
-        Raises
-        ------
-        WrongDeviceError
-            If it is another µMD than the model, or has no such axis.
+        Raises `WrongDeviceError` if it is another µMD than the model, or has no such axis.
         """
         readings = []
         for line in self._lines.feed(data):

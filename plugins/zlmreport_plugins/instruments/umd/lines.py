@@ -128,10 +128,7 @@ class Counting:
 class LowSpeed:
     """Listens to the low-speed channel.
 
-    Parameters
-    ----------
-    temperatures
-        The names of what its two temperature sensors measure.
+    `temperatures`: The names of what its two temperature sensors measure.
     """
 
     def __init__(self, model: Model, temperatures: tuple[str, str]) -> None:
@@ -280,12 +277,8 @@ _MANNERS: Mapping[str, _Manner] = {
 class UmdEmulator:
     """A display that watches an axis through the air between: where the axis is at 0 there is none.
 
-    Parameters
-    ----------
-    scene
-        The axis, and what goes wrong.
-    length
-        Displacement for an optical cycle in standard air, m.
+    `scene`: The axis, and what goes wrong.
+    `length`: Displacement for an optical cycle in standard air, m.
     """
 
     def __init__(self, model: Model, scene: Scene, length: float) -> None:

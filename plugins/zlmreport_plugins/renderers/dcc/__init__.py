@@ -26,10 +26,7 @@ class DccRenderer:
     def render(self, certificate: Certificate) -> bytes:
         """Return the file, UTF-8.
 
-        Raises
-        ------
-        InputError
-            With everything that a DCC must state and the job does not.
+        Raises `InputError` with everything that a DCC must state and the job does not.
         """
         job = certificate.job
         if job is None:

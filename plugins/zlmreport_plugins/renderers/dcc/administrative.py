@@ -81,10 +81,7 @@ def serial_number(value: str, writer: Writer) -> ET.Element:
 def administrative_data(certificate: Certificate, job: Job) -> ET.Element:
     """Return the administrative data.
 
-    Raises
-    ------
-    InputError
-        With everything that a DCC must state and the job does not.
+    Raises `InputError` with everything that a DCC must state and the job does not.
     """
     missing = list(_missing(job))
     if missing:
@@ -245,12 +242,8 @@ def equipment(job: Job, writer: Writer) -> ET.Element | None:
 def state(when: str, work: str | None, writer: Writer) -> ET.Element | None:
     """Return whether the axis was measured before or after an adjustment or repair; None without one.
 
-    Parameters
-    ----------
-    when
-        ``before`` or ``after``.
-    work
-        ``adjustment`` or ``repair``.
+    `when`: ``before`` or ``after``.
+    `work`: ``adjustment`` or ``repair``.
     """
     if work is None:
         return None

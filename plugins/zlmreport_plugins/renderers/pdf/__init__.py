@@ -16,10 +16,7 @@ class PdfRenderer:
     def render(self, certificate: Certificate) -> bytes:
         """Return the PDF.
 
-        Raises
-        ------
-        AccessError
-            If WeasyPrint cannot be loaded, because the system lacks Pango.
+        Raises `AccessError` if WeasyPrint cannot be loaded, because the system lacks Pango.
         """
         try:
             from zlmreport_plugins.renderers.pdf.press import press

@@ -255,10 +255,7 @@ class PageGraph:
 class StreamCanvas:
     """A canvas on a page's stream, whose unit is the point and whose y axis points downwards.
 
-    Parameters
-    ----------
-    stream
-        WeasyPrint's stream; its state belongs to this canvas alone.
+    `stream`: WeasyPrint's stream; its state belongs to this canvas alone.
     """
 
     def __init__(self, stream: Any, font_config: Any) -> None:

@@ -25,10 +25,7 @@ _POINTS_PER_PIXEL = 72 / 96
 def mend(pdf: Any, link_texts: Mapping[str, str]) -> None:
     """Mend the structure of a PDF in place.
 
-    Parameters
-    ----------
-    pdf
-        A pydyf PDF, complete but for its trailer.
+    `pdf`: A pydyf PDF, complete but for its trailer.
     """
     root = _dereferenced(pdf, pdf.catalog["StructTreeRoot"])
     elements = list(_elements(pdf, root))

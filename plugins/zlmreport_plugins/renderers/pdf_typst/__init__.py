@@ -18,13 +18,8 @@ class TypstRenderer:
     def render(self, certificate: Certificate) -> bytes:
         """Return the PDF.
 
-        Raises
-        ------
-        AccessError
-            If the package ``typst`` is not installed.
-        InputError
-            If the certificate has letters that the bundled typeface lacks, or a typeface or templates of its
-            own.
+        Raises `AccessError` if the package ``typst`` is not installed; `InputError` if the certificate has
+        letters that the bundled typeface lacks, or a typeface or templates of its own.
         """
         if certificate.look.typeface or certificate.look.templates:
             raise InputError.at(

@@ -328,17 +328,12 @@ def graph_data(figure: Figure, language: Language) -> Data:
 
 
 class GraphCanvas:
-    """A canvas that keeps outlines and text apart.
-
-    Attributes
-    ----------
-    labels
-        Each line of text in the order in which it was set: x and y of its beginning, angle, colour, and its
-        runs, each with face, size, how far it lies below the first, and a stretch of text.
-    """
+    """A canvas that keeps outlines and text apart."""
 
     def __init__(self) -> None:
         self._paths: list[str] = []
+        #: Each line of text in the order in which it was set: x and y of its beginning, angle, colour, and
+        #: its runs, each with face, size, how far it lies below the first, and a stretch of text.
         self.labels: list[list[Any]] = []
 
     def outline(

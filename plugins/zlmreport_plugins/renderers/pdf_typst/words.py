@@ -120,10 +120,7 @@ _MOST_TOLD = 10
 def demand_letters(document: str, number: str) -> None:
     """Refuse a document, a text of JSON, that has letters without a shape in the bundled typeface.
 
-    Raises
-    ------
-    InputError
-        With all such letters of the certificate of this number.
+    Raises `InputError` with all such letters of the certificate of this number.
     """
     letters = set(document) | {
         chr(int(each["code"], 16)) for each in _ESCAPED.finditer(document) if each["code"]

@@ -142,10 +142,7 @@ class Log:
     def readings(self, unit: Unit, forward: Approach) -> Iterator[Reading]:
         """Yield the readings cycle by cycle, upwards and then downwards; the log tells no order.
 
-        Parameters
-        ----------
-        forward
-            The approach that the log calls FWD.
+        `forward`: The approach that the log calls FWD.
         """
         positions, cycles = self._count(POSITIONS), self._count(CYCLES)
         if positions * cycles > _HARDLY_ANY * len(self.entries):

@@ -60,10 +60,7 @@ def decimal_sign(table: Table, indices: Sequence[int]) -> DecimalSign:
     decimal point wherever nothing speaks against it; a comma only where a cell proves it. Cells that are no
     numbers tell nothing.
 
-    Raises
-    ------
-    InputError
-        If the cells leave it open, or speak for both: the job must say it.
+    Raises `InputError` if the cells leave it open, or speak for both: the job must say it.
     """
     proof: dict[str, tuple[str, Place]] = {}
     doubt: dict[str, tuple[str, Place]] = {}
@@ -234,11 +231,8 @@ def heading_of(text: str, index: int = 0) -> Heading:
 def read_headings(table: Table, options: LaserCsvOptions) -> tuple[Heading, ...]:
     """Return the headings of the columns that are to be read.
 
-    Raises
-    ------
-    InputError
-        If the header holds numbers, a name twice, or none where there are readings, or if the job speaks
-        of columns that there are not.
+    Raises `InputError` if the header holds numbers, a name twice, or none where there are readings, or if the
+    job speaks of columns that there are not.
     """
     found = headings(table.header)
     if any(_NUMBER.fullmatch(heading.text) for heading in found) and not any(
@@ -261,10 +255,7 @@ def read_headings(table: Table, options: LaserCsvOptions) -> tuple[Heading, ...]
 def find(name: str, among: Sequence[Heading], table: Table, options: LaserCsvOptions) -> Heading | None:
     """Return the heading of a known column: the one that the job maps to it, or the one of its name.
 
-    Raises
-    ------
-    InputError
-        If there are several.
+    Raises `InputError` if there are several.
     """
     mapped = [file_name for key, file_name in options.columns.items() if folded(key) == name]
     candidates = [
@@ -300,10 +291,7 @@ def column_of(
 ) -> Column:
     """Return a known column with its unit: the job's, else the one in brackets, else the usual one.
 
-    Raises
-    ------
-    InputError
-        If the unit is none of the column's quantity.
+    Raises `InputError` if the unit is none of the column's quantity.
     """
     stated = options.units.get(name)
     spelling = stated if stated is not None else heading.bracket

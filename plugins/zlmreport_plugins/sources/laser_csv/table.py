@@ -65,19 +65,11 @@ def read_table(
 ) -> Table:
     """Return the cells of a table.
 
-    Parameters
-    ----------
-    delimiter
-        As stated; None to tell it by the header.
-    lines
-        First and last line of the table, from 1; None for the whole file.
-    names_column
-        Whether a header names a column that is known: decides between delimiters.
+    `delimiter`: As stated; None to tell it by the header.
+    `lines`: First and last line of the table, from 1; None for the whole file.
+    `names_column`: Whether a header names a column that is known: decides between delimiters.
 
-    Raises
-    ------
-    InputError
-        If there is no header.
+    Raises `InputError` if there is no header.
     """
     content = text.numbered(*lines or ())
     if not content:

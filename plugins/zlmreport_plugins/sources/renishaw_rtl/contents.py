@@ -79,10 +79,7 @@ def as_entry(line: Line) -> Entry | None:
 def sections(text: TextFile, demanded: tuple[str, ...]) -> Mapping[str, Section]:
     """Return the sections of a file by the words of their heads.
 
-    Raises
-    ------
-    InputError
-        If it has no sections, a section twice, or lacks one that is demanded.
+    Raises `InputError` if it has no sections, a section twice, or lacks one that is demanded.
     """
     heads: dict[str, Line] = {}
     lines: dict[str, list[Line]] = {}
@@ -120,10 +117,8 @@ def target_positions(section: Section) -> tuple[float, ...]:
 
     They begin behind ``Targets :`` and wrap; the next key ends them.
 
-    Raises
-    ------
-    InputError
-        If there are none, if one is no number, or if their number is not the one that the file states.
+    Raises `InputError` if there are none, if one is no number, or if their number is not the one that the
+    file states.
     """
     lines = iter(section.lines)
     begin = next((line for line in lines if (entry := as_entry(line)) and entry.key == "targets"), None)
@@ -152,10 +147,7 @@ def target_positions(section: Section) -> tuple[float, ...]:
 def stated_count(section: Section, key: str) -> tuple[int, Line] | None:
     """Return a number of things that a section states, and where; None if it states none.
 
-    Raises
-    ------
-    InputError
-        If what it states is no number.
+    Raises `InputError` if what it states is no number.
     """
     entry = section.value(key)
     if entry is None or not entry.value:

@@ -75,10 +75,7 @@ def parameters(
 ) -> dict[str, FloatArray]:
     """Return the parameters of the axis by symbol, each of shape (...).
 
-    Parameters
-    ----------
-    repeatability
-        The columns by position, as from `positions`.
+    `repeatability`: The columns by position, as from `positions`.
     """
     upper, lower = upper_limit(statistics, k), lower_limit(statistics, k)
     mean, mean_bidirectional = statistics.mean, statistics.mean_bidirectional
