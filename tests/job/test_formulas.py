@@ -65,6 +65,7 @@ def test_what_is_no_formula_is_refused(text: str, sentence: str) -> None:
         ("a*sin(P/L)", {"a": _UM, "L": {"unit": "mm"}}, "L is no factor of a whole term"),
         ("a", {"a": _UM, "b": _UM}, "the parameter b does not stand in it"),
         ("a*k", {"a": _UM, "k": {"unit": "1", "range": [1, 2]}}, "no readings could tell a, k apart"),
+        ("a + 0*b", {"a": _UM, "b": _UM}, "b changes nothing in it"),
         ("a", {"a": {"unit": "furlong"}}, "'furlong' is no unit"),
         ("P", {"P": {"unit": "mm"}}, "cannot be called 'P'"),
     ],
@@ -74,6 +75,19 @@ def test_formula_that_cannot_be_meant_is_refused(
 ) -> None:
     with pytest.raises(ValidationError, match=sentence):
         _keys(formula, **parameters)
+
+
+@pytest.mark.parametrize(
+    ("formula", "parameters"),
+    [
+        ("a*step(P - 1777)", {"a": _UM}),
+        ("a*step(P + 500)*step(-P)", {"a": _UM}),
+        ("a*step(P - L)", {"a": _UM, "L": {"unit": "mm", "range": [100, 500]}}),
+        ("a*exp(P/L)", {"a": _UM, "L": {"unit": "mm", "range": [10, 50]}}),
+    ],
+)
+def test_effect_may_show_on_a_part_of_some_axes_only(formula: str, parameters: dict[str, Any]) -> None:
+    assert Formula.of(_keys(formula, **parameters), AxisKind.LINEAR).linear == ("a",)
 
 
 @pytest.mark.parametrize(

@@ -64,6 +64,8 @@ UNITS: Mapping[AxisKind, Mapping[str, UnitOf]] = MappingProxyType(
 )
 _SPELLINGS = (("µ", "u"), ("μ", "u"), ("″", "arcsec"), ("°", "deg"), ("*", " "), ("·", " "))
 _SAMPLES, _STEP, _DEPENDENT, _SEED = 60, 1e-4, 1e-7, 20_261_122
+#: Between which positions formulas are tried, m or rad. A step at 1.8 m or at -0.5 m shows on no first metre.
+_POSITIONS = ((0.05, 1.0), (-1.0, 1.0), (-10.0, 10.0), (-100.0, 100.0))
 
 
 #: A parameter of an effect of the model.
@@ -219,9 +221,24 @@ class Formula:
 
     def _refuse_undetermined(self, keys: FormulaKeys) -> None:
         """Refuse parameters that no readings at all could tell apart: two that stand for one."""
+        free = [name for name in self.searched if keys.parameters[name].value is None]
+        names = [*self.linear, *free]
+        tried = [self._slopes(keys, free, *positions) for positions in _POSITIONS]
+        finite = [each for each in tried if np.all(np.isfinite(each))]
+        if not finite:
+            raise FormulaError("it has no finite value at usual readings, or none within the ranges")
+        together = next((each for each in finite if each.any(axis=0).all()), finite[0])
+        lengths = np.linalg.norm(together, axis=0)
+        if not lengths.all():
+            raise FormulaError(f"{names[int(np.argmin(lengths))]} changes nothing in it")
+        if np.linalg.svd(together / lengths, compute_uv=False)[-1] < _DEPENDENT:
+            raise FormulaError(f"no readings could tell {', '.join(names)} apart; one of them is too many")
+
+    def _slopes(self, keys: FormulaKeys, free: list[str], first: float, last: float) -> FloatArray:
+        """Return what each parameter changes at readings between two positions, m or rad, shape (N, k)."""
         random = np.random.default_rng(_SEED)
         readings = {
-            "P": random.uniform(0.05, 1.0, _SAMPLES),
+            "P": random.uniform(first, last, _SAMPLES),
             "D": random.choice([-1.0, 1.0], _SAMPLES),
             "t": random.uniform(1.0, 3600.0, _SAMPLES),
             "run": random.integers(1, 9, _SAMPLES).astype(np.float64),
@@ -231,20 +248,17 @@ class Formula:
         theta = {name: self._middle(keys.parameters[name], name) for name in self.searched}
         columns = self.values(readings, theta)
         slopes = [columns]
-        free = [name for name in self.searched if keys.parameters[name].value is None]
         for name in free:
-            step = _STEP * (abs(theta[name]) or 1.0)
-            moved = self.values(readings, {**theta, name: theta[name] + step})
-            slopes.append(((moved - columns) / step).sum(axis=1, keepdims=True))
-        together = np.concatenate(slopes, axis=1)
-        if not np.all(np.isfinite(together)):
-            raise FormulaError("it has no finite value at usual readings, or none within the ranges")
-        lengths = np.linalg.norm(together, axis=0)
-        names = [*self.linear, *free]
-        if not lengths.all():
-            raise FormulaError(f"{names[int(np.argmin(lengths))]} changes nothing in it")
-        if np.linalg.svd(together / lengths, compute_uv=False)[-1] < _DEPENDENT:
-            raise FormulaError(f"no readings could tell {', '.join(names)} apart; one of them is too many")
+            low, high = keys.parameters[name].range or (0.0, 0.0)
+            # Where a step is moved by little, no reading passes it.
+            for step in (_STEP * (abs(theta[name]) or 1.0), (high - low) / 4 / self.units[name].per_si):
+                moved = self.values(readings, {**theta, name: theta[name] + step})
+                with np.errstate(invalid="ignore"):  # far away, an exponential is infinite
+                    slope = ((moved - columns) / step).sum(axis=1, keepdims=True)
+                if slope.any():
+                    break
+            slopes.append(slope)
+        return np.concatenate(slopes, axis=1)
 
     def _middle(self, parameter: FormulaParameter, name: str) -> float:
         low, high = parameter.range or (0.0, 0.0)
