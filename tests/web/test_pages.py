@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import json
 import shutil
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from pathlib import Path
+from threading import Event
 from typing import Any
+from unittest.mock import Mock
 
 import numpy as np
 import pytest
@@ -21,7 +24,7 @@ from zlmreport.measurement.approach import Approach
 from zlmreport.model.design import at_positions
 from zlmreport.model.faults import Fault, FaultKind
 from zlmreport.model.residuals import Failure, ResidualTest
-from zlmreport.model.study import Study
+from zlmreport.model.study import Fitted, Study
 from zlmreport.testing.measurements import full_designs
 from zlmreport.web.app import Workbench
 from zlmreport.web.effect_page import sketch
@@ -173,6 +176,39 @@ def test_a_diagnosis_that_was_made_is_there_at_once_also_for_a_copy_and_after_a_
     (copy / "x-axis.csv").write_text((copy / "x-axis.csv").read_text("utf-8") + "# later\n", "utf-8")
     assert again.diagnoses.of(again.bench.loaded().content).keys() == {"seconds", "share"}
     again.end()
+
+
+def test_a_click_waits_for_no_fit_of_a_step_and_each_is_made_once(
+    workbench: Workbench, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    bench, begun, go_on, made = workbench.bench, Event(), Event(), []
+    fitted, loaded = Study.fitted, bench.loaded()
+
+    def slow(study: Study) -> Fitted:
+        begun.set()
+        assert go_on.wait(60)
+        made.append(len(study.model.terms))
+        return fitted(study)
+
+    monkeypatch.setattr(Study, "fitted", slow)
+    with ThreadPoolExecutor(3) as others:
+        try:
+            falls = [others.submit(bench.history, loaded) for _ in range(2)]
+            assert begun.wait(60)
+            assert others.submit(bench.tried, loaded.job).result(60).basis == loaded.basis
+        finally:
+            go_on.set()
+        assert falls[0].result() == falls[1].result()
+    assert sorted(made) == [0, 1, 2, 3]
+
+
+def test_a_fit_that_fails_is_tried_again(workbench: Workbench, monkeypatch: pytest.MonkeyPatch) -> None:
+    bench, loaded = workbench.bench, workbench.bench.loaded()
+    with monkeypatch.context() as patch:
+        patch.setattr(Study, "fitted", Mock(side_effect=MemoryError))
+        with pytest.raises(MemoryError):
+            bench.whole(loaded)
+    assert bench.whole(loaded).fit.fitted.size
 
 
 @pytest.mark.parametrize("step", ["3", "screw-pitch"])

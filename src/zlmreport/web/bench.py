@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 from collections import OrderedDict
 from collections.abc import Iterable
+from concurrent.futures import Future
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from threading import RLock
@@ -78,7 +79,7 @@ class Bench:
     _readings: _Readings | None = None
     _raw: tuple[str, MeasurementSet] | None = None
     _watched: tuple[Path, ...] = ()
-    _fits: OrderedDict[tuple[object, ...], Fitted] = field(default_factory=OrderedDict)
+    _fits: OrderedDict[tuple[object, ...], Future[Fitted]] = field(default_factory=OrderedDict)
 
     def stamp(self) -> str:
         """Return the name of the state in which the files are now, without reading the job."""
@@ -129,35 +130,30 @@ class Bench:
 
     def whole(self, loaded: Loaded) -> Fitted:
         """Return the fit of the whole model."""
-        with self.lock:
-            return self._fitted(loaded.basis, loaded.study, loaded.job.effects)
+        return self._fitted(loaded.basis, loaded.study, loaded.job.effects)
 
     def history(self, loaded: Loaded) -> tuple[Fitted, ...]:
         """Return the fits of no effect, of the first, of the first two …: each is made only once."""
-        with self.lock:
-            terms = loaded.study.model.terms
-            effects = loaded.job.effects
-            return tuple(
-                self._fitted(
-                    loaded.basis, replace(loaded.study, model=AxisModel(terms[:count])), effects[:count]
-                )
-                for count in range(len(terms) + 1)
-            )
+        terms = loaded.study.model.terms
+        effects = loaded.job.effects
+        return tuple(
+            self._fitted(loaded.basis, replace(loaded.study, model=AxisModel(terms[:count])), effects[:count])
+            for count in range(len(terms) + 1)
+        )
 
     def with_effect(self, loaded: Loaded, text: str) -> Fitted:
         """Return the fit of the model with an effect that a person names, in place of what that contains.
 
         Raises `InputError` if there is no such effect, or it cannot be fitted to these readings.
         """
-        with self.lock:
-            job, installed = loaded.job, self.registry.effects
-            named, removed = addition(text, job, self.registry, installed, PLACE)
-            kept = (each for each in job.effects if each.identifier not in removed)
-            effects = (*kept, named.choice)
-            by_identifier = {each.identifier: each for each in installed}
-            terms = chosen_terms(effects, by_identifier.__getitem__, job.axis.kind)
-            model = with_zeros(AxisModel(terms), loaded.study.together.design)
-            return self._fitted(loaded.basis, replace(loaded.study, model=model), effects)
+        job, installed = loaded.job, self.registry.effects
+        named, removed = addition(text, job, self.registry, installed, PLACE)
+        kept = (each for each in job.effects if each.identifier not in removed)
+        effects = (*kept, named.choice)
+        by_identifier = {each.identifier: each for each in installed}
+        terms = chosen_terms(effects, by_identifier.__getitem__, job.axis.kind)
+        model = with_zeros(AxisModel(terms), loaded.study.together.design)
+        return self._fitted(loaded.basis, replace(loaded.study, model=model), effects)
 
     def _read(self, job: Job) -> _Readings:
         """Return the readings: as before, if only the model has changed; read, if more than exclusions has.
@@ -176,6 +172,7 @@ class Bench:
         return before
 
     def _fitted(self, basis: str, study: Study, effects: tuple[EffectChoice, ...]) -> Fitted:
+        """Return a fit, made once; the lock is free meanwhile: a click waits for no step of the model."""
         key = (
             basis,
             *(each.sha256 for each in _files(*study.sessions)),
@@ -185,14 +182,23 @@ class Bench:
                 for each in effects
             ),
         )
-        found = self._fits.get(key)
-        if found is None:
-            found = study.fitted()
-            self._fits[key] = found
-            if len(self._fits) > _KEPT_FITS:
-                self._fits.popitem(last=False)
-        self._fits.move_to_end(key)
-        return found
+        with self.lock:
+            found = self._fits.get(key)
+            is_known = found is not None
+            if found is None:
+                found = self._fits[key] = Future()
+                if len(self._fits) > _KEPT_FITS:
+                    self._fits.popitem(last=False)
+            self._fits.move_to_end(key)
+        if not is_known:
+            try:
+                found.set_result(study.fitted())
+            except BaseException as error:
+                found.set_exception(error)
+                with self.lock:
+                    self._fits.pop(key, None)
+                raise
+        return found.result()
 
 
 def _basis(job: Job, measurements: MeasurementSet, *, but_for_excluded: bool = False) -> str:
