@@ -30,6 +30,8 @@ from zlmreport.model.diagnosis import diagnose
 from zlmreport.model.observations import observations_of
 from zlmreport.planning.methods import Method
 
+ROOT = Path(__file__).parents[2]
+
 
 def case(  # noqa: PLR0913 - a case has so many parts
     hidden: str = "screw-pitch",
@@ -263,6 +265,12 @@ class TestExperiments:
         found = experiments.judged(tie)
         assert found["followed"]["decision"] == "right"
         assert "| ≥ 0.95 | 1 | 96 | 100.0" in of_experiments([found], "state")
+
+    def test_the_page_prints_what_the_records_say(self) -> None:
+        found = records.read(ROOT / "benchmarks" / "measured" / "experiments.jsonl")
+        state = found[-1]["code"]
+        page = (ROOT / "docs" / "explanation" / "hidden-effects.md").read_text(encoding="utf-8")
+        assert of_experiments(records.of_state(found, state), state) in page
 
 
 class TestLearned:
