@@ -72,12 +72,8 @@ _COLLISION = _Trouble(3, 2504, "Collision")
 class DmeServer:
     """The server.
 
-    Parameters
-    ----------
-    faults
-        What goes wrong, by the number of the measuring move since the server was started, from 1.
-    temperature
-        Of the part, °C, for who asks for it with each point.
+    `faults`: What goes wrong, by the number of the measuring move since the server was started, from 1.
+    `temperature`: Of the part, °C, for who asks for it with each point.
     """
 
     def __init__(

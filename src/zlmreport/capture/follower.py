@@ -64,14 +64,9 @@ class Follower:
     the stability range and inside the tolerance, and it is clear which visit of the list that is. Whatever
     else happens it names, and takes nothing.
 
-    Parameters
-    ----------
-    progress
-        Where to begin: `Progress.begin`, or that of a journal.
-    is_watched
-        Whether an operator answers questions while the axis goes on; if not, a question halts.
-    last
-        When the last visit was, s, by the clock of the readings; None if the program cannot have run on
+    `progress`: Where to begin: `Progress.begin`, or that of a journal.
+    `is_watched`: Whether an operator answers questions while the axis goes on; if not, a question halts.
+    `last`: When the last visit was, s, by the clock of the readings; None if the program cannot have run on
         since then.
     """
 

@@ -89,12 +89,8 @@ class _Guess:
 class Place:
     """Follows the program by its stops.
 
-    Parameters
-    ----------
-    taken
-        How many visits are taken or missed for good: the operator begins after them.
-    last
-        When the last of them was, s, by the clock of the readings; None if the program cannot have run on
+    `taken`: How many visits are taken or missed for good: the operator begins after them.
+    `last`: When the last of them was, s, by the clock of the readings; None if the program cannot have run on
         since then.
     """
 

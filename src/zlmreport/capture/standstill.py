@@ -55,10 +55,7 @@ class Track:
     The direction is that of the last motion that went further than a threshold; a smaller one back, such as
     an overshoot, does not turn it.
 
-    Parameters
-    ----------
-    motion
-        What counts as motion, m or rad.
+    `motion`: What counts as motion, m or rad.
     """
 
     def __init__(self, motion: float) -> None:

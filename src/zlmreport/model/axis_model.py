@@ -27,10 +27,7 @@ _TAKES_PART = 0.05
 class ModelError(Exception):
     """A model that these readings cannot carry.
 
-    Parameters
-    ----------
-    sentences
-        What is wrong and what would be right, each fit to stand behind a place in a file.
+    `sentences`: What is wrong and what would be right, each fit to stand behind a place in a file.
     """
 
     def __init__(self, sentences: Sequence[str]) -> None:
@@ -174,11 +171,8 @@ class AxisModel:
     def check(self, design: Design) -> None:
         """Refuse a model that makes no sense on a design.
 
-        Raises
-        ------
-        ModelError
-            With every mistake: an effect twice or beside one that contains it, a value given for a parameter
-            that there is not, an effect that the test cannot show, too few readings.
+        Raises `ModelError` with every mistake: an effect twice or beside one that contains it, a value given
+        for a parameter that there is not, an effect that the test cannot show, too few readings.
         """
         sentences = [*self._clashes(), *self._unknown_parameters(), *self._wrong_links()]
         sentences += self._untestable(design)
@@ -284,10 +278,7 @@ def refuse_collisions(model: AxisModel, columns: Sequence[FloatArray]) -> None:
 def chosen_effect(choice: EffectChoice, find: Callable[[str], Effect], kind: AxisKind) -> Effect:
     """Return an effect that a file names or writes as a formula, in the form that it asks for.
 
-    Raises
-    ------
-    InputError
-        If a formula is not meant for an axis of this kind.
+    Raises `InputError` if a formula is not meant for an axis of this kind.
     """
     if not isinstance(choice.settings, FormulaKeys):
         return find(choice.identifier).with_settings(choice.settings)

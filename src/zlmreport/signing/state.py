@@ -321,18 +321,11 @@ _KEY = "trusted"
 def trusted_certificates(path: Path, place: Place) -> tuple[Any, ...]:
     """Return the certificates of a file, or of all files in a folder, in the terms of asn1crypto.
 
-    Parameters
-    ----------
-    path
-        A certificate, PEM or DER, or several in one file (PEM); or a folder of such files, those that end in
-        ``.pem``, ``.crt``, ``.cer`` or ``.der``.
+    `path`: A certificate, PEM or DER, or several in one file (PEM); or a folder of such files, those that end
+        in ``.pem``, ``.crt``, ``.cer`` or ``.der``.
 
-    Raises
-    ------
-    AccessError
-        If it cannot be read.
-    InputError
-        If it is no certificate, or a folder without one; or if pyHanko is not installed.
+    Raises `AccessError` if it cannot be read; `InputError` if it is no certificate, or a folder without one;
+    or if pyHanko is not installed.
     """
     try:
         files = (

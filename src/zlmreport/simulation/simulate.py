@@ -163,10 +163,7 @@ class EmulatedMachine:
 class StartedMachine:
     """A machine whose program begins when somebody starts it; until then it rests where that begins.
 
-    Parameters
-    ----------
-    machine
-        Its time counts from the start.
+    `machine`: Its time counts from the start.
     """
 
     def __init__(self, machine: EmulatedMachine) -> None:

@@ -90,22 +90,14 @@ def verify(
 ) -> Verification:
     """Verify a certificate.
 
-    Parameters
-    ----------
-    path
-        A PDF that this program made, signed or not.
-    dcc_schema
-        A folder with PTB's schema, to check an attached digital certificate by it and by PTB's rules.
-    trusted
-        Certificates of signers or of authorities, as `zlmreport.signing.state` reads them.
+    `path`: A PDF that this program made, signed or not.
+    `dcc_schema`: A folder with PTB's schema, to check an attached digital certificate by it and by PTB's
+        rules.
+    `trusted`: Certificates of signers or of authorities, as `zlmreport.signing.state` reads them.
 
-    Raises
-    ------
-    AccessError
-        If it cannot be read, or printed again.
-    InputError
-        If it is no such PDF; or if it is, and what it carries cannot be evaluated here although none of its
-        sources was changed: because a plugin is not installed, for example.
+    Raises `AccessError` if it cannot be read, or printed again; `InputError` if it is no such PDF; or if it
+    is, and what it carries cannot be evaluated here although none of its sources was changed: because a
+    plugin is not installed, for example.
     """
     carrier = opened(read_file(path), Place(str(path)))
     state = signature_state(carrier.content, trusted)
