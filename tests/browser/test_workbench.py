@@ -96,9 +96,9 @@ def test_from_a_job_without_pitch_to_table_and_certificate_by_clicks_alone(
     expect(page.locator(".preview img")).to_have_js_property("complete", value=True)
     assert page.locator(".preview img").evaluate("picture => picture.naturalWidth") > 500
     expect(page.get_by_text("Sheet: page 1 of 1")).to_be_visible()
+    picture(page, "table")
     page.get_by_role("button", name="The next page").click()
     expect(page.get_by_text("Page 1 of")).to_be_visible()
-    picture(page, "table")
 
 
 def test_the_page_asks_for_the_pitch_that_nobody_stated(address: str, job: Path, window: Window) -> None:
