@@ -33,11 +33,20 @@ SCATTERS: dict[str, Callable[[random.Random], float]] = {
     "1/30, all alike": lambda _: 1 / 30,
     "from 1/60 to 1/15, evenly on a logarithmic scale": lambda rng: math.exp(rng.uniform(*_LOGARITHMS)),
     "1/60 or 1/15, half of them each": lambda rng: rng.choice((1 / 60, 1 / 15)),
+    "1/60, and 1/15 of every tenth axis": lambda rng: 1 / 15 if rng.random() < 0.1 else 1 / 60,
     "1/30 or 1/10, half of them each": lambda rng: rng.choice((1 / 30, 1 / 10)),
     "1/40, and 1/10 of every tenth axis": lambda rng: 1 / 10 if rng.random() < 0.1 else 1 / 40,
     "1/40, and 1/8 of every fiftieth axis": lambda rng: 1 / 8 if rng.random() < 0.02 else 1 / 40,
 }
 _LOGARITHMS = math.log(1 / 60), math.log(1 / 15)
+#: Up to this scatter a step of a third of the limit is to be seen at once.
+_SCATTER_AT_MOST, _THIRD = 1 / 15, 1 / 3
+#: Part of the largest such scatter of a fleet, from which on axes are counted.
+_NEARLY = 0.75
+#: Of how many axes one steps.
+_STEPPING = 4
+#: Tests before the one that is judged.
+BEFORE = (4, 5, 7, 9)
 
 
 def series(axis: object, values: Sequence[float], symbol: str = "A", *, limited: bool = True) -> Series:
@@ -72,15 +81,84 @@ def is_alarm(trend: Trend) -> bool:
     return trend.step is not None or trend.is_wilder or trend.drifts
 
 
-def alarms(fleets: int, axes: int, seed: int) -> Iterator[tuple[str, float]]:
-    """Yield how many axes are named in a night in which all were tested for the eighth time, none changed."""
-    for name, scatter in SCATTERS.items():
-        rng = random.Random(seed)
-        named = 0
-        for _ in range(fleets):
-            values = histories(rng, [scatter(rng) for _ in range(axes)], CHANGED_AT + 1)
-            named += sum(map(is_alarm, trends(series(axis, each) for axis, each in enumerate(values))))
-        yield name, named / fleets
+@dataclass(frozen=True, slots=True)
+class Share:
+    """A mean, and its standard deviation as a mean."""
+
+    mean: float
+    deviation: float
+
+    @classmethod
+    def of(cls, counts: Sequence[float]) -> Share:
+        """Return it of what was counted in each of several fleets, or of each of several axes."""
+        return cls(statistics.mean(counts), statistics.stdev(counts) / math.sqrt(len(counts)))
+
+    def __str__(self) -> str:
+        """Return both as the tables have them."""
+        return f"{self.mean:.1f} ± {self.deviation:.1f}"
+
+    def percent(self) -> str:
+        """Return both as parts of a hundred."""
+        return f"{Share(100 * self.mean, 100 * self.deviation)} %"
+
+
+@dataclass(frozen=True, slots=True)
+class Night:
+    """What is named in a night in which all axes of a fleet were tested.
+
+    Attributes
+    ----------
+    alarms
+        Axes that are named where none changed.
+    seen
+        Part of the steps of a third of the limit that is seen, of axes that scatter as much as any does for
+        which that is wanted; every fourth axis steps.
+    promised
+        Part of the steps that is seen that are as large as the smallest one printed for the axis.
+    """
+
+    alarms: Share
+    seen: Share
+    promised: Share
+
+
+def night(name: str, before: int, fleets: int, axes: int, seed: int) -> Night:
+    """Return what is named in fleets that scatter in one way, after so many tests and one."""
+    rng = random.Random(seed)
+    named: list[float] = []
+    seen: list[float] = []
+    promised: list[float] = []
+    for _ in range(fleets):
+        scatters = [SCATTERS[name](rng) for _ in range(axes)]
+        values = histories(rng, scatters, before + 1)
+        calm = trends(series(axis, each) for axis, each in enumerate(values))
+        named.append(sum(map(is_alarm, calm)))
+        most = max(each for each in scatters if each <= _SCATTER_AT_MOST)
+        printed = trends(series(axis, each[:-1]) for axis, each in enumerate(values))
+        third = _stepped(values, [_THIRD] * axes)
+        seen += [
+            third[axis] for axis in range(0, axes, _STEPPING) if _NEARLY * most <= scatters[axis] <= most
+        ]
+        smallest = _stepped(values, [(each.smallest or math.inf) / LIMIT for each in printed])
+        promised += [smallest[axis] for axis in range(0, axes, _STEPPING)]
+    return Night(Share.of(named), Share.of(seen), Share.of(promised))
+
+
+#: What is said of a night, by the title of its table.
+_TABLES: dict[str, Callable[[Night], str]] = {
+    "False alarms a night": lambda each: str(each.alarms),
+    "Steps of 1/3 that are seen at once": lambda each: each.seen.percent(),
+    "Steps as large as is printed that are seen at once": lambda each: each.promised.percent(),
+}
+
+
+def _stepped(values: Sequence[Sequence[float]], steps: Sequence[float]) -> list[bool]:
+    """Return which axes are named for a step where every fourth steps with its latest test."""
+    changed = [
+        [*each[:-1], each[-1] + (0.0 if axis % _STEPPING else step)]
+        for axis, (each, step) in enumerate(zip(values, steps, strict=True))
+    ]
+    return [each.step is not None for each in trends(series(axis, each) for axis, each in enumerate(changed))]
 
 
 @dataclass(slots=True)
@@ -190,10 +268,13 @@ def main(words: Sequence[str]) -> None:
     parser.add_argument("--fleets", type=int, default=20, help="simulated for each number")
     parser.add_argument("--seed", type=int, default=20261120)
     options = parser.parse_args(words)
-    named = alarms(3 * options.fleets, 300, options.seed)
-    _print(
-        ("Scatter between tests", "False alarms a night"), *((name, f"{each:.1f}") for name, each in named)
-    )
+    found_in = {
+        name: [night(name, each, 2 * options.fleets, 300, options.seed + each) for each in BEFORE]
+        for name in SCATTERS
+    }
+    columns = [f"after {each} tests" for each in BEFORE]
+    for title, said in _TABLES.items():
+        _print((title, *columns), *((name, *map(said, each)) for name, each in found_in.items()))
     _print(("", "Scatter 1/15", "Scatter 1/30"), *_rows(max(1, options.fleets // 4), 100, options.seed))
     drifts = (0.5, 1, 2, 4)
     rows = (

@@ -12,10 +12,11 @@ sys.path.append(str(ROOT / "benchmarks"))
 import fleet_trends
 
 
-def test_a_fleet_in_which_nothing_changes_raises_few_alarms(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(fleet_trends, "SCATTERS", dict(list(fleet_trends.SCATTERS.items())[-1:]))
-    ((_, named),) = fleet_trends.alarms(5, 300, 3)
-    assert named <= 1  # a fleet that spoke for its wild axes, too, named two a night
+def test_a_fleet_in_which_nothing_changes_raises_few_alarms_and_shows_steps() -> None:
+    found = fleet_trends.night("1/40, and 1/8 of every fiftieth axis", 7, 5, 300, 3)
+    assert found.alarms.mean <= 1  # a fleet that spoke for its wild axes, too, named two a night
+    assert found.seen.mean > 0.99
+    assert found.promised.mean > 0.9
 
 
 def test_a_step_of_ten_scatters_is_seen_at_once_and_a_steep_drift_soon() -> None:
@@ -24,8 +25,12 @@ def test_a_step_of_ten_scatters_is_seen_at_once_and_a_steep_drift_soon() -> None
 
 
 def test_the_tables_are_printed(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
-    monkeypatch.setattr(fleet_trends, "alarms", lambda *_: [("1/15, all alike", 0.7)])
+    share = fleet_trends.Share.of([0.5, 0.5, 0.8])
+    monkeypatch.setattr(fleet_trends, "night", lambda *_: fleet_trends.Night(share, share, share))
     monkeypatch.setattr(fleet_trends, "_rows", lambda *_: [("steps", "1", "2")])
     monkeypatch.setattr(fleet_trends, "found", lambda *_: 0.5)
     fleet_trends.main(["--fleets", "1"])
-    assert "| 8 | 50 % | 50 % | 50 % | 50 % |" in capsys.readouterr().out
+    printed = capsys.readouterr().out
+    assert "| 1/15, all alike | 0.6 ± 0.1 |" in printed
+    assert "| 60.0 ± 10.0 % |" in printed
+    assert "| 8 | 50 % | 50 % | 50 % | 50 % |" in printed

@@ -18,15 +18,14 @@ from dataclasses import dataclass, replace
 from datetime import date
 from statistics import fmean
 
+from zlmreport.fleet.scatter import Scatter, learned
 from zlmreport.fleet.steps import (
     SMALL,
     Course,
-    Scatter,
     Step,
     chances,
     course,
-    learned,
-    squares_before_the_last,
+    squares_between,
 )
 from zlmreport.fleet.trend import (
     DAYS_PER_YEAR,
@@ -164,14 +163,18 @@ def _stepping(series: Sequence[Series]) -> Mapping[int, _Stepping]:
             index: tuple(each.parameter.value / scale for each in series[index].calibrations)
             for index, scale in scales.items()
         }
-        fleet = Scatter()
-        for _ in range(2):  # what is learned with steps in it first shows these, and is learned without them
-            courses = [course(values[index], fleet, part) for index, part in shares.items()]
-            samples = zip(values.values(), courses, strict=True)
-            known = (squares_before_the_last(v, c.since) for v, c in samples)
-            fleet = learned(each for each in known if each[1] > 0)
-        for index, part in shares.items():
-            own = course(values[index], fleet, part)
+        # Of the latest tests each may begin a step; what was taken for one is left out the second time.
+        known = [squares_between(each[:-1], ()) for each in values.values()]
+        for _ in range(2):
+            others = learned(known)
+            courses = [
+                course(values[index], fleet, part)
+                for (index, part), fleet in zip(shares.items(), others, strict=True)
+            ]
+            known = [
+                squares_between(each, own.steps) for each, own in zip(values.values(), courses, strict=True)
+            ]
+        for index, fleet, own in zip(shares, others, courses, strict=True):
             found[index] = _Stepping(series[index], scales[index], values[index], fleet, own)
     return found
 

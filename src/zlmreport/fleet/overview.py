@@ -17,7 +17,7 @@ from zlmreport.fleet.drifts import FALSE_SHARE, LEAST_DATES, Trend, by_axis
 from zlmreport.fleet.overview_cells import Cells, Names, Period, small_graph
 from zlmreport.fleet.records import Entry, Notice, PastNight, RecordedParameter, State
 from zlmreport.fleet.state import SOON, Failure, FleetState, Term
-from zlmreport.fleet.steps import LEAST_BEFORE, SEEN, SMALL
+from zlmreport.fleet.steps import LEAST_BEFORE, SEEN, SMALL, level_of
 from zlmreport.fleet.trend import Calibration, Series, line_through
 from zlmreport.language import Language, Words
 from zlmreport.typesetting.overview import (
@@ -384,7 +384,12 @@ def legend(cells: Cells) -> OverviewLegendContext:
         (words.TERM_STEP, words.MEANING_STEP),
         (words.TERM_DRIFT, words.MEANING_DRIFT),
     )
-    steps = words.STEP_METHOD.given(scatters=round(SEEN), least=LEAST_BEFORE, small=round(100 * SMALL))
+    steps = words.STEP_METHOD.given(
+        scatters=round(SEEN),
+        least=LEAST_BEFORE,
+        alarms=round(1 / level_of(LEAST_BEFORE)),
+        small=round(100 * SMALL),
+    )
     method = words.DRIFT_METHOD.given(least=LEAST_DATES, share=round(100 * FALSE_SHARE))
     sample = _sample()
     calibrations = sample.series.calibrations

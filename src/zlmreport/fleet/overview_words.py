@@ -210,13 +210,13 @@ MEANING_DRIFT = Words(
 STEP_METHOD = Words(
     en="A step is named if the latest test differs from the mean of those before it by more than the scatter "
     "between tests explains. Where {least} or more came before, a step of {scatters} scatters is seen at "
-    "once in 95 % of all cases, and one test in 250, or fewer, raises a false alarm. What is less than "
+    "once in 95 % of all cases, and one test in {alarms}, or fewer, raises a false alarm. What is less than "
     "{small} % of the limit is no news, as a step or as a drift.",
     de="Ein Sprung wird genannt, wenn die letzte Messung vom Mittel der früheren weiter abweicht, als die "
     "Streuung zwischen den Messungen erklärt. Nach {least} oder mehr Messungen fällt ein Sprung um das "
-    "{scatters}-Fache der Streuung in 95 % aller Fälle sofort auf; höchstens eine von 250 Messungen löst "
-    "Fehlalarm aus. Was weniger als {small} % des Grenzwerts ausmacht, wird weder als Sprung noch als Drift "
-    "gemeldet.",
+    "{scatters}-Fache der Streuung in 95 % aller Fälle sofort auf; höchstens eine von {alarms} Messungen "
+    "löst Fehlalarm aus. Was weniger als {small} % des Grenzwerts ausmacht, wird weder als Sprung noch als "
+    "Drift gemeldet.",
 )
 DRIFT_METHOD = Words(
     en="A parameter drifts if a weighted regression through {least} or more dates is steeper than its "

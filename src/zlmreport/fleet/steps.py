@@ -1,9 +1,8 @@
 """Steps: which test of an axis differs from those before it by more than its tests scatter.
 
-The scatter between tests is that of the axis itself, moderated by what the whole fleet has: variances that
-are known by few tests each are drawn towards one that all of them know, the more so the better they agree
-(G. K. Smyth, Statistical Applications in Genetics and Molecular Biology 3 (2004) article 3).
-A test is held against the mean of those before it by Student's t with all these degrees of freedom.
+The scatter between tests is that of the axis itself, with what the whole fleet knows of it in view
+(`zlmreport.fleet.scatter`). A test is named if so large a difference from the mean of those before it is
+less likely than a false alarm may be.
 
 Values, changes and scatter are in parts of the limit here, or in the unit of the ledger where there is none.
 """
@@ -11,56 +10,37 @@ Values, changes and scatter are in parts of the limit here, or in the unit of th
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cache
+from itertools import pairwise
 from statistics import fmean
 
-from zlmreport.model.distributions import f_tail, normal_tail, t_quantile
+from zlmreport.fleet.scatter import Scatter
+from zlmreport.model.distributions import normal_tail
 
 #: What is less than this part of the limit is no news.
 SMALL = 0.1
 #: No smaller step need be seen, so that false alarms are rare where the scatter is small.
 WANTED = 0.2
-#: A step of so many scatters is seen at once in 95 % of all cases, with so many tests before it.
+#: A step of so many scatters is seen at once in 95 % of all cases, from so many tests before it on.
 SEEN, LEAST_BEFORE = 5.0, 4
 #: Normal quantile of 95 %, 1.64, and what is lost to a scatter not quite known and to a look at drifts.
-_POWER = 1.80
+_POWER = 1.85
+#: Chance of a false alarm of one test towards the limit: of 300 axes about one a night, and never more.
+_MOST_FALSE = 1 / 340
+#: Of the steps as large as the smallest that is printed, this part is missed, and one in a hundred more by
+#: what is lost to a scatter not quite known.
+_MISSED = 0.04
 #: A change that leads away from the limit is worth so much less of the chance for a false alarm.
-_AWAY = 0.05
+_AWAY = 0.02
 #: Chance of so steep a line by accident, above which a step is not held against it.
 _STEEP = 0.005
 #: Standard deviation of an effect at its largest, in scatters.
 _EXPECTED = 5.0
 #: Tests, the one that stands out among them, that are held against a drift.
 _FOLLOWING = 3
-#: No scatter is taken for smaller, in parts of the limit.
-_LEAST_SCATTER = 1e-3
-#: An axis that scatters more than the fleet lets expect with this chance is no longer judged by the fleet.
-_WILD = 0.1
 #: Tests whose scatter is held against that of all before them, and the chance of a false alarm.
 _WINDOW, _SCATTER_LEVEL = 4, 1 / 4000
-
-
-@dataclass(frozen=True, slots=True)
-class Scatter:
-    """What a fleet knows of a variance between tests: how large it is, and as if by how many tests."""
-
-    variance: float = 0.0
-    degrees: float = 0.0
-
-    def moderated(self, squares: float, degrees: int) -> Scatter:
-        """Return this with a sum of squares of an axis itself, of so many degrees of freedom."""
-        trusted = self.degrees * self._trust(squares, degrees)
-        total = trusted + degrees
-        variance = (trusted * self.variance + squares) / total if total else 0.0
-        return Scatter(max(variance, _LEAST_SCATTER**2), total)
-
-    def _trust(self, squares: float, degrees: int) -> float:
-        """Return how far the fleet may speak for an axis: the less, the plainer it scatters more."""
-        if not degrees or not self.degrees or not self.variance:
-            return 1.0
-        return min(1.0, f_tail(squares / degrees / self.variance, degrees, self.degrees) / _WILD)
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,19 +72,32 @@ class Course:
         That were borne out by the next test, and one of the latest test.
     since
         Tests since the last step that was borne out; odd ones, and a step of the latest, are left out.
-    smallest
-        The step that the next test would show in 95 % of all cases; None where too little is known.
     is_wilder
         Whether the latest tests scatter more than those before.
     scatter
         Between the tests since the last step, the whole fleet's in view.
+    share
+        Of the chance for a false alarm.
     """
 
     steps: tuple[Step, ...]
     since: tuple[int, ...]
-    smallest: float | None
     is_wilder: bool
     scatter: Scatter
+    share: float
+
+    @property
+    def smallest(self) -> float | None:
+        """The step towards the limit that the next test would show in 95 % of all cases.
+
+        None where too little is known.
+        """
+        if self.scatter.degrees < 1:
+            return None
+        wider = math.sqrt(1 + 1 / len(self.since))
+        level = self.share * level_of(len(self.since))
+        threshold = max(wider * self.scatter.quantile(level), _least(wider * self.scatter.deviation))
+        return max(SMALL, threshold + wider * self.scatter.quantile(_MISSED))
 
 
 def course(values: Sequence[float], fleet: Scatter, share: float = 1.0) -> Course:
@@ -135,14 +128,8 @@ def course(values: Sequence[float], fleet: Scatter, share: float = 1.0) -> Cours
             if not is_latest:
                 first, base = index, [index]
     since = [values[each] for each in base]
-    scatter = fleet.moderated(_squares(since), len(since) - 1)
-    return Course(
-        tuple(steps),
-        tuple(base),
-        _smallest(len(since), scatter, share),
-        _is_wilder(values[first:], fleet),
-        scatter,
-    )
+    scatter = fleet.after(squares_about_mean(since), len(since) - 1)
+    return Course(tuple(steps), tuple(base), _is_wilder(values[first:], fleet), scatter, share)
 
 
 def stands_out(before: Sequence[float], value: float, fleet: Scatter, share: float = 1.0) -> bool:
@@ -155,37 +142,37 @@ def stands_out(before: Sequence[float], value: float, fleet: Scatter, share: flo
     """
     number, mean = len(before), fmean(before)
     change = value - mean
-    squares = _squares(before)
-    scatter = fleet.moderated(squares, number - 1)
-    if abs(change) < SMALL or scatter.degrees < 1:
+    if abs(change) < SMALL:
         return False
+    squares = squares_about_mean(before)
+    scatter = fleet.after(squares, number - 1)
     level = share * level_of(number) * (1 if change * mean >= 0 else _AWAY)
-    if abs(change) <= _threshold(number, scatter, level):
+    wider = math.sqrt(1 + 1 / number)
+    if (
+        scatter.degrees < 1
+        or abs(change) <= _least(wider * scatter.deviation)
+        or scatter.exceeds(abs(change) / wider) >= level
+    ):
         return False
     if number < 3:
         return True
     middle = (number - 1) / 2
     spread = math.fsum((each - middle) ** 2 for each in range(number))
     slope = math.fsum((each - middle) * y for each, y in enumerate(before)) / spread
-    about = fleet.moderated(max(0.0, squares - slope**2 * spread), number - 2)
-    if slope * change <= 0 or about.degrees < 1:
-        return True
-    if abs(slope) < _quantile(_STEEP / 2, about.degrees) * math.sqrt(about.variance / spread):
+    about = fleet.after(max(0.0, squares - slope**2 * spread), number - 2)
+    if slope * change <= 0 or about.exceeds(abs(slope) * math.sqrt(spread)) > _STEEP / 2:
         return True
     ahead = number - middle
-    rest = change - slope * ahead
-    deviation = math.sqrt(about.variance * (1 + 1 / number + ahead**2 / spread))
-    return rest * change > 0 and abs(rest) > max(SMALL, _quantile(level, about.degrees) * deviation)
+    rest = abs(change) - abs(slope) * ahead
+    return rest > SMALL and about.exceeds(rest / math.sqrt(1 + 1 / number + ahead**2 / spread)) < level
 
 
 def level_of(number: int) -> float:
     """Return the chance of a false alarm of one test towards the limit, after so many tests.
 
-    It is such that a step of `SEEN` scatters is seen in 95 % of all cases where the scatter is known; so it
-    falls as the history grows. With fewer tests than `LEAST_BEFORE` it stays, and less is seen.
+    It is such that a step of `SEEN` scatters is seen in 95 % of all cases; so it falls as the history grows.
     """
-    known = max(number, LEAST_BEFORE)
-    return normal_tail(SEEN / math.sqrt(1 + 1 / known) - _POWER)
+    return min(_MOST_FALSE, normal_tail(SEEN / math.sqrt(1 + 1 / number) - _POWER))
 
 
 @dataclass(frozen=True, slots=True)
@@ -205,8 +192,8 @@ class Chances:
 def chances(values: Sequence[float], fleet: Scatter) -> Chances:
     """Return how likely nothing, a step, and a drift are, each taken for as likely beforehand as any other.
 
-    The mean may be any, an effect is normal with a standard deviation of five scatters at its largest; the
-    variance has the scatter of the fleet as its inverse-χ² prior: then the evidence is a closed expression.
+    The mean may be any, an effect is normal with a standard deviation of five scatters at its largest; so the
+    evidence is a closed expression for each scatter that the fleet lets expect.
 
     Parameters
     ----------
@@ -229,68 +216,24 @@ def _odds(values: Sequence[float], shape: Sequence[float], fleet: Scatter) -> fl
     length = math.fsum((each - middle) ** 2 for each in shape)
     along = math.fsum((x - middle) * (y - mean) for x, y in zip(shape, values, strict=True))
     gain = 1 + _EXPECTED**2 * length
-    squares = max(fleet.degrees * fleet.variance + _squares(values), _LEAST_SCATTER**2)
-    rest = squares - along**2 * _EXPECTED**2 / gain
-    exponent = (fleet.degrees + number - 1) / 2
-    return math.exp(min(600.0, -0.5 * math.log(gain) - exponent * math.log(max(rest / squares, 1e-12))))
+    squares = squares_about_mean(values)
+    rest = max(0.0, squares - along**2 * _EXPECTED**2 / gain)
+    more = fleet.evidence(rest, number - 1) - fleet.evidence(squares, number - 1)
+    return math.exp(min(600.0, more - 0.5 * math.log(gain)))
 
 
-def learned(samples: Iterable[tuple[float, int]]) -> Scatter:
-    """Return what variances have in common, by the moments of their logarithms (Smyth 2004, section 6.2).
+def squares_between(values: Sequence[float], steps: Sequence[Step]) -> tuple[float, int]:
+    """Return the sum of squares of what lies between steps, and its degrees of freedom.
 
-    Parameters
-    ----------
-    samples
-        Each a sum of squares about a mean, and its degrees of freedom, one or more.
+    Odd ones are in it: to leave out what is far off would make the scatter look smaller than it is.
     """
-    known = [(max(squares / degrees, _LEAST_SCATTER**2), degrees) for squares, degrees in samples]
-    if len(known) < 2:
-        return Scatter()
-    logs = [math.log(variance) - digamma(d / 2) + math.log(d / 2) for variance, d in known]
-    mean = fmean(logs)
-    spread = math.fsum((each - mean) ** 2 for each in logs) / (len(logs) - 1)
-    # As far as they differ by no more than chance lets them, they are taken for one.
-    chance = 0.5 * spread * math.sqrt(4 / len(logs))
-    excess = spread - fmean(trigamma(d / 2) for _, d in known) - chance
-    most = float(sum(d for _, d in known))  # together they know no more than they all know
-    degrees = min(most, 2 * _trigamma_inverse(excess)) if excess > 0 else most
-    return Scatter(math.exp(mean + digamma(degrees / 2) - math.log(degrees / 2)), degrees)
+    bounds = [0, *(each.index for each in steps), len(values)]
+    parts = [values[begin:end] for begin, end in pairwise(bounds)]
+    return math.fsum(map(squares_about_mean, parts)), sum(max(0, len(each) - 1) for each in parts)
 
 
-def digamma(x: float) -> float:
-    """Return ψ(x) for x > 0."""
-    below = 0.0
-    while x < 10:
-        below, x = below - 1 / x, x + 1
-    y = 1 / x**2
-    return below + math.log(x) - 0.5 / x - y * (1 / 12 - y * (1 / 120 - y * (1 / 252 - y / 240)))
-
-
-def trigamma(x: float) -> float:
-    """Return ψ′(x) for x > 0."""
-    below = 0.0
-    while x < 10:
-        below, x = below + 1 / x**2, x + 1
-    y = 1 / x**2
-    return below + 1 / x + y / 2 + y / x * (1 / 6 - y * (1 / 30 - y * (1 / 42 - y / 30)))
-
-
-def _trigamma_inverse(value: float) -> float:
-    """Return where ψ′ has a value above 0, by bisection: it falls."""
-    low, high = 1e-6, 1e8
-    for _ in range(100):
-        middle = math.sqrt(low * high)
-        low, high = (middle, high) if trigamma(middle) > value else (low, middle)
-    return low
-
-
-def squares_before_the_last(values: Sequence[float], since: Sequence[int]) -> tuple[float, int]:
-    """Return the sum of squares since the last step, and its degrees of freedom, without the latest test."""
-    kept = [values[each] for each in since if each + 1 < len(values)]
-    return _squares(kept), len(kept) - 1
-
-
-def _squares(values: Sequence[float]) -> float:
+def squares_about_mean(values: Sequence[float]) -> float:
+    """Return Σ(y − ȳ)²; 0 of no values."""
     mean = fmean(values) if values else 0.0
     return math.fsum((value - mean) ** 2 for value in values)
 
@@ -306,31 +249,15 @@ def _is_borne_out(before: Sequence[float], value: float, following: float) -> bo
     return abs(following - value) < abs(following - fmean(before))
 
 
-def _smallest(number: int, scatter: Scatter, share: float) -> float | None:
-    if scatter.degrees < 1:
-        return None
-    deviation = math.sqrt(scatter.variance * (1 + 1 / number))
-    power = _quantile(0.05, scatter.degrees)
-    return max(SMALL, _threshold(number, scatter, share * level_of(number)) + power * deviation)
-
-
-def _threshold(number: int, scatter: Scatter, level: float) -> float:
-    """Return by how much a test must differ from the mean of those before it."""
-    deviation = math.sqrt(scatter.variance * (1 + 1 / number))
-    return max(_quantile(level, scatter.degrees) * deviation, WANTED - _POWER * deviation)
+def _least(deviation: float) -> float:
+    """Return the least difference that is looked at, so that no step below `WANTED` need be seen."""
+    return WANTED - _POWER * deviation
 
 
 def _is_wilder(values: Sequence[float], fleet: Scatter) -> bool:
     latest, before = values[-_WINDOW:], values[:-_WINDOW]
     if len(before) < _WINDOW:
         return False
-    variance = _squares(latest) / (_WINDOW - 1)
-    known = fleet.moderated(_squares(before), len(before) - 1)
-    chance = f_tail(variance / known.variance, _WINDOW - 1, known.degrees)
-    return variance > SMALL**2 and chance < _SCATTER_LEVEL
-
-
-@cache
-def _quantile(level: float, degrees: float) -> float:
-    """Return Student's t that is exceeded upwards with this chance."""
-    return t_quantile(1 - 2 * level, degrees)
+    squares, degrees = squares_about_mean(latest), _WINDOW - 1
+    known = fleet.after(squares_about_mean(before), len(before) - 1)
+    return squares > SMALL**2 * degrees and known.squares_exceed(squares, degrees) < _SCATTER_LEVEL

@@ -123,7 +123,8 @@ def new(command: str) -> CommandParser:
     parser.add_argument(
         "kind",
         metavar="KIND",
-        help="standard, source, renderer, effect, instrument, program (a part program) or controller",
+        help="standard, source, renderer, effect, instrument, program (a part program), controller "
+        "or notifier",
     )
     parser.add_argument(
         "name", metavar="NAME", help="of the plugin and its folder, as jobs will name it: shop-rule"
