@@ -40,6 +40,12 @@ def test_a_job_that_is_gone_is_told_every_night_until_it_is_retired(fleet: Fleet
     assert "x" not in fleet.spend().what
 
 
+def test_a_retired_job_is_left_alone_though_its_file_is_there(fleet: Fleet) -> None:
+    fleet.write("fleet.yaml", f"{FLEET}retired: [jobs/x.yaml]\n")
+    fleet.write("jobs/x.yaml", "no job any more")
+    assert set(fleet.spend().what) == set("vwyz")
+
+
 def test_a_job_that_is_there_again_is_made(fleet: Fleet) -> None:
     text = (fleet.folder / "jobs/x.yaml").read_text(encoding="utf-8")
     (fleet.folder / "jobs/x.yaml").unlink()

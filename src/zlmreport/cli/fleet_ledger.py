@@ -45,7 +45,8 @@ def report(options: Namespace) -> int:
 
 
 def _state(fleet: FleetFile) -> FleetState:
-    jobs = [path_in(fleet.path.parent, path) for path in job_files(fleet)]
+    named = (path_in(fleet.path.parent, path) for path in job_files(fleet))
+    jobs = [job for job in named if not is_retired(job, fleet)]
     with Ledger.open(fleet.ledger, fleet.name, create=False) as ledger:
         rules = Rules(fleet.keys.interval, partial(is_retired, fleet=fleet))
         return state_of(fleet.name, ledger.entries(), jobs, ledger.last_night(), rules)

@@ -15,7 +15,7 @@ from typing import Protocol
 
 from zlmreport.errors import AccessError, Place, ZlmreportError
 from zlmreport.files import Document, confinement, write
-from zlmreport.fleet.basis import Basis, Disk, changes, program_versions
+from zlmreport.fleet.basis import Basis, Disk, changes, path_in, program_versions
 from zlmreport.fleet.exports import heartbeat, priors
 from zlmreport.fleet.issuing import Desk, Happened, What, tidy
 from zlmreport.fleet.ledger import Ledger, Night, Standing
@@ -60,7 +60,8 @@ def evening(fleet: FleetFile, jobs: tuple[Path, ...], ledger: Ledger, plugins: t
         formats=tuple(identifier for identifier, _ in fleet.formats),
         defaults=defaults_digest(fleet),
     )
-    return Evening(fleet, jobs, ledger.standings(), ledger.certificates(), now)
+    at_work = tuple(path for path in jobs if not is_retired(path_in(fleet.path.parent, path), fleet))
+    return Evening(fleet, at_work, ledger.standings(), ledger.certificates(), now)
 
 
 def foretell(fleet: FleetFile, plugins: tuple[Path, ...]) -> tuple[Planned, ...]:
@@ -127,7 +128,7 @@ def spend(fleet: FleetFile, order: Order, watch: Watch) -> None:
             if witness.saw_something or noticed or (last and (last.notices or not last.ended)):
                 began = dt.datetime.fromisoformat(night.began)
                 rules = Rules(fleet.keys.interval, lambda job: is_retired(job, fleet))
-                names = [known.job_of(path) for path in jobs]
+                names = [known.job_of(path) for path in known.jobs]
                 now = PastNight(began, None, noticed)
                 state = state_of(fleet.name, ledger.entries(), names, now, rules)
                 night.report(tuple(news_of(state, language)))
