@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import json
 import re
+import zlib
 from collections.abc import Callable
 from io import BytesIO
 
@@ -927,9 +928,13 @@ def _(pdf: Pdf) -> None:
     page_of(pdf, 3).Contents = page_of(pdf, 2).Contents
 
 
-@_change("count of pages", "fewer pages, in viewers that believe the count")
-def _(pdf: Pdf) -> None:
-    pdf.Root.Pages.Count = 1
+@_forgery("count of pages", "fewer pages, in viewers that believe the count")
+def _(pdf: bytes) -> bytes:
+    whole = plain(pdf)  # who saves it mends the count
+    root = re.search(rb"<<[^<>]*/Type /Pages[^<>]*>>", whole)
+    assert root
+    fewer = re.sub(rb"/Count \d", b"/Count 1", root[0])
+    return whole.replace(root[0], fewer)
 
 
 @_change("template", "a page that a script may show")
@@ -1039,8 +1044,53 @@ def _(pdf: Pdf) -> None:
 
 @_forgery("dictionary with two contents", "another page, in viewers that take the first of two keys")
 def _(pdf: bytes) -> bytes:
-    plain = _plain(pdf)
-    return _with_offsets(re.sub(rb"(/Contents )(\d+ 0 R)", rb"\1 1 0 R \1\2", plain, count=1))
+    whole = plain(pdf)
+    return _with_offsets(re.sub(rb"(/Contents )(\d+ 0 R)", rb"\1 1 0 R \1\2", whole, count=1))
+
+
+@_forgery("key spelled otherwise, before", "another page, in viewers that take the first of two keys")
+def _(pdf: bytes) -> bytes:
+    return _spelled_otherwise(pdf, b"/AAAontents")
+
+
+@_forgery("key spelled otherwise, behind", "another page, in viewers that take the last of two keys")
+def _(pdf: bytes) -> bytes:
+    return _spelled_otherwise(pdf, b"/QQQontents")
+
+
+def _spelled_otherwise(pdf: bytes, sorted_as: bytes) -> bytes:
+    def change(opened: Pdf) -> None:
+        page = page_of(opened, 2)
+        page[sorted_as.decode()] = opened.make_stream(page.Contents.read_bytes() + b"\n" + BOX)
+
+    return plain(rewritten(pdf, change)).replace(sorted_as, b"/#43ontents")
+
+
+@_forgery("second stream packed behind", "more on a page, in viewers that unpack what follows")
+def _(pdf: bytes) -> bytes:
+    def change(opened: Pdf) -> None:
+        content = page_of(opened, 2).Contents
+        both = zlib.compress(content.read_bytes()) + zlib.compress(b"\n" + BOX)
+        content.write(both, filter=Name.FlateDecode)
+
+    return rewritten(pdf, change)
+
+
+@_forgery("other generation", "an empty page, in viewers that heed the generation")
+def _(pdf: bytes) -> bytes:
+    return re.sub(rb"(/Contents \d+) 0 R", rb"\1 1 R", plain(pdf), count=1)
+
+
+@_forgery("hybrid table", "another page, in viewers that read the second table of objects")
+def _(pdf: bytes) -> bytes:
+    whole = plain(pdf)
+    return whole.replace(b"trailer <<", b"trailer << /XRefStm %d" % whole.index(b" obj"), 1)
+
+
+@_forgery("earlier table", "what an earlier table leads to, in viewers that put files together anew")
+def _(pdf: bytes) -> bytes:
+    whole = plain(pdf)
+    return whole.replace(b"trailer <<", b"trailer << /Prev %d" % (whole.rindex(b"\nxref") + 1), 1)
 
 
 @_forgery("appended change", "a page upside down")
@@ -1078,31 +1128,31 @@ def _(pdf: bytes) -> bytes:
 
 @_forgery("wrong table of objects", "another page, in viewers that believe the table")
 def _(pdf: bytes) -> bytes:
-    plain = _plain(rewritten(pdf, lambda opened: draw(opened, page_of(opened, 2), BOX)))
-    reader = PdfReader(BytesIO(plain))
+    whole = plain(rewritten(pdf, lambda opened: draw(opened, page_of(opened, 2), BOX)))
+    reader = PdfReader(BytesIO(whole))
     page = reader.pages[1]
     number = page.raw_get("/Contents").idnum
     content = PdfReader(BytesIO(pdf)).pages[1].get_contents().get_data()
     more = b"\n%d 0 obj\n<</Length %d>>\nstream\n%s\nendstream\nendobj\n"
-    return plain + more % (number, len(content), content)
+    return whole + more % (number, len(content), content)
 
 
-def _plain(pdf: bytes) -> bytes:
+def plain(pdf: bytes) -> bytes:
     """Return a PDF without packed objects."""
     saved = BytesIO()
     with pikepdf.open(BytesIO(pdf)) as opened:
-        opened.save(saved, object_stream_mode=pikepdf.ObjectStreamMode.disable)
+        opened.save(saved, object_stream_mode=pikepdf.ObjectStreamMode.disable, fix_metadata_version=False)
     return saved.getvalue()
 
 
-def _with_offsets(plain: bytes) -> bytes:
+def _with_offsets(whole: bytes) -> bytes:
     """Return a PDF without packed objects with its table of objects made anew."""
-    found = {int(each[1]): each.start() for each in re.finditer(rb"(?<=\n)(\d+) 0 obj", plain)}
-    begin = plain.rindex(b"\nxref\n") + 1
-    trailer = plain[plain.rindex(b"trailer") : plain.rindex(b"startxref")]
+    found = {int(each[1]): each.start() for each in re.finditer(rb"(?<=\n)(\d+) 0 obj", whole)}
+    begin = whole.rindex(b"\nxref\n") + 1
+    trailer = whole[whole.rindex(b"trailer") : whole.rindex(b"startxref")]
     rows = b"".join(
         b"%010d 00000 n \n" % found[number] if number in found else b"0000000000 65535 f \n"
         for number in range(max(found) + 1)
     )
     table = b"xref\n0 %d\n%s" % (max(found) + 1, rows)
-    return plain[:begin] + table + trailer + b"startxref\n%d\n%%%%EOF\n" % begin
+    return whole[:begin] + table + trailer + b"startxref\n%d\n%%%%EOF\n" % begin

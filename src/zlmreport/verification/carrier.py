@@ -103,7 +103,8 @@ def guarded(read: Callable[[], Read], place: Place) -> Read:
 def _opened(content: bytes, place: Place) -> Carrier:
     from pypdf import PdfReader  # noqa: PLC0415 - slow to load
 
-    reader = PdfReader(BytesIO(content))
+    # Strictly: of a key that stands twice, also under another spelling, one viewer takes this and one that.
+    reader = PdfReader(BytesIO(content), strict=True)
     if reader.is_encrypted:
         raise InputError.at(place, "is encrypted, which no certificate is: verify the file as it was issued")
     if len(reader.pages) > MOST_PAGES:

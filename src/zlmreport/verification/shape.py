@@ -9,6 +9,7 @@ of our own making is allowed, and streams that are packed otherwise.
 from __future__ import annotations
 
 import re
+import zlib
 from collections.abc import Collection, Iterator
 from typing import Any, TypeAlias
 
@@ -23,6 +24,7 @@ _Place: TypeAlias = tuple[Any, str, str]
 
 _MOST_OBJECTS = 2_000_000
 _MOST_TOLD = 4
+_PIECE = 1 << 16
 _SUBJECT = "structure of the file"
 #: How a stream is packed; looked at on its own.
 PACKING = frozenset({"/DecodeParms", "/Filter", "/Length"})
@@ -34,6 +36,10 @@ _MAPS = frozenset({"/ColorSpace", "/ExtGState", "/Font", "/Pattern", "/Propertie
 _NAMES_BY_CHANCE = frozenset({"/BaseFont", "/FontName"})
 #: Added by a signature, and looked at with it.
 OF_SIGNATURES = frozenset({"/AcroForm", "/DSS", "/Extensions", "/Perms", "/Version"})
+#: Of the end of the file, which leads to everything else. What was there before belongs to a signature alone.
+_TRAILER = frozenset({"/ID", "/Info", "/Root", "/Size"})
+_TRAILER_PACKED = frozenset({"/DecodeParms", "/Filter", "/Index", "/Length", "/Type", "/W"})
+_TRAILER_SIGNED = frozenset({"/Prev"})
 _BEGIN = re.compile(rb"%PDF-\d\.\d[\r\n]")
 _END = re.compile(rb"startxref\s+(\d+)\s+%%EOF\s*\Z")
 _OBJECTS = re.compile(rb"\s*(xref\b|\d+\s+\d+\s+obj\b)")
@@ -43,6 +49,7 @@ def compare(carrier: Carrier, known: Collection[Trait], *, is_signed: bool) -> F
     """Return whether a document is built of nothing but what the one printed again is built of."""
     told = [
         *_around(carrier.content),
+        *_trailer(carrier.reader, is_signed=is_signed),
         *strangers(carrier.reader, is_signed=is_signed),
         *dict.fromkeys(_said(trait) for trait in traits(carrier) if trait not in known),
     ]
@@ -57,6 +64,13 @@ def _around(content: bytes) -> Iterator[str]:
         yield "something stands behind the PDF"
     elif not _OBJECTS.match(content, int(end[1])):
         yield "the table of its objects is not where the file says"
+
+
+def _trailer(reader: Any, *, is_signed: bool) -> Iterator[str]:
+    """Yield what the end of the file has besides: viewers may be led to other objects by it."""
+    known = _TRAILER | _TRAILER_PACKED | (_TRAILER_SIGNED if is_signed else frozenset())
+    for key in sorted(reader.trailer.keys() - known):
+        yield f"the end of the file has {key}, which may lead to other objects"
 
 
 def _said(trait: Trait) -> str:
@@ -84,6 +98,8 @@ def traits(carrier: Carrier) -> Iterator[Trait]:
             raise InputError.at(carrier.place, "holds more objects than any certificate")
         is_met = False
         if isinstance(value, IndirectObject):
+            if value.generation:
+                yield where, key, "an object of another generation"
             is_met = value.idnum in seen
             seen.add(value.idnum)
             value = value.get_object()
@@ -102,7 +118,7 @@ def _inside(value: Any, where: str, key: str) -> Iterator[_Place]:
     elif isinstance(value, dict):
         dictionary: Any = value
         left_out = PACKING | (OF_SIGNATURES if where == "the file" else frozenset())
-        for inner in dictionary:
+        for inner in sorted(dictionary):  # so that an object that two lead to is met on the same way
             if inner not in left_out:
                 named = _named(inner, key, is_map=key in _MAPS)
                 yield dictionary.raw_get(inner), _role(dictionary, key), named
@@ -133,6 +149,18 @@ def _packing(stream: Any, key: str) -> Iterator[Trait]:
         for entry in getattr(each.get_object(), "keys", tuple)():
             if entry not in _PREDICTION:
                 yield role, "/DecodeParms", str(entry)
+    if packing == "/FlateDecode" and _has_more(stream._data):  # noqa: SLF001 - as it is packed
+        yield role, "/FlateDecode", "data behind what is packed"
+
+
+def _has_more(packed: bytes) -> bool:
+    """Whether something stands behind packed data, which some viewers read on and others do not."""
+    unpacking = zlib.decompressobj()
+    waiting = packed
+    while waiting and not unpacking.eof:  # piece by piece: what it unpacks to may be large
+        unpacking.decompress(waiting, _PIECE)
+        waiting = unpacking.unconsumed_tail
+    return bool(unpacking.unused_data.strip())
 
 
 def _kind(value: Any, key: str) -> str:
