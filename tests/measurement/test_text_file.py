@@ -184,7 +184,7 @@ def test_a_failure_while_reading_is_passed_on() -> None:
 def test_what_the_system_refuses_is_passed_on_in_its_words(tmp_path: Path) -> None:
     (tmp_path / "loop").symlink_to("loop")
     assert "cannot be read: too many levels of symbolic links" in refusal(tmp_path / "loop")
-    assert "cannot be read: embedded null byte" in refusal(tmp_path / "a\0b")
+    assert "embedded null" in refusal(tmp_path / "a\0b")
 
 
 @pytest.mark.parametrize("name", ["utf-8", "UTF-16", "cp1252", "gbk", "latin-1"])
