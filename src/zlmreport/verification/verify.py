@@ -24,6 +24,7 @@ from zlmreport.verification import attached, pages, values
 from zlmreport.verification.attached import Results, Stated, digital_findings, laid_out, stated_by
 from zlmreport.verification.carrier import Carrier, guarded, opened, read_file
 from zlmreport.verification.findings import Finding, Identity, Verdict, Verification
+from zlmreport.verification.own_texts import stated_results
 
 #: The format of a certificate whose creator is this program.
 PRINTED = "pdf"
@@ -70,7 +71,7 @@ class _Again:
     """A certificate that was made again from its attachments.
 
     `programs` made it here, in whosever name; `results` is its results file. It may be that another renderer
-    than the one that made it had to print it.
+    than the one that made it had to print it. `own_words` are what the laboratory states in words of its own.
     """
 
     programs: pipeline.Programs
@@ -78,6 +79,7 @@ class _Again:
     results: bytes
     is_by_its_own_renderer: bool
     has_own_look: bool
+    own_words: tuple[Finding, ...]
 
 
 def verify(
@@ -166,6 +168,7 @@ def _again(job_path: Path, carrier: Carrier, stated: Results, registry: Registry
         contents[pipeline.RESULTS],
         made(printer, carrier.creator) or carrier.creator.startswith(f"{_PROGRAM} "),
         has_own_look,
+        stated_results(certificate, job),
     )
 
 
@@ -216,7 +219,7 @@ def _compared(found: Verification, carrier: Carrier, stated: Stated, again: _Aga
             carrier.place,
         ),
         pages=printed.pages,
-        document=printed.document,
+        document=(*printed.document, *again.own_words),
     )
     if not by_same_programs:
         left_open = _left_open(found)
