@@ -1,4 +1,4 @@
-"""The laboratory's own words that read like a result: no reading gives them, and nothing can compute them again."""
+"""The laboratory's own words that read like a result: no reading gives them, nothing computes them again."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from zlmreport.job.job import Job
 from zlmreport.language import Words
 from zlmreport.verification.findings import Finding, Verdict
 
-#: Lengths and angles as results have them; of millimetres only less than one, for travels are stated in them, too.
+#: Lengths and angles as results have them; of millimetres only less than one: travels are stated in them.
 _AMOUNT = r"\d\s*(?:[µμ]m|um|nm|arcsec|″|mic(?:ro|ron)|Mikro|Bogensek)|(?<![\d.,])0[.,]\d+\s*mm"
 _STATED = Words(
     en="'{text}' is the laboratory's own word: no reading gives its numbers",
