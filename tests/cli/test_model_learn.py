@@ -65,7 +65,7 @@ def test_tests_whose_models_describe_their_readings_teach_and_a_job_uses_it(shop
 
 def test_the_certificate_carries_the_file_and_holds(shop: Shop) -> None:
     shop.write("priors.yaml", _PRIORS)
-    assert shop.run("job.yaml", "-o", "out", "--format", "pdf,json").code == 0
+    assert shop.run("job.yaml", "-o", "out", "--format", "pdf-typst").code == 0
     checked = shop.run("verify", "out/EXAMPLE-2026-0016.pdf", "--json").summary
     assert checked["verdict"] == "holds"
     assert "priors.yaml" in {each["subject"] for each in checked["files"]}
