@@ -13,7 +13,7 @@ from planning.planned import planned_job
 from zlmreport.language import Language
 from zlmreport.model.axis_model import AxisModel, Term
 from zlmreport.model.fit import fit
-from zlmreport.model.noise import noise_parts
+from zlmreport.model.noise import NoiseSource, noise_parts
 from zlmreport.planning.deciding import deciding_job, experiment_values, question_of
 from zlmreport.planning.experiment import Experiment, next_experiment
 from zlmreport.planning.methods import Method
@@ -62,6 +62,29 @@ def test_second_session_shows_what_each_effect_makes_of_three_kelvins(truth: str
 def test_simulated_repeats_scatter_as_the_first_test_did() -> None:
     readings, _ = _second_sessions("scale-error")
     assert np.std(readings, axis=1).mean() == pytest.approx(SIGMA, rel=0.3)
+
+
+def test_simulated_noise_is_drawn_from_what_the_readings_leave_open_of_it() -> None:
+    for rival in _question().rivals:
+        ratios = [each.ratios[NoiseSource.RUN] for each in rival.scatters]
+        assert min(ratios) == 0.0
+        assert max(ratios) > 0.0  # three runs do not exclude that they are displaced
+        assert np.mean([each.sigma for each in rival.scatters]) == pytest.approx(SIGMA, rel=0.3)
+
+
+def test_the_place_of_a_joint_is_drawn_from_the_whole_gap_between_two_targets() -> None:
+    design = expected_design(planned_job().axis, PLAN, EXPECTED)
+    deviation = np.where(design.position > 0.3, 10 * SIGMA, 0.0) + noise(design, 3, SIGMA)
+    joint = Rival.fitted(
+        fit(AxisModel((Term(EFFECTS["offset"]), Term(EFFECTS["scale-joint"]))), design, deviation), 1.0
+    )
+    finer = expected_design(planned_job().axis, replace(PLAN, targets=np.linspace(0.03, 0.57, 55)), EXPECTED)
+    grid, random = joint.effect.grid(finer), np.random.default_rng(1)
+    steps = {
+        float(finer.position[np.argmax(joint.deviation(finer, grid, random) > 5 * SIGMA)]) for _ in range(40)
+    }
+    assert len(steps) > 2
+    assert 0.27 - 0.06 < min(steps) < max(steps) < 0.33 + 0.06
 
 
 def test_temperatures_begin_as_in_the_first_session_and_three_kelvins_above() -> None:

@@ -13,13 +13,14 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from enum import Enum
+from functools import cache
 from itertools import product
 
 import numpy as np
 
 from zlmreport.language import Words
 from zlmreport.model.design import Design
-from zlmreport.quantities.arrays import FloatArray, IntArray
+from zlmreport.quantities.arrays import FloatArray, IntArray, read_only_floats
 
 #: Time over which the slow drift forgets itself, as a share of the test's duration.
 _MEMORY = 0.25
@@ -155,9 +156,16 @@ def _slow_drift(design: Design) -> FloatArray:
     """Return the leading eigenfunctions of the covariance exp(−|t − t'|/τ), as a factor of it."""
     moment = (design.time - design.time.min()) / design.duration
     # On a grid, and by its interpolation at the readings: a test of thousands costs no more than a small one.
+    grid, terms = _drift_terms()
+    factor = np.column_stack([np.interp(moment, grid, term) for term in terms])
+    return by_session(design, factor / np.linalg.norm(factor, axis=1, keepdims=True))
+
+
+@cache
+def _drift_terms() -> tuple[FloatArray, FloatArray]:
+    """Return moments of a test of unit duration, shape (g,), and the eigenfunctions there, (terms, g)."""
     grid = np.linspace(0.0, 1.0, _DRIFT_MOMENTS)
     covariance = np.exp(-np.abs(grid[:, np.newaxis] - grid) / _MEMORY)
     values, functions = np.linalg.eigh(covariance)
     terms = functions[:, -_DRIFT_TERMS:] * np.sqrt(values[-_DRIFT_TERMS:])
-    factor = np.column_stack([np.interp(moment, grid, term) for term in terms.T])
-    return by_session(design, factor / np.linalg.norm(factor, axis=1, keepdims=True))
+    return read_only_floats(grid), read_only_floats(terms.T)

@@ -151,7 +151,9 @@ def _rival(after: Fit, effect: Effect, probability: float, size: float) -> Rival
     parameters = (*effect.linear, *effect.searched)
     is_counted = after.design.time_is_counted and any(each.dimension is Dimension.TIME for each in parameters)
     found = Rival.fitted(after, probability)
-    return found if found.stands_out and not is_counted else Rival.of_size(effect, probability, size)
+    if found.stands_out and not is_counted:
+        return found
+    return Rival.of_size(effect, probability, size, found.scatters)
 
 
 def _of_study(

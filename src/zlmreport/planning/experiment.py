@@ -31,10 +31,13 @@ from zlmreport.quantities.arrays import FloatArray, read_only_floats
 
 #: The probability from which on an experiment is taken to decide, and below which none is advised.
 _ENOUGH, _NOT_WORTH_IT = 0.95, 0.5
-#: Simulated tests of each truth: at a first look, and of the plans that looked best.
-_SETS, _SETS_OF_THE_BEST = 24, 40
+#: Simulated tests, shared out among the truths: at a first look, of the plans that looked best, and of what
+#: is promised. The last are drawn anew: a plan chosen for what its tests showed shows less in others.
+_SETS, _SETS_OF_THE_BEST, _SETS_OF_A_PROMISE = 40, 80, 120
+#: Of a truth that is hardly likely, for its margin.
+_FEWEST_SETS = 8
 #: Plans that are simulated with all their rivals, and changes that are combined.
-_BEST, _COMBINED = 3, 5
+_BEST, _COMBINED = 2, 4
 #: More readings are not simulated.
 _MOST_READINGS = 1000
 #: Of the test as it was, no more are repeated.
@@ -87,6 +90,14 @@ class _Option:
     margin: float = -np.inf
 
 
+@dataclass(frozen=True, slots=True)
+class _Draws:
+    """How many tests are simulated, and what they are drawn from."""
+
+    sets: int
+    seed: tuple[int, ...]
+
+
 def next_experiment(  # noqa: PLR0913 - what is asked, what is known, what may be, and who is told
     question: Question,
     plan: Plan,
@@ -97,7 +108,7 @@ def next_experiment(  # noqa: PLR0913 - what is asked, what is known, what may b
     told: Told = untold,
 ) -> Experiment:
     """Return the cheapest plan that decides a question; the best one if none is sure to."""
-    looked = partial(_glance, question, expected, seed)
+    looked = partial(_glance, question, expected, _Draws(_SETS, (seed, 0)))
     plan = within_travel(question.axis, _of_moderate_size(plan))
     period, goes_on = _period(question), question.may_go_on
     changes = tuple(further_changes(question.axis, plan, seed, period, goes_on=goes_on))
@@ -105,7 +116,7 @@ def next_experiment(  # noqa: PLR0913 - what is asked, what is known, what may b
     for each in _options(question, plan, [(), *((one,) for one in changes)]):
         options.append(looked(each))
         told(0.5 * len(options) / (1 + len(changes)))
-    judged = partial(_thorough, question, expected, effects, seed)
+    judged = partial(_thorough, question, expected, effects, _Draws(_SETS_OF_THE_BEST, (seed, 0)))
     tried = list(_judged(judged, options)) if any(each.decides >= _ENOUGH for each in options) else []
     told(0.75)
     # The rivals alone look easier to tell apart than among all effects: then several changes together.
@@ -118,6 +129,8 @@ def next_experiment(  # noqa: PLR0913 - what is asked, what is known, what may b
         tried += _judged(judged, combined if tried else [*options, *combined])
         options += combined
     best = max(tried, key=lambda each: each.decides, default=_Option((), plan))
+    if best.decides >= _NOT_WORTH_IT:
+        best = _thorough(question, expected, effects, _Draws(_SETS_OF_A_PROMISE, (seed, 1)), best)
     return _experiment(question, expected, best, len(options))
 
 
@@ -168,19 +181,19 @@ def _options(question: Question, plan: Plan, choices: Sequence[Sequence[Change]]
                 yield _Option(tuple(choice), changed)
 
 
-def _glance(question: Question, expected: Expected, seed: int, option: _Option) -> _Option:
+def _glance(question: Question, expected: Expected, draws: _Draws, option: _Option) -> _Option:
     """Return how often a plan would decide if only the rivals were possible, and the noise known."""
     design = question.design(option.plan, expected)
     visible = [each.effect for each in question.rivals if each.effect.untestable(design) is None]
     if len(visible) < len(question.rivals):
         return option
     comparison = Comparison.quick(design, question.columns(design), visible, question.ratios)
-    decides, margin = _decided(question, design, comparison, _SETS, seed)
+    decides, margin = _decided(question, design, comparison, draws)
     return replace(option, decides=decides, margin=margin)
 
 
 def _thorough(
-    question: Question, expected: Expected, effects: Sequence[Effect], seed: int, option: _Option
+    question: Question, expected: Expected, effects: Sequence[Effect], draws: _Draws, option: _Option
 ) -> _Option:
     """Return how often a plan decides among all effects and shapes, whatever the noise."""
     design = question.design(option.plan, expected)
@@ -190,11 +203,11 @@ def _thorough(
     own = [each.effect for each in question.rivals]
     forms = [*own, *(each for each in others if each.identifier not in question.names)]
     comparison = Comparison.quick(design, question.columns(design), forms)
-    return replace(option, decides=_decided(question, design, comparison, _SETS_OF_THE_BEST, seed)[0])
+    return replace(option, decides=_decided(question, design, comparison, draws)[0])
 
 
 def _decided(
-    question: Question, design: Design, comparison: Comparison, sets: int, seed: int
+    question: Question, design: Design, comparison: Comparison, draws: _Draws
 ) -> tuple[float, float]:
     """Return the share of tests that are decided rightly, truths as likely as they are; and the margin.
 
@@ -202,21 +215,22 @@ def _decided(
     """
     bases = comparison.bases
     places = {bases.families[forms[0]].effect.identifier: row for row, forms in enumerate(bases.by_effect)}
-    total = weight = 0.0
-    margin = np.inf
+    weight = sum(rival.probability for rival in question.rivals) or 1.0
+    right, margin = 0.0, np.inf
     for rival in question.rivals:
-        weight += rival.probability
         if rival.effect.identifier not in places:
             margin = -np.inf
             continue
+        share = rival.probability / weight
         # The same noise for every truth and plan of so many readings: what differs is what they see.
-        random = np.random.default_rng([seed, len(design.position)])
-        readings = question.readings(design, comparison.space.parts, rival, sets, random)
+        random = np.random.default_rng([*draws.seed, len(design.position)])
+        own = max(_FEWEST_SETS, round(share * draws.sets))
+        readings = question.readings(design, comparison.space.parts, rival, own, random)
         evidence, nameless = comparison.evidence(readings, question.known)
         lead = _lead(evidence, nameless, places, rival.effect.identifier, question.names)
-        total += rival.probability * (np.count_nonzero(lead > 0) + 1) / (sets + 2)
+        right += share * float(np.mean(lead > 0))
         margin = min(margin, float(np.quantile(lead, 0.1)))
-    return (float(total / weight), margin) if weight else (0.0, -np.inf)
+    return (draws.sets * right + 1) / (draws.sets + 2), margin
 
 
 def _lead(

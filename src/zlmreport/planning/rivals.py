@@ -9,10 +9,11 @@ import numpy as np
 
 from zlmreport.measurement.axis import Axis
 from zlmreport.model.axis_model import AxisModel
+from zlmreport.model.contrasts import contrasts_of
 from zlmreport.model.design import Design
 from zlmreport.model.effect import Effect
 from zlmreport.model.fit import Fit
-from zlmreport.model.noise import NoisePart, NoiseSource
+from zlmreport.model.noise import NoisePart, NoiseSource, noise_parts, ratio_grid
 from zlmreport.model.observations import Observations
 from zlmreport.model.sessions import SessionZeros, held_together
 from zlmreport.planning.plan import Expected, Plan
@@ -21,6 +22,35 @@ from zlmreport.quantities.arrays import FloatArray, read_only_floats, read_only_
 
 #: Share of the coefficients that shrinking must leave.
 _STANDS_OUT = 0.5
+#: Noises that stand for all that readings leave open.
+_SCATTERS = 8
+
+
+@dataclass(frozen=True, slots=True)
+class Scatter:
+    """A noise that may be that of the axis."""
+
+    sigma: float  #: Repeatability of single readings, m or rad.
+    ratios: Mapping[NoiseSource, float]  #: φ of the other sources of scatter.
+
+
+def possible_scatters(after: Fit) -> tuple[Scatter, ...]:
+    """Return noises that readings leave open beside a model, each as likely as any other of them.
+
+    They lie evenly in what restricted likelihood says of the ratios φ that noise may have.
+    """
+    parts = noise_parts(after.design)
+    space = contrasts_of(after.base(), parts, after.noise.weights)
+    contrast, grid = space.of(after.open_deviation), ratio_grid(parts)
+    criteria, squares = np.transpose([space.restricted(contrast, ratios) for ratios in grid])
+    likelihoods = np.cumsum(np.exp(-0.5 * (criteria - criteria.min())))
+    places = np.searchsorted(likelihoods, likelihoods[-1] * (np.arange(_SCATTERS) + 0.5) / _SCATTERS)
+    sigmas = np.sqrt(squares / space.degrees)
+    sources = [part.source for part in parts]
+    return tuple(
+        Scatter(float(sigmas[place]), dict(zip(sources, grid[place].tolist(), strict=True)))
+        for place in places
+    )
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,6 +64,9 @@ class Rival:
     theta: FloatArray
     gamma: FloatArray
     root: FloatArray  #: (k + s, k + s): A factor of their covariance.
+    #: (s,): Half-widths of the intervals of searched parameters that are known among the values of a grid.
+    widths: FloatArray
+    scatters: tuple[Scatter, ...] = ()  #: Noises that it leaves open, each as likely; none without readings.
     size: float = 0.0  #: Where no readings tell its parameters: its root mean square value, m or rad.
     kept: float = 1.0  #: What the shrinking left of its coefficients, 0 to 1.
 
@@ -66,12 +99,19 @@ class Rival:
         if not term.effect.contains:
             square = float(gamma @ np.linalg.pinv(covariance[: len(gamma), : len(gamma)]) @ gamma)
             kept = max(0.0, 1.0 - len(gamma) / square) if square else 0.0
-        return cls(term.effect, probability, after.solution.thetas[index], kept * gamma, root, kept=kept)
+        # The last effect's estimates are the last ones, those of its searched parameters at the end.
+        estimates = after.estimates[len(after.estimates) - len(term.effect.searched) :]
+        widths = np.array([each.expanded_uncertainty * each.is_scanned for each in estimates])
+        theta, scatters = after.solution.thetas[index], possible_scatters(after)
+        return cls(term.effect, probability, theta, kept * gamma, root, widths, scatters, kept=kept)
 
     @classmethod
-    def of_size(cls, effect: Effect, probability: float, size: float) -> Rival:
+    def of_size(
+        cls, effect: Effect, probability: float, size: float, scatters: tuple[Scatter, ...] = ()
+    ) -> Rival:
         """Return an effect of which nothing but its size can be said."""
-        return cls(effect, probability, np.empty(0), np.empty(0), np.empty((0, 0)), size)
+        nothing = np.empty(0)
+        return cls(effect, probability, nothing, nothing, np.empty((0, 0)), nothing, scatters, size)
 
     def deviation(self, design: Design, grid: FloatArray, random: np.random.Generator) -> FloatArray:
         """Return what it would do in a test, drawn at random, shape (N,), m or rad."""
@@ -82,7 +122,8 @@ class Rival:
             gamma = gamma * (self.size / (float(np.std(columns @ gamma)) or 1.0))
             return columns @ _possible(gamma, self.effect)
         drawn = self.root @ random.standard_normal(self.root.shape[1])
-        theta = self.theta + drawn[len(self.gamma) :]
+        within = self.widths * random.uniform(-1.0, 1.0, len(self.widths))
+        theta = self.theta + drawn[len(self.gamma) :] + within
         extent = np.ptp(grid, axis=0)
         distances = (grid - theta) / np.where(extent > 0, extent, 1.0)
         nearest = grid[int(np.argmin(np.sum(distances**2, axis=1)))]
@@ -176,24 +217,50 @@ class Question:
         A first session is as it was: model and noise of the second are drawn from what its readings leave
         open once the rival is taken away.
         """
-        sigma = self.sigma * np.sqrt(self.degrees / random.chisquare(self.degrees, sets))
+        scatters = rival.scatters or (Scatter(self.sigma, self.ratios),)
+        turns = np.arange(sets) % len(scatters)
+        spread = np.sqrt(self.degrees / random.chisquare(self.degrees, sets))
+        sigma = np.array([each.sigma for each in scatters])[turns] * spread
         noise = random.standard_normal((len(design.position), sets))
-        shared = [np.sqrt(self.ratios.get(part.source, 0.0)) * part.factor for part in parts]
-        for factor in shared:
-            noise += factor @ random.standard_normal((factor.shape[1], sets))
+        for part in parts:
+            roots = np.sqrt([each.ratios.get(part.source, 0.0) for each in scatters])[turns]
+            noise += part.factor @ (roots * random.standard_normal((part.factor.shape[1], sets)))
         noise *= sigma
         grid = rival.effect.grid(design)
         true = np.column_stack([rival.deviation(design, grid, random) for _ in range(sets)])
-        before, own = np.flatnonzero(design.session), np.flatnonzero(design.session == 0)
-        if self.first is None or not before.size:
+        if self.first is None or not design.session.any():
             return true + noise
+        readings = np.empty_like(true)
+        for turn, scatter in enumerate(scatters):
+            own = np.flatnonzero(turns == turn)
+            if own.size:
+                shared = [np.sqrt(scatter.ratios.get(part.source, 0.0)) * part.factor for part in parts]
+                unit = sigma[own] * random.standard_normal((np.count_nonzero(design.session), len(own)))
+                readings[:, own] = self._gone_on(design, shared, true[:, own], noise[:, own], unit)
+        return readings
+
+    def _gone_on(
+        self,
+        design: Design,
+        shared: Sequence[FloatArray],
+        true: FloatArray,
+        noise: FloatArray,
+        unit: FloatArray,
+    ) -> FloatArray:
+        """Return readings of a second session below those of the first, which stay, shape (N, B).
+
+        `shared`: Factors of the covariance of what scatters, in units of σ.
+        `true`, `noise`, (N, B): What the rival does, and what scatters.
+        `unit`: Scatter of the first session's whitened readings.
+        """
+        before, own = np.flatnonzero(design.session), np.flatnonzero(design.session == 0)
         covariance = np.eye(len(before)) + sum(factor[before] @ factor[before].T for factor in shared)
         across = sum((factor[own] @ factor[before].T for factor in shared), np.zeros((len(own), len(before))))
         whiten, base = np.linalg.inv(np.linalg.cholesky(covariance)), self.base(design)
+        assert self.first is not None  # noqa: S101 - the caller has seen to it
         left = self.first.deviation[:, np.newaxis] - true[before]
-        drawn = whiten @ left + sigma * random.standard_normal(left.shape)
-        coefficients = np.linalg.lstsq(whiten @ base[before], drawn, rcond=None)[0]
+        coefficients = np.linalg.lstsq(whiten @ base[before], whiten @ left + unit, rcond=None)[0]
         irregular = left - base[before] @ coefficients - noise[before]
         kriged = across @ (whiten.T @ (whiten @ irregular))
         own_readings = true[own] + base[own] @ coefficients + noise[own] + kriged
-        return np.concatenate([own_readings, np.tile(self.first.deviation[:, np.newaxis], sets)])
+        return np.concatenate([own_readings, np.tile(self.first.deviation[:, np.newaxis], unit.shape[1])])
