@@ -25,7 +25,9 @@ from attack.adversary import Input, answers, inputs, shown, shrunk, warm_up
 from attack.targets import Target, targets
 
 #: Inputs of a process.
-_BATCH = 40
+_BATCH = 200
+#: A file system in memory, where there is one: half of an input is files made and removed.
+_MEMORY = Path("/dev/shm")
 
 
 def attacked(seed: int, wanted: int, until: float, only: str) -> int:
@@ -68,6 +70,7 @@ def _options(arguments: Sequence[str]) -> argparse.Namespace:
 
 if __name__ == "__main__":
     chosen = _options(sys.argv[1:])
+    tempfile.tempdir = str(_MEMORY) if os.access(_MEMORY, os.W_OK) else None
     os.environ["XDG_CACHE_HOME"] = tempfile.mkdtemp(prefix="zlmreport-attack-cache-")
     try:
         ends = time.monotonic() + 60 * chosen.minutes

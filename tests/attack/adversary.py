@@ -25,7 +25,7 @@ from pathlib import Path
 
 from attack.edits import spoiled
 from attack.targets import Target
-from zlmreport.plugins import find
+from zlmreport.plugins import candidate, find
 
 #: Exit codes of a command that refuses.
 _REFUSED = (2, 3)
@@ -56,11 +56,12 @@ def inputs(seed: int, known: Sequence[Target]) -> Iterator[Input]:
 
 
 def warm_up(known: Sequence[Target]) -> None:
-    """Import what the attacks import, and list installed plugins once: processes of inputs are forks of this.
+    """Import what the attacks import, and load installed plugins once: processes of inputs are forks of this.
 
     The attacks are made on sound files in a child, for some start threads, which do not outlive a fork.
     """
     find.entry_points = cache(find.entry_points)  # type: ignore[assignment,attr-defined]
+    candidate._offers = cache(candidate._offers)
     reading, writing = os.pipe()
     if not (child := os.fork()):
         for number, target in enumerate(known):
@@ -78,6 +79,7 @@ def warm_up(known: Sequence[Target]) -> None:
         for name in names:
             with contextlib.suppress(ImportError):  # of a folder that is gone
                 importlib.import_module(name)
+        find.find_plugins({}).offers()
     gc.collect()
     gc.freeze()
 

@@ -20,9 +20,12 @@ from environments import ROOT
 from verification.issued import READINGS, content_of, with_attachment
 from zlmreport.cli import main
 from zlmreport.plugins import find_plugins
+from zlmreport.verification.attached import digital_findings
+from zlmreport.verification.carrier import Carried
 
 _CONFIGS = ROOT / "configs"
 _SOURCES = ROOT / "tests" / "data" / "sources"
+_GAUGE_FILES = ROOT / "tests" / "data" / "step_gauge"
 _GAUGE = ("job.yaml", "gauge.yaml", "probed.csv", "initial-points.csv")
 
 #: Does something in a folder and returns an exit code.
@@ -54,7 +57,7 @@ class Target:
     spoilt: str
     attacks: tuple[Attack, ...]
     edits: Sequence[Edit] = TEXT
-    share: int = 10
+    share: int = 1
 
 
 def _command(*words: str) -> Attack:
@@ -85,6 +88,34 @@ def _measured(plugin: str, file: str, key: str = "file") -> Callable[[Path], Non
         (folder / "job.yaml").write_text(_job(plugin, key, file), encoding="utf-8")
 
     return lay
+
+
+def _probed(file: str) -> Callable[[Path], None]:
+    def lay(folder: Path) -> None:
+        for name in (file, "stepgauge_cal.csv"):
+            shutil.copy(_GAUGE_FILES / name, folder / name)
+        gauge = "\nstep_gauge: {calibration: stepgauge_cal.csv, tip_radius: 2, last_block: 2}\n"
+        job = _job("step-gauge", "file", file).replace(
+            "\nevaluate: [nmtba]\n", f"{gauge}evaluate: [step-gauge]\n"
+        )
+        (folder / "job.yaml").write_text(job, encoding="utf-8")
+
+    return lay
+
+
+def _by_rules_of_ptb(folder: Path) -> int:
+    """Check a digital certificate as one that a PDF carries; the schema stands for PTB's."""
+    root = "digitalCalibrationCertificate"
+    (folder / "dcc.xsd").write_text(
+        f'<schema xmlns="http://www.w3.org/2001/XMLSchema" targetNamespace="https://ptb.de/dcc">'
+        f'<element name="{root}"/></schema>'
+    )
+    list(
+        digital_findings(
+            {"x.xml": Carried("x.xml", (folder / "y-axis.xml").read_bytes(), "", "", "", "")}, folder
+        )
+    )
+    return 0
 
 
 def _certificate(folder: Path) -> bytes:
@@ -217,7 +248,7 @@ def targets(folder: Path) -> tuple[Target, ...]:
                 file.flush()
                 return main(["verify", file.name, "--json"])
 
-        return Target(f"attached {name}", lay, "attached", (attack,), share=1)
+        return Target(f"attached {name}", lay, "attached", (attack,))
 
     return (
         Target(
@@ -225,13 +256,15 @@ def targets(folder: Path) -> tuple[Target, ...]:
             linear,
             "c/linear-axis/certificate.yaml",
             (checked, _command("@c/linear-axis/certificate.yaml", *results)),
+            share=20,
         ),
-        Target("laboratory", linear, "c/laboratory.yaml", (checked,)),
+        Target("laboratory", linear, "c/laboratory.yaml", (checked,), share=8),
         Target(
             "table",
             linear,
             "c/linear-axis/y-axis.csv",
             (checked, _command("look", "@c/linear-axis/y-axis.csv")),
+            share=20,
         ),
         Target(
             "model",
@@ -242,31 +275,49 @@ def targets(folder: Path) -> tuple[Target, ...]:
                 _command("plan", model),
                 _command("compensate", model, "--controller", "linuxcnc", "--output", "@out"),
             ),
+            share=12,
         ),
         Target(
             "simulation",
             hidden,
             "c/hidden-effect/simulation.yaml",
             (_command("simulate", "@c/hidden-effect/simulation.yaml", "--output", "@out"),),
+            share=50,
         ),
         *(
             Target(
                 plugin,
                 _measured(plugin, file, key),
                 file,
-                (_command("check", "@job.yaml"), _command("look", f"@{file}")),
+                (_command("check", "@job.yaml"), _command("look", f"@{file}"), *more),
+                share=50,
             )
-            for plugin, file, key in (
+            for plugin, file, key, *more in (
                 ("renishaw-rtl", "bidirectional.rtl", "file"),
                 ("ecmc", "ecmc_13e6c326.dat", "file"),
+                ("dcc", "y-axis.xml", "file", _by_rules_of_ptb),
                 ("serial-interferometer", "linear.journal", "journal"),
             )
         ),
         *(
             Target(
-                f"gauge {name}", gauge, f"c/step-gauge/{name}", (_command("check", "@c/step-gauge/job.yaml"),)
+                f"gauge {name}",
+                gauge,
+                f"c/step-gauge/{name}",
+                (_command("check", "@c/step-gauge/job.yaml"),),
+                share=9,
             )
             for name in _GAUGE
+        ),
+        *(
+            Target(
+                f"gauge {file}",
+                _probed(file),
+                file,
+                (_command("check", "@job.yaml"), _command("look", f"@{file}")),
+                share=25,
+            )
+            for file in ("stepgauge.res", "STEPGAUGE_1_chr.txt")
         ),
         Target(
             "fleet",
@@ -276,8 +327,9 @@ def targets(folder: Path) -> tuple[Target, ...]:
                 _command("fleet", "@c/fleet/fleet.yaml", "--dry-run"),
                 _command("fleet", "report", "@c/fleet/fleet.yaml"),
             ),
+            share=30,
         ),
-        Target("pdf", issued, "x.pdf", (_command("verify", "@x.pdf", "--json"),), BINARY, share=3),
+        Target("pdf", issued, "x.pdf", (_command("verify", "@x.pdf", "--json"),), BINARY, share=4),
         attached("VERIFY-1.json"),
         attached("job.yaml"),
         attached("x-axis.csv"),
@@ -290,6 +342,7 @@ def targets(folder: Path) -> tuple[Target, ...]:
                 _command("@job.yaml", "--plugin", "@drawn.py", *results),
             ),
             (_answering,),
+            share=40,
         ),
-        Target("page", _of_page, "requests", (_asked,), share=5),
+        Target("page", _of_page, "requests", (_asked,), share=6),
     )

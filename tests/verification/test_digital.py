@@ -38,7 +38,7 @@ def carried(folder: Path, **altered: str) -> dict[str, Any]:
     content = DccRenderer().render(certificate(folder, KEYS)).decode()
     for old, new in altered.items():
         content = content.replace(old, new)
-    return {"CAL-1.xml": SimpleNamespace(content=content.encode())}
+    return {"CAL-1.xml": SimpleNamespace(content=content.encode(errors="surrogateescape"))}
 
 
 def test_a_sound_one_holds_by_the_rules_and_by_the_schema(tmp_path, schema):
@@ -62,6 +62,23 @@ def test_one_that_breaks_the_schema_does_not_hold_and_the_line_is_named(tmp_path
 
     assert by_schema.verdict is Verdict.DIFFERS
     assert "line 2" in by_schema.detail
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ("</dcc:coreData>", "", "is not XML: "),
+        ("<dcc:coreData>", "<dcc:coreData>\udcff", "is not XML: "),
+        ("?>", '?><!DOCTYPE x [<!ENTITY e SYSTEM "file:///etc/hostname">]>', "declares a document type"),
+    ],
+)
+def test_what_is_no_certificate_at_all_does_not_hold(old, new, said, tmp_path, schema):
+    """No library gets it: one would end with an error of its own, or read what an entity names."""
+    broken = carried(tmp_path, **{old: new})
+    (found,) = digital_findings(broken, schema)
+
+    assert found.verdict is Verdict.DIFFERS
+    assert found.detail.startswith(said)
 
 
 def test_a_certificate_without_one_leaves_the_question_open(schema):

@@ -235,29 +235,35 @@ def digital_findings(carried: Mapping[str, Carried], schema: Path) -> Iterator[F
         yield Finding("digital certificate", Verdict.OPEN, "none is attached: output.formats names no dcc")
     try:
         for name, content in digital.items():
-            yield _finding(name, "PTB's rules", _broken_rules(content))
-            yield _finding(name, "PTB's schema", _defects(content, schema / _SCHEMA))
+            yield from _digital(name, content, schema / _SCHEMA)
     except ImportError as error:
         raise InputError.at(place, _EXTRA) from error
 
 
-def _broken_rules(content: bytes) -> list[str]:
+def _digital(name: str, content: bytes, schema: Path) -> Iterator[Finding]:
+    from lxml import etree  # noqa: PLC0415 - comes with the optional extra
+
+    parser = etree.XMLParser(resolve_entities=False, no_network=True)
+    try:
+        certificate = etree.fromstring(content, parser)
+    except etree.XMLSyntaxError as error:
+        yield Finding(name, Verdict.DIFFERS, f"is not XML: {' '.join(str(error).split())}")
+        return
+    if certificate.getroottree().docinfo.doctype:  # its entities may be files, which who checks would read
+        yield Finding(name, Verdict.DIFFERS, "declares a document type, which no digital certificate does")
+        return
+    yield _finding(name, "PTB's rules", _broken_rules(etree.tostring(certificate, encoding="unicode")))
+    rules = etree.XMLSchema(etree.parse(str(schema), parser))
+    rules.validate(certificate)
+    yield _finding(name, "PTB's schema", [f"line {each.line}: {each.message}" for each in rules.error_log])
+
+
+def _broken_rules(text: str) -> list[str]:
     from dcclib.validation.schematron import SchematronValidator  # noqa: PLC0415 - an optional extra
 
-    # The library refuses a text that declares its encoding: the declaration is its first line.
-    text = content.decode().partition("?>")[2].lstrip()
     found = SchematronValidator.for_dcc().validate_str(text)
     reports = [each.text for each in found.successful_reports if each.role == "error"]
     return [*(each.text for each in found.failed_assertions), *reports]
-
-
-def _defects(content: bytes, schema: Path) -> list[str]:
-    from lxml import etree  # noqa: PLC0415 - comes with the extra
-
-    parser = etree.XMLParser(resolve_entities=False, no_network=True)
-    rules = etree.XMLSchema(etree.parse(str(schema), parser))
-    rules.validate(etree.fromstring(content, parser))
-    return [f"line {each.line}: {each.message}" for each in rules.error_log]
 
 
 def _finding(name: str, by: str, broken: list[str]) -> Finding:
