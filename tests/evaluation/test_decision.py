@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from plugins.standards.installed import STANDARDS
-from zlmreport.evaluation.decision import decided, decision_rule
+from zlmreport.evaluation.decision import Guard, decided, decision_rule
 from zlmreport.evaluation.evaluate import evaluate
 from zlmreport.evaluation.evaluation import Conformity, Decision, Parameter
 from zlmreport.job.types import Options
@@ -83,6 +83,39 @@ def test_a_guard_band_is_as_wide_as_its_factor_says() -> None:
 
 def test_a_guard_band_is_as_wide_as_u_if_no_factor_is_stated() -> None:
     assert decision_rule("guard-band") == decision_rule("guard-band", 1.0)
+
+
+@pytest.mark.parametrize("rule", ["simple", "guard-band", "iso14253-1", "non-binary"])
+def test_a_rule_is_called_as_jobs_name_it(rule: str) -> None:
+    assert decision_rule(rule).identifier == rule
+
+
+def test_the_guard_band_of_iso_14253_is_counted_in_standard_uncertainties() -> None:
+    assert (decision_rule("iso14253-1").factor, decision_rule("iso14253-1").guard) == (
+        1.65,
+        Guard.STANDARD_UNCERTAINTY,
+    )
+
+
+@pytest.mark.parametrize("rule", ["guard-band", "iso14253-1", "non-binary"])
+def test_an_uncertainty_that_is_not_complete_decides_nothing(rule: str) -> None:
+    known = Parameter(A, 1e-6, LIMIT, EXPANDED, 2.0)
+
+    found = decision_rule(rule).decide(known, uncertainty_is_complete=False)
+    assert found == Decision(OPEN, None, None, None)
+
+
+def test_an_evaluation_says_whether_its_uncertainty_is_complete() -> None:
+    known = (Parameter(A, 1e-6, LIMIT, EXPANDED, 2.0),)
+    evaluation = replace(evaluate(ISO, simulated_test(), Options(), {}), parameters=known)
+    found = decided(replace(evaluation, uncertainty_is_complete=False), decision_rule("guard-band"))
+
+    assert found.parameters[0].conforms is None
+
+
+@pytest.mark.parametrize("rule", ["guard-band", "iso14253-1", "non-binary"])
+def test_a_value_that_is_known_exactly_needs_no_guard_band(rule: str) -> None:
+    assert decision(rule, 1e-6, expanded=0.0).acceptance_limit == LIMIT
 
 
 @pytest.mark.parametrize("rule", ["guard-band", "iso14253-1", "non-binary"])
@@ -164,11 +197,11 @@ class TestRisk:
     def test_of_no_statement_is_none(self) -> None:
         assert decision("iso14253-1", LIMIT).risk is None
 
-    def test_of_a_value_without_uncertainty_is_nothing(self) -> None:
-        found = decision_rule("simple").decide(Parameter(A, LIMIT / 2, LIMIT, 0.0, 2.0))
-
-        assert found is not None
-        assert found.risk == 0.0
+    @pytest.mark.parametrize(
+        "share", [0.5, 1 + 5e-10, 1.5]
+    )  # the second is beyond by the rounding of doubles
+    def test_of_a_value_without_uncertainty_is_nothing(self, share: float) -> None:
+        assert decision("simple", share * LIMIT, expanded=0.0).risk == 0.0
 
 
 def test_a_guard_band_wider_than_the_limit_is_a_finding_and_no_crash() -> None:
@@ -181,6 +214,17 @@ def test_a_guard_band_wider_than_the_limit_is_a_finding_and_no_crash() -> None:
 
     said = [each.found.in_language(Language.ENGLISH) for each in found.findings if each.met is False]
     assert said[-1] == "the guard band is as wide as the limit: no value of A could conform"
+    asked = found.findings[-1].requirement.in_language(Language.ENGLISH)
+    assert asked == "A measurement uncertainty that leaves room for conformity with the limit of A"
     parameter = found.parameter("A")
     assert parameter is not None
     assert parameter.conforms is False
+
+
+@pytest.mark.parametrize("expanded", [EXPANDED, LIMIT])
+def test_a_guard_band_up_to_the_limit_is_no_finding(expanded: float) -> None:
+    """As wide as the limit, it leaves one value that conforms: 0."""
+    evaluation = evaluate(ISO, simulated_test(), Options(), {})
+    evaluation = replace(evaluation, parameters=(Parameter(A, 0.0, LIMIT, expanded, 2.0),))
+
+    assert decided(evaluation, decision_rule("guard-band")).findings == evaluation.findings

@@ -10,6 +10,7 @@ from __future__ import annotations
 import contextlib
 import hashlib
 import json
+import math
 import os
 import posixpath
 import tempfile
@@ -83,7 +84,13 @@ def stated_by(carrier: Carrier) -> Stated | None:
         if file.relationship != "Data" or not file.name.endswith(".json"):
             continue
         try:
-            tree = json.loads(file.content, object_pairs_hook=_without_doubles)
+            tree = json.loads(
+                file.content,
+                object_pairs_hook=_without_doubles,
+                parse_float=_finite,
+                parse_int=_whole,
+                parse_constant=_finite,
+            )
         except (ValueError, RecursionError) as error:
             raise ValueError(f"{file.name}: no JSON: {error}") from error
         if isinstance(tree, dict) and tree.get("schema") == SCHEMA:
@@ -102,6 +109,18 @@ def _without_doubles(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     if len(found) != len(pairs):
         raise ValueError("a key is there twice")
     return found
+
+
+def _finite(text: str) -> float:
+    """Refuse what no certificate states: such a value has no difference from another, and no JSON."""
+    if not math.isfinite(value := float(text)):
+        raise ValueError(f"{text[:20]} is no finite number")
+    return value
+
+
+def _whole(text: str) -> int:
+    _finite(text)
+    return int(text)
 
 
 #: Of a file system, in bytes.
