@@ -37,6 +37,7 @@ from zlmreport.plugin.protocols import (
 from zlmreport.uncertainty.budget import Budget, NoBudget
 from zlmreport.uncertainty.expanded import with_uncertainty
 from zlmreport.uncertainty.job_budget import budget_of, refusals
+from zlmreport.uncertainty.monte_carlo import TRIALS
 from zlmreport.values import dataclass
 
 if TYPE_CHECKING:
@@ -99,11 +100,16 @@ def read_sessions(job: Job, registry: Registry) -> tuple[MeasurementSet, ...]:
 
 
 def compose(
-    job: Job, registry: Registry, made_by: Programs | None = None, showing: Showing = _unseen
+    job: Job,
+    registry: Registry,
+    made_by: Programs | None = None,
+    showing: Showing = _unseen,
+    trials: int = TRIALS,
 ) -> Certificate:
     """Read, evaluate by every standard that the job names, and compose the document; nothing is rendered.
 
-    `made_by` are the programs that the document names; those that make it if they are left out.
+    `made_by` are the programs that the document names; those that make it if they are left out. `trials` are
+    the tests that are simulated for its uncertainties.
     """
     missing = list(missing_items(job))
     try:
@@ -115,10 +121,10 @@ def compose(
         raise InputError([*missing, *error.problems]) from error
     if missing:
         raise InputError(missing)
-    evaluations = evaluated(job, measurements, registry)
+    evaluations = evaluated(job, measurements, registry, trials)
     studied = modelled(job, measurements, registry, showing) if job.effects else None
     found = job.as_found
-    as_found = evaluated(found, read(found, registry), registry) if found else ()
+    as_found = evaluated(found, read(found, registry), registry, trials) if found else ()
 
     def describe(writer: Writer) -> list[Described]:
         said = [
@@ -154,7 +160,9 @@ def parameters(job: Job, measurements: MeasurementSet, registry: Registry) -> tu
     )
 
 
-def evaluated(job: Job, measurements: MeasurementSet, registry: Registry) -> tuple[Evaluated, ...]:
+def evaluated(
+    job: Job, measurements: MeasurementSet, registry: Registry, trials: int = TRIALS
+) -> tuple[Evaluated, ...]:
     """Evaluate readings by every standard that the job names, with uncertainties and decisions."""
     stated = job.keys.decision_rule
     rule = decision_rule(stated.rule, stated.guard_band_factor)
@@ -167,7 +175,7 @@ def evaluated(job: Job, measurements: MeasurementSet, registry: Registry) -> tup
         )
     ]
     complete: list[Evaluated] = []
-    for (standard, options), evaluation in zip(chosen, with_uncertainty(bare, budget), strict=True):
+    for (standard, options), evaluation in zip(chosen, with_uncertainty(bare, budget, trials), strict=True):
         reported = findings(information_asked_by(standard), job, measurements, budget)
         with_verdicts = decided(replace(evaluation, findings=(*evaluation.findings, *reported)), rule)
         figures = tuple(standard.figures(with_verdicts, options))
@@ -263,10 +271,10 @@ def file_name(certificate: Certificate, renderer: Renderer) -> str:
 
 @contextlib.contextmanager
 def _garbage_collected_once() -> Iterator[None]:
-    """Collect garbage once, after a document, among what the document made: the youngest objects.
+    """Collect no garbage while a document is made: the collector walks the youngest objects once, after it.
 
-    Laying out pages makes a growing heap of objects that the collector would walk again and again for
-    nothing: about a fifth of the time of a certificate.
+    Laying out pages makes a growing heap of objects that it would walk again and again for nothing: about
+    a fifth of the time of a certificate.
     """
     was_enabled = gc.isenabled()
     gc.disable()
@@ -275,4 +283,3 @@ def _garbage_collected_once() -> Iterator[None]:
     finally:
         if was_enabled:
             gc.enable()
-        gc.collect(0)

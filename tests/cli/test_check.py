@@ -85,3 +85,11 @@ def test_summary_has_requirements_and_no_files(shop: Shop) -> None:
     assert job["evaluations"][0]["requirements"] == [
         {"requirement": "At least 5 positions", "found": "3 positions", "met": False}
     ]
+
+
+def test_check_states_the_uncertainties_of_the_run(shop: Shop) -> None:
+    shop.job(("evaluate:", f"{MEASURED}evaluate:"))
+    checked, made = (shop.run(*words, "--json", "job.yaml").summary for words in (["check"], []))
+    of_check, of_run = (each["jobs"][0]["evaluations"][0]["parameters"] for each in (checked, made))
+    assert of_check[0]["expanded_uncertainty"]
+    assert of_check == of_run

@@ -20,6 +20,7 @@ from zlmreport.files import write
 from zlmreport.job.loading import chosen_formats
 from zlmreport.pipeline import PDF
 from zlmreport.plugins import Registry, find_plugins
+from zlmreport.uncertainty.monte_carlo import TRIALS
 
 if TYPE_CHECKING:
     from zlmreport.job.job import Job
@@ -27,6 +28,8 @@ if TYPE_CHECKING:
 
 
 _PLACE = Place("zlmreport --sign")
+#: Tests that `check` simulates: it composes the document for what may be wrong with it, and prints no U.
+_FEW_TRIALS = 200
 
 
 def run(options: Namespace) -> int:
@@ -116,6 +119,7 @@ def _password(of: str) -> str:
 def check(options: Namespace) -> int:
     """Check all jobs and return the worst exit code; nothing is written."""
     registry = find_plugins(files=options.plugin)
+    trials = TRIALS if options.json else _FEW_TRIALS
 
     def evaluated(result: Result, job: Job) -> Result:
         if "instrument" in type(job.source.options).model_fields:
@@ -124,7 +128,7 @@ def check(options: Namespace) -> int:
             if awaits_capture(job):
                 demand_capturable(job, registry)
                 return result
-        certificate = pipeline.compose(job, registry, showing=_showing(options))
+        certificate = pipeline.compose(job, registry, showing=_showing(options), trials=trials)
         return replace(
             result,
             evaluations=certificate.evaluations,

@@ -10,14 +10,16 @@ import numpy as np
 from zlmreport.evaluation.evaluation import Evaluation, MeanUncertainty
 from zlmreport.measurement.approach import Approach
 from zlmreport.quantities.arrays import FloatArray, read_only_floats
-from zlmreport.uncertainty.axis_interval import axis_intervals
+from zlmreport.uncertainty.axis_interval import PAIRS, axis_intervals
 from zlmreport.uncertainty.budget import COVERAGE_FACTOR, Acts, Budget, NoBudget, effect_along
 from zlmreport.uncertainty.drift import drift_range, mean_drift_variance, reading_times
-from zlmreport.uncertainty.monte_carlo import StandardArithmetic, propagate
+from zlmreport.uncertainty.monte_carlo import TRIALS, StandardArithmetic, propagate
 
 
 def with_uncertainty(
-    evaluations: Sequence[tuple[Evaluation, StandardArithmetic]], budget: Budget | NoBudget
+    evaluations: Sequence[tuple[Evaluation, StandardArithmetic]],
+    budget: Budget | NoBudget,
+    trials: int = TRIALS,
 ) -> tuple[Evaluation, ...]:
     """Return evaluations of one test with U and k of their parameters and U of their mean deviations.
 
@@ -29,6 +31,8 @@ def with_uncertainty(
         Each with the arithmetic that takes it from statistics to parameters.
     budget
         Of the measuring set-up; without one nothing is said of U.
+    trials
+        Tests that are simulated; fewer, where no number is read.
     """
     if not evaluations:
         return ()
@@ -40,7 +44,9 @@ def with_uncertainty(
                 for each in evaluation.parameters
             ),
         )
-        for (evaluation, _), of_axis in zip(evaluations, axis_intervals(evaluations), strict=True)
+        for (evaluation, _), of_axis in zip(
+            evaluations, axis_intervals(evaluations, min(PAIRS, trials)), strict=True
+        )
     )
     if isinstance(budget, NoBudget):
         return bare
@@ -61,7 +67,7 @@ def with_uncertainty(
             mean_uncertainty=means,
             uncertainty_is_complete=budget.is_complete,
         )
-        for evaluation, expanded in zip(bare, propagate(budget, evaluations), strict=True)
+        for evaluation, expanded in zip(bare, propagate(budget, evaluations, trials), strict=True)
     )
 
 
