@@ -45,46 +45,25 @@ LEAST_DATES = 5
 
 @dataclass(frozen=True, slots=True)
 class Trend:
-    """What the calibrations of a parameter say of its drift.
+    """What the calibrations of a parameter say of its drift."""
 
-    Attributes
-    ----------
-    series
-        The calibrations.
-    line
-        Through them; None with fewer than `LEAST_DATES` dates, and then nothing is tested.
-    rank_p_value
-        Of the test that knows only the order; None likewise.
-    drifts
-        Whether it is named, with the whole fleet's tests in view.
-    forecast
-        When a drift meets its limit; None without a drift, without a limit, and where there is no such date.
-    course
-        What its tests say of steps, in parts of `scale`; None of a parameter that is not asked.
-    scale
-        The limit; 1 where there is none.
-    step
-        That the latest test shows, or that looked like a drift; in the unit of the series.
-    probability
-        That it is a drift, and neither a step nor chance, if each is as likely beforehand; 0 where none is
-        named.
-    since
-        From which day on the line is laid: that of the first test after a step.
-    years
-        That the line covers.
-    """
-
-    series: Series
+    series: Series  #: The calibrations.
+    #: Through them; None with fewer than `LEAST_DATES` dates, and then nothing is tested.
     line: Line | None = None
-    rank_p_value: float | None = None
-    drifts: bool = False
+    rank_p_value: float | None = None  #: Of the test that knows only the order; None likewise.
+    drifts: bool = False  #: Whether it is named, with the whole fleet's tests in view.
+    #: When a drift meets its limit; None without a drift, without a limit, and where there is no such date.
     forecast: Forecast | None = None
+    #: What its tests say of steps, in parts of `scale`; None of a parameter that is not asked.
     course: Course | None = None
-    scale: float = 1.0
+    scale: float = 1.0  #: The limit; 1 where there is none.
+    #: That the latest test shows, or that looked like a drift; in the unit of the series.
     step: Step | None = None
+    #: That it is a drift, and neither a step nor chance, if each is as likely beforehand; 0 where none is
+    #: named.
     probability: float = 0.0
-    since: date | None = None
-    years: float = 0.0
+    since: date | None = None  #: From which day on the line is laid: that of the first test after a step.
+    years: float = 0.0  #: That the line covers.
 
     @property
     def smallest(self) -> float | None:
@@ -213,12 +192,8 @@ def _is_small(trend: Trend, scale: float | None) -> bool:
 def named_in_families(families: Iterable[Mapping[int, float]], level: float) -> frozenset[int]:
     """Return the tests that are named, out of p-values in families.
 
-    Parameters
-    ----------
-    families
-        Of each family, the p-value of each of its tests.
-    level
-        Largest expected share of false names.
+    `families`: Of each family, the p-value of each of its tests.
+    `level`: Largest expected share of false names.
     """
     adjusted = [holm(p_values) for p_values in families]
     chosen = chosen_by_benjamini_hochberg([min(each.values()) for each in adjusted], level)

@@ -90,14 +90,9 @@ class Order:
 def spend(fleet: FleetFile, order: Order, watch: Watch) -> None:
     """Make all that is due.
 
-    Raises
-    ------
-    InputError
-        If a pattern of jobs matches nothing.
-    AccessError
-        If the ledger or the scheduler cannot be used, or another night is at work.
-    MissingError
-        If the folder of certificates is gone, or most of the jobs.
+    Raises `InputError` if a pattern of jobs matches nothing; `AccessError` if the ledger or the scheduler
+    cannot be used, or another night is at work; `MissingError` if the folder of certificates is gone, or most
+    of the jobs.
     """
     plugins, ends = order.plugins, time.monotonic() + order.seconds
     jobs, ways, language = job_files(fleet), ways_of(fleet, plugins), Language(fleet.keys.language)

@@ -43,10 +43,7 @@ _MINUTE = 60
 def overview(state: FleetState, language: Language, names: Names, files: str) -> str:
     """Return the page; the same ledger gives the same page.
 
-    Parameters
-    ----------
-    files
-        Folder of the certificates, relative to that of the page.
+    `files`: Folder of the certificates, relative to that of the page.
     """
     dates = [each.measured for trend in state.trends for each in trend.series.calibrations]
     period = Period(min(dates, default=date.min), max(dates, default=date.min))

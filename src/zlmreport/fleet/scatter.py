@@ -39,21 +39,11 @@ _PRECISION = 1e-3
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Scatter:
-    """How likely each scatter is.
+    """How likely each scatter is."""
 
-    Attributes
-    ----------
-    deviations
-        Rising.
-    weights
-        How likely each is: above 0, and 1 together.
-    degrees
-        By how many degrees of freedom, of whatever axes, that is known.
-    """
-
-    deviations: FloatArray
-    weights: FloatArray
-    degrees: int = 0
+    deviations: FloatArray  #: Rising.
+    weights: FloatArray  #: How likely each is: above 0, and 1 together.
+    degrees: int = 0  #: By how many degrees of freedom, of whatever axes, that is known.
 
     @property
     def deviation(self) -> float:
@@ -102,10 +92,7 @@ class Scatter:
 def learned(samples: Iterable[tuple[float, int]]) -> tuple[Scatter, ...]:
     """Return, for each axis of a fleet, what the others let expect.
 
-    Parameters
-    ----------
-    samples
-        Of each axis a sum of squares about a mean, and its degrees of freedom, which may be none.
+    `samples`: Of each axis a sum of squares about a mean, and its degrees of freedom, which may be none.
     """
     squares, degrees = np.array([*samples], dtype=float).reshape(-1, 2).T
     told = degrees > 0

@@ -45,46 +45,24 @@ _WINDOW, _SCATTER_LEVEL = 4, 1 / 4000
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """A change of a parameter from one test to the next.
+    """A change of a parameter from one test to the next."""
 
-    Attributes
-    ----------
-    index
-        Of the first test after it.
-    change
-        By how much.
-    probability
-        That it is a step, and neither chance nor a drift, if each of these is as likely beforehand.
-    """
-
-    index: int
-    change: float
+    index: int  #: Of the first test after it.
+    change: float  #: By how much.
+    #: That it is a step, and neither chance nor a drift, if each of these is as likely beforehand.
     probability: float
 
 
 @dataclass(frozen=True, slots=True)
 class Course:
-    """What the tests of a parameter, one after another, say of steps.
+    """What the tests of a parameter, one after another, say of steps."""
 
-    Attributes
-    ----------
-    steps
-        That were borne out by the next test, and one of the latest test.
-    since
-        Tests since the last step that was borne out; odd ones, and a step of the latest, are left out.
-    is_wilder
-        Whether the latest tests scatter more than those before.
-    scatter
-        Between the tests since the last step, the whole fleet's in view.
-    share
-        Of the chance for a false alarm.
-    """
-
-    steps: tuple[Step, ...]
+    steps: tuple[Step, ...]  #: That were borne out by the next test, and one of the latest test.
+    #: Tests since the last step that was borne out; odd ones, and a step of the latest, are left out.
     since: tuple[int, ...]
-    is_wilder: bool
-    scatter: Scatter
-    share: float
+    is_wilder: bool  #: Whether the latest tests scatter more than those before.
+    scatter: Scatter  #: Between the tests since the last step, the whole fleet's in view.
+    share: float  #: Of the chance for a false alarm.
 
     @property
     def smallest(self) -> float | None:
@@ -103,12 +81,8 @@ class Course:
 def course(values: Sequence[float], fleet: Scatter, share: float = 1.0) -> Course:
     """Return the course of a parameter.
 
-    Parameters
-    ----------
-    values
-        In the order of measurement, one at the least.
-    share
-        Of the chance for a false alarm, where an axis has several parameters.
+    `values`: In the order of measurement, one at the least.
+    `share`: Of the chance for a false alarm, where an axis has several parameters.
     """
     steps: list[Step] = []
     first, base = 0, [0]
@@ -135,10 +109,7 @@ def course(values: Sequence[float], fleet: Scatter, share: float = 1.0) -> Cours
 def stands_out(before: Sequence[float], value: float, fleet: Scatter, share: float = 1.0) -> bool:
     """Whether a test differs from those before it, and from a drift that these show.
 
-    Parameters
-    ----------
-    fleet, share
-        As `course` has them.
+    `fleet`, `share`: As `course` has them.
     """
     number, mean = len(before), fmean(before)
     change = value - mean
@@ -195,10 +166,7 @@ def chances(values: Sequence[float], fleet: Scatter) -> Chances:
     The mean may be any, an effect is normal with a standard deviation of five scatters at its largest; so the
     evidence is a closed expression for each scatter that the fleet lets expect.
 
-    Parameters
-    ----------
-    values
-        Two or more.
+    `values`: Two or more.
     """
     number = len(values)
     lines = [[0.0] * index + [1.0] * (number - index) for index in range(1, number)]

@@ -113,10 +113,7 @@ def exclude(path: Path, job: Job, registry: Installed, exclusions: Sequence[Excl
 def include(path: Path, job: Job, registry: Installed, index: int) -> Edit:
     """Return the change of a job that brings a reading back: the one that the list names at an index.
 
-    Raises
-    ------
-    InputError, AccessError
-        As for `exclude`.
+    Raises `InputError` or `AccessError` as for `exclude`.
     """
     wanted = [each for number, each in enumerate(job.keys.measurement.excluded) if number != index]
     change = ListChange(EXCLUDED, removed=[index])

@@ -154,12 +154,8 @@ class SimulationFile:
 def load_simulation(path: Path, registry: Installed, content: bytes | None = None) -> SimulationFile:
     """Read a simulation file and check all that can be checked without simulating.
 
-    Raises
-    ------
-    InputError
-        With every mistake, in the order of their places.
-    AccessError
-        If it, or a file that it names, cannot be read.
+    Raises `InputError` with every mistake, in the order of their places; `AccessError` if it, or a file that
+    it names, cannot be read.
     """
     composition = compose(path, content)
     tree = composition.keys

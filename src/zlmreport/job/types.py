@@ -77,10 +77,7 @@ class Enclosure:
 def path_named(reference: str, naming_file: Path) -> Path:
     """Return the path that a file names: relative to its own folder, or from the root.
 
-    Raises
-    ------
-    ValueError
-        If it lies outside of the folder to which the program is confined.
+    Raises `ValueError` if it lies outside of the folder to which the program is confined.
     """
     enclosure = _ENCLOSURE.get()
     path = enclosure.path_named(reference, naming_file) if enclosure else naming_file.parent / reference
@@ -93,10 +90,7 @@ def path_named(reference: str, naming_file: Path) -> Path:
 def path_from_job(file: Path, job: Path, from_root: str | None = None) -> str | None:
     """Return the path by which a job comes to a file: from its folder, or None if the file lies elsewhere.
 
-    Parameters
-    ----------
-    from_root
-        How the job names the file, if it does so from the root of the file system.
+    `from_root`: How the job names the file, if it does so from the root of the file system.
     """
     enclosure = _ENCLOSURE.get()
     if enclosure:

@@ -366,10 +366,7 @@ def trusted_by_user(environment: Mapping[str, str] = os.environ) -> Path | None:
     The configuration is ``zlmreport/config.yaml`` in ``$XDG_CONFIG_HOME`` or else in ``~/.config``, with the
     one key `trusted`: a file or a folder, relative to the configuration.
 
-    Raises
-    ------
-    AccessError, InputError
-        If it cannot be read, or has another key.
+    Raises `AccessError` or `InputError` if it cannot be read, or has another key.
     """
     folders = (Path(environment.get("XDG_CONFIG_HOME", "")), Path(environment.get("HOME", ""), ".config"))
     folder = next((each for each in folders if each.is_absolute()), None)

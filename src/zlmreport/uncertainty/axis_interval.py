@@ -64,10 +64,8 @@ def axis_intervals(
 
     Empty where the test has a single run: it tells nothing of the scatter.
 
-    Parameters
-    ----------
-    evaluations
-        Of one test, one at least, each with the arithmetic that takes it from statistics to parameters.
+    `evaluations`: Of one test, one at least, each with the arithmetic that takes it from statistics to
+        parameters.
     """
     measurements = evaluations[0][0].measurements
     readings = measurements.deviations()

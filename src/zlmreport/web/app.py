@@ -56,10 +56,8 @@ class Workbench:
     def of(cls, jobs: Sequence[Path], registry: Registry, plugins: Sequence[Path] = ()) -> Workbench:
         """Return the answers for a job, the first, beside other tests of its axis.
 
-        Raises
-        ------
-        InputError, AccessError
-            As `Bench.loaded`; or if a job is no test of the axis of the first.
+        Raises `InputError` or `AccessError` as `Bench.loaded`; or if a job is no test of the axis of the
+        first.
         """
         job, *others = jobs
         bench = Bench(job, registry)

@@ -88,10 +88,8 @@ class Bench:
     def loaded(self) -> Loaded:
         """Return the job as it stands in its files now.
 
-        Raises
-        ------
-        InputError, AccessError
-            As from the main job: with every mistake that somebody has written into the files.
+        Raises `InputError` or `AccessError` as from the main job: with every mistake that somebody has
+        written into the files.
         """
         with self.lock:
             if self._loaded is not None and self._loaded.stamp == self.stamp():

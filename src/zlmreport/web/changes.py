@@ -89,14 +89,9 @@ class _Step:
 def change(bench: Bench, request: Request) -> None:
     """Do what a click asks for.
 
-    Raises
-    ------
-    ConflictError
-        If the job is no longer the one that the page showed.
-    NothingToUndoError
-        If there is nothing to take back.
-    InputError, AccessError
-        If the change makes no sense, or the file cannot be written.
+    Raises `ConflictError` if the job is no longer the one that the page showed; `NothingToUndoError` if there
+    is nothing to take back; `InputError` or `AccessError` if the change makes no sense, or the file cannot be
+    written.
     """
     with bench.lock:
         loaded = bench.loaded()

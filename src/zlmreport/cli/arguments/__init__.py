@@ -77,12 +77,8 @@ def parser_for(command: str) -> CommandParser:
 def parse(arguments: Sequence[str]) -> tuple[str, argparse.Namespace]:
     """Return the command with its options.
 
-    Raises
-    ------
-    InputError
-        If there is no such command or option, with the nearest that there is.
-    SystemExit
-        After ``--help`` and ``--version`` have been printed.
+    Raises `InputError` if there is no such command or option, with the nearest that there is; `SystemExit`
+    after ``--help`` and ``--version`` have been printed.
     """
     words = 2 if " ".join(arguments[:2]) in COMMANDS else 1
     if _may_be_an_extensions(arguments):
