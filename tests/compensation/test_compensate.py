@@ -112,32 +112,13 @@ def test_the_model_parts_what_is_periodic_from_the_rest(modelled: str, capsys: C
     _, coarse = run(capsys, modelled, *model)
     assert coarse["left_out"] == ["screw-pitch"]
     assert coarse["forecast"]["left_out"] == pytest.approx(4.0, abs=0.6)
-    _, fine = run(capsys, modelled, *model, "--step", "1.25", "--periodic", "in")
+    _, fine = run(capsys, modelled, *model, "--step", "1.25")
     assert fine["left_out"] == []
     assert fine["forecast"]["between_grid_points"]["largest"] < 1
     expected = fine["forecast"]["second_test"]["E"]
     assert expected["low"] < expected["value"] < expected["high"] < 3
-    _, out = run(capsys, modelled, *model, "--step", "1.25", "--periodic", "out")
-    assert out["left_out"] == ["screw-pitch"]
     _, means = run(capsys, modelled, "--controller", "csv")
     assert means["forecast"]["between_grid_points"]["largest"] > 5  # the wave goes on between the targets
-
-
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
-        (
-            ["--from", "model", "--periodic", "in"],
-            "zlmreport compensate: screw-pitch: a wave of 5 mm needs 4 rows",
-        ),
-        (["--periodic", "out"], "state --from model"),
-    ],
-)
-def test_a_wave_that_no_row_can_follow_is_refused(
-    modelled: str, capsys: Capture, arguments: list[str], message: str
-) -> None:
-    assert main(["compensate", modelled, "--controller", "linuxcnc", *arguments]) == 2
-    assert message in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(

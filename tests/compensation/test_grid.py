@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from zlmreport.compensation.basis import Basis, Periodic, Scatter
+from zlmreport.compensation.basis import Basis, Scatter
 from zlmreport.compensation.curve import ErrorCurve
 from zlmreport.compensation.making import Grid, GridReason, grid_of
 from zlmreport.errors import Place
@@ -71,9 +71,6 @@ def test_a_wave_that_a_finer_grid_can_carry_is_carried() -> None:
     assert chosen(known_by(1e-6)).reason is GridReason.TARGETS
     basis = known_by(1e-6, waves=wave)
     assert basis.left_out(chosen(basis).rows) == {}
-    out = known_by(1e-6, waves=wave, periodic=Periodic.OUT)
-    assert out.left_out(chosen(out).rows) == wave
-    assert chosen(out).reason is GridReason.TARGETS
 
 
 def test_a_stated_step_is_kept() -> None:

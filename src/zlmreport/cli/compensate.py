@@ -22,7 +22,6 @@ from zlmreport.cli.terminal import Colour, print_json, said, shown_path, table, 
 from zlmreport.compensation.basis import (
     Basis,
     FittedModel,
-    Periodic,
     basis_of_means,
     basis_of_model,
     with_table,
@@ -128,10 +127,6 @@ def _basis(
 ) -> Basis:
     """Return what is known of the axis: its means, or its model where that is asked for."""
     is_of_model = options.source == "model"
-    if options.periodic and not is_of_model:
-        raise InputError.at(
-            _COMMAND, "--periodic parts what is periodic from the rest by the model: state --from model"
-        )
     if is_of_model and not job.effects:
         raise InputError.at(
             job.place_of("model.effects"), "--from model needs an error model; state model.effects"
@@ -143,7 +138,7 @@ def _basis(
         study = Study.of(job, measurements, registry.effects, pipeline.read_sessions(job, registry))
         fitted = FittedModel(measurements, study.observed, study.fitted().fit)
     if is_of_model and fitted:
-        return basis_of_model(curve, fitted, Periodic(options.periodic or Periodic.FITTING))
+        return basis_of_model(curve, fitted)
     return basis_of_means(curve, measurements, fitted)
 
 

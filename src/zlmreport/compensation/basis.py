@@ -11,7 +11,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
-from enum import StrEnum
 
 import numpy as np
 
@@ -30,14 +29,6 @@ ROWS_A_PERIOD = 4
 _ROUNDING = 1e-9
 #: m or rad anywhere, shape (2, …): forward, reverse.
 Function = Callable[[FloatArray], FloatArray]
-
-
-class Periodic(StrEnum):
-    """What becomes of the periodic effects of a model."""
-
-    FITTING = "fitting"
-    IN = "in"
-    OUT = "out"
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,11 +69,10 @@ class Basis:
     without: Callable[[frozenset[str]], Function]
     #: The periodic effects of the model, each with the length of its shortest wave, m or rad.
     waves: Mapping[str, float] = field(default_factory=dict)
-    periodic: Periodic = Periodic.FITTING  #: What is to become of the waves.
 
     def left_out(self, rows: FloatArray) -> dict[str, float]:
-        """Return the waves that a table with these rows is not to carry, by name with their lengths."""
-        return dict(self.waves) if self.periodic is Periodic.OUT else too_fine(self.waves, rows)
+        """Return the waves that a table with these rows cannot carry, by name with their lengths."""
+        return too_fine(self.waves, rows)
 
     def wanted(self, rows: FloatArray) -> Function:
         """Return what a table with these rows is to take away."""
@@ -179,7 +169,7 @@ def basis_of_means(
     return Basis(curve, known, means, parts, scatter, lambda _: alone)
 
 
-def basis_of_model(curve: ErrorCurve, fitted: FittedModel, periodic: Periodic = Periodic.FITTING) -> Basis:
+def basis_of_model(curve: ErrorCurve, fitted: FittedModel) -> Basis:
     """Return what a model says, and beyond it the means as far as they can be believed."""
     measurements = fitted.measurements
     left = corrected(measurements, fitted.observed, fitted.fit).deviations()
@@ -203,7 +193,6 @@ def basis_of_model(curve: ErrorCurve, fitted: FittedModel, periodic: Periodic = 
         scatter,
         lambda left_out: _sum(fitted.carried(left_out), kept),
         waves_of(fitted.fit),
-        periodic,
     )
 
 

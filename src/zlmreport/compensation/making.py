@@ -16,7 +16,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from zlmreport.compensation.basis import ROWS_A_PERIOD, Basis, Periodic
+from zlmreport.compensation.basis import Basis
 from zlmreport.compensation.curve import CompensationTable, table_of
 from zlmreport.compensation.forecast import Forecast, forecast
 from zlmreport.errors import InputError, Place
@@ -152,20 +152,11 @@ def make(  # noqa: PLR0913, PLR0917 - of what, on which grid, for whom
     `step`: Distance of the rows, m or rad; None for the grid that `grid_of` chooses.
     `budget`: Of the measuring set-up; None where nothing is known of it.
 
-    Raises `InputError` if the control would refuse the table, or cut it off; if a wave is wanted that no row
-    can follow.
+    Raises `InputError` if the control would refuse the table, or cut it off.
     """
     most = getattr(controller, "most_rows", None)
     grid = grid_of(basis, place, step=step, is_equidistant=controller.is_equidistant, most_rows=most)
     rows, left_out = grid.rows, basis.left_out(grid.rows)
-    if basis.periodic is Periodic.IN and left_out:
-        unit = axis.position_unit
-        wave = unit.from_si(min(left_out.values()))
-        raise InputError.at(
-            place,
-            f"{', '.join(left_out)}: a wave of {wave:g} {unit.symbol} needs {ROWS_A_PERIOD} rows in each of "
-            f"its periods; state --step {wave / ROWS_A_PERIOD:g} or less, or leave it out",
-        )
     meant = table_of(basis.wanted(rows)(rows), rows, axis, number, place)
     files = controller.files(meant, own)
     decoded = controller.read(files, meant, own)

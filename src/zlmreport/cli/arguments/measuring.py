@@ -100,13 +100,8 @@ def compensate(command: str) -> CommandParser:
         choices=("means", "model"),
         default="means",
         help="make the table from the mean deviations (as without it), or from the job's fitted model and "
-        "what the means show beyond it: as smooth as the readings are uncertain",
-    )
-    parser.add_argument(
-        "--periodic",
-        choices=("in", "out"),
-        help="with --from model: periodic effects go into the table, or stay out; without it those go in "
-        "that have four rows in each period",
+        "what the means show beyond it: as smooth as the readings are uncertain; periodic effects go in that "
+        "have four rows in each period",
     )
     parser.add_argument(
         "-o",
