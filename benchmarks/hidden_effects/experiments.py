@@ -33,13 +33,15 @@ from zlmreport.simulation.description import Noise, noise_of
 #: Targets and runs of tests that leave ties.
 _TARGETS, _RUNS = (7, 9, 11, 15), (2, 3, 4)
 #: Expected difference of the criteria of two effects from which on they hardly tie (`Trial.nearest`).
-_APART = 20.0
+_APART = 8.0
+#: ρ of what is hidden: a smaller effect that ties leaves a plan little to promise.
+_SIZE = 2.0
 
 
 def chosen(cases: Iterable[Case]) -> Iterator[tuple[Case]]:
-    """Yield tests with one effect of 1 or 2 σ that a second test of the same axis can show."""
+    """Yield tests with one effect of 2 σ that a second test of the same axis can show."""
     for case in cases:
-        if case.kind is Kind.EFFECT and case.size >= 1 and not OF_A_GAUGE.intersection(case.hidden):
+        if case.kind is Kind.EFFECT and case.size == _SIZE and not OF_A_GAUGE.intersection(case.hidden):
             yield (case,)
 
 
@@ -50,8 +52,9 @@ def judged(case: Case) -> Record:
     if trial is None:
         return named(case) | {"outcome": "not visible"}
     nearest = trial.nearest()
-    if len(trial.twins) == 1 and nearest is not None and nearest[1] > _APART:
-        return named(case) | {"outcome": "nothing like it"}
+    has_twin = len(trial.twins) > 1
+    if has_twin or nearest is None or nearest[1] > _APART:
+        return named(case) | {"outcome": "the same as another" if has_twin else "nothing like it"}
     plan = trial.description.plan
     started = time.process_time()
     try:

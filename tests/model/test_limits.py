@@ -9,12 +9,14 @@ import pytest
 
 from model.axis_tests import EFFECTS, PITCH, linear_test, noise
 from model.hidden_effect import LAST, study, written
+from zlmreport.cli.model_lines import fit_lines
 from zlmreport.errors import InputError
 from zlmreport.job.formula_keys import FormulaKeys
 from zlmreport.measurement.axis import AxisKind
 from zlmreport.model.axis_model import AxisModel, Term
 from zlmreport.model.fit import fit
 from zlmreport.model.formula import FormulaEffect
+from zlmreport.model.report import report_model
 
 SLOPE = "    - scale-error\n"
 
@@ -42,11 +44,15 @@ def test_an_estimate_within_its_bounds_is_as_without(tmp_path: Path) -> None:
 
 
 def test_an_estimate_beyond_its_bound_is_held_there(tmp_path: Path) -> None:
-    within = study(written(tmp_path, (LAST, "    - backlash: {lost_motion: {min: -3}}\n"))).fitted().fit
+    bounded = study(written(tmp_path, (LAST, "    - backlash: {lost_motion: {min: -3}}\n")))
+    within = bounded.fitted().fit
     given = study(written(tmp_path, (LAST, "    - backlash: {lost_motion: -3}\n"))).fitted().fit
     np.testing.assert_allclose(within.fitted, given.fitted, rtol=1e-12)
     (estimate,) = [each for each in within.estimates if each.effect == "backlash"]
-    assert (estimate.value, estimate.is_given) == (pytest.approx(-3e-6), True)
+    assert (estimate.value, estimate.at_bound, estimate.is_given) == (pytest.approx(-3e-6), "min", False)
+    reported = report_model(within)["parameters"][-1]
+    assert (reported["given"], reported["at_bound"]) == (False, "min")
+    assert "−3  µm (held at min)" in "\n".join(fit_lines(bounded.fitted(), bounded.job))
 
 
 def test_a_searched_parameter_stays_within_its_bounds() -> None:

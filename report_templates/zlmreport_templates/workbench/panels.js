@@ -125,7 +125,7 @@ export function effects(texts, job, actions) {
       h("table", { class: "parameters" }, h("tbody", {}, each.parameters.map((own) => h("tr", {},
         h("th", { scope: "row", title: own.description }, symbol(own.symbol), h("span", { class: "unseen" }, ` ${own.description}`)),
         h("td", { class: "number" }, own.fixed && actions.fix ? value(texts, each.effect, own, actions) : own.value), h("td", { class: "number" }, own.uncertainty ? `± ${own.uncertainty}` : ""), h("td", {}, own.unit),
-        h("td", {}, own.given ? h("span", { class: "given" }, texts.given) : doubt(texts, own)),
+        h("td", {}, own.given || own.at_bound ? h("span", { class: "given" }, own.given ? texts.given : texts.atBound) : doubt(texts, own)),
         h("td", {}, actions.fix && fixing(texts, each.effect, own, actions)))))),
     ))),
     h("form", { class: "other", submit: (event) => { event.preventDefault(); actions.add(event.target.elements.effect.value); } },

@@ -385,6 +385,8 @@ class ModelTables:
         uncertainty = row.uncertainty
         if row.is_given:
             uncertainty = self.writer.say(Words(en="given", de="vorgegeben"))
+        elif row.at_bound:
+            uncertainty = self.writer.say(Words(en="held at bound", de="an der Grenze"))
         elif row.is_on_grid:
             uncertainty = self.writer.say(_OF_GRID.given(half_width=uncertainty))
         plausible = self.writer.say(_PLAUSIBILITY[row.plausibility])

@@ -244,8 +244,9 @@ def _in_a_sentence(row: ParameterRow) -> str:
 
 def _amount(row: ParameterRow) -> tuple[str, str]:
     """Return a value, and its uncertainty with the unit."""
-    if row.is_given:
-        return row.value, f"{row.unit} (given)".strip()
+    known = "given" if row.is_given else f"held at {row.at_bound}" if row.at_bound else ""
+    if known:
+        return row.value, f"{row.unit} ({known})".strip()
     return row.value, f"± {row.uncertainty} {row.unit}".rstrip() + (" (grid)" if row.is_on_grid else "")
 
 

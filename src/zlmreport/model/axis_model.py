@@ -44,7 +44,7 @@ class Term:
     """An effect in a model."""
 
     effect: Effect  #: The effect, in the form that the job asks for.
-    #: Values of parameters that are given and not estimated, SI, by name.
+    #: Values of parameters that are given, or held at a bound, and not estimated, SI, by name.
     fixed: Mapping[str, float] = field(default_factory=dict)
     #: Between which parameters are estimated, SI, by name.
     bounds: Mapping[str, tuple[float, float]] = field(default_factory=dict)
@@ -74,6 +74,12 @@ class Term:
                 grid = np.concatenate([grid, ends[np.isfinite(ends[:, column])]])
                 grid[:, column] = np.clip(grid[:, column], low, high)
         return np.unique(grid, axis=0)
+
+    def held_at(self, parameter: Parameter) -> str:
+        """Return the bound at which a parameter is held, ``min`` or ``max``; empty where it is at none."""
+        if parameter.name not in self.fixed or parameter.name not in self.bounds:
+            return ""
+        return "min" if self.fixed[parameter.name] == self.bounds[parameter.name][0] else "max"
 
     def _is_free(self, parameter: Parameter) -> bool:
         return parameter.name not in self.fixed and parameter.name not in self.links

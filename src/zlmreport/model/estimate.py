@@ -126,9 +126,9 @@ class Estimate:
     effect: str  #: Identifier of its effect.
     parameter: Parameter  #: What it is.
     value: float  #: SI.
-    #: SI; 0 for a given value. Of a scanned value, that of a rectangular distribution.
+    #: SI; 0 for a value that is given or held. Of a scanned value, that of a rectangular distribution.
     standard_uncertainty: float
-    degrees: float  #: Effective degrees of freedom of the uncertainty; infinite for a given value.
+    degrees: float  #: Effective degrees of freedom of the uncertainty; infinite for a value given or held.
     is_given: bool = False  #: Whether it was given and not estimated.
     expected: float | None = None  #: The value that follows from the job, SI; None where none does.
     #: Whether it was found among the values of a grid, and nothing is known of what lies between them: its
@@ -136,11 +136,13 @@ class Estimate:
     is_scanned: bool = False
     #: The parameter of another effect that it is and that is estimated once, ``effect.parameter``.
     equals: str = ""
+    #: The bound at which it is held, ``min`` or ``max``: the readings would have it beyond.
+    at_bound: str = ""
 
     @property
     def is_free(self) -> bool:
         """Whether it is estimated for itself."""
-        return not self.is_given and not self.equals
+        return not (self.is_given or self.at_bound or self.equals)
 
     @property
     def coverage_factor(self) -> float:
@@ -271,7 +273,9 @@ def _terms(problem: Problem, solution: Solution) -> Iterator[tuple[Term, FloatAr
 def _linear(term: Term, gamma: FloatArray, solved: Iterator[tuple[float, float]]) -> Iterator[Estimate]:
     for parameter, value, is_solved in zip(term.effect.linear, gamma.tolist(), term.is_solved, strict=True):
         u, degrees = next(solved) if is_solved else (0.0, inf)
-        yield Estimate(term.effect.identifier, parameter, value, u, degrees, is_given=not is_solved)
+        held = term.held_at(parameter)
+        is_given = not (is_solved or held)
+        yield Estimate(term.effect.identifier, parameter, value, u, degrees, is_given=is_given, at_bound=held)
 
 
 def _expecting(estimate: Estimate, term: Term, axis: Axis) -> Estimate:

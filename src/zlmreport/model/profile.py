@@ -65,7 +65,7 @@ def _intervals(fitted: Fit, problem: Problem) -> Iterator[Interval]:
         index = identifiers.index(each.effect)
         term = fitted.model.terms[index]
         name = each.parameter.name
-        if not (each.is_free or (name in term.fixed and name in term.bounds)):
+        if not (each.is_free or each.at_bound):
             continue
         if each.is_scanned:
             yield _scanned(fitted, problem, index, each)

@@ -227,6 +227,8 @@ def _estimate(estimate: Estimate, design: Design) -> dict[str, Any]:
     }
     if estimate.equals:
         found["equals"] = estimate.equals
+    if estimate.at_bound:
+        found["at_bound"] = estimate.at_bound
     if estimate.expected is not None:
         found["expected"] = estimate.expected * unit.per_si
     return found

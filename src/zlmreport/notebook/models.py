@@ -38,7 +38,11 @@ _SIDES = {Approach.POSITIVE: "up", Approach.NEGATIVE: "down"}
 
 @dataclass(frozen=True, slots=True)
 class Estimated:
-    """A parameter of the model, in its own unit; `given` if it was given and not estimated."""
+    """A parameter of the model, in its own unit.
+
+    `given`: Whether it was given and not estimated.
+    `at_bound`: ``min`` or ``max`` where it is held at a bound; else empty.
+    """
 
     effect: str
     name: str
@@ -47,6 +51,7 @@ class Estimated:
     expanded_uncertainty: float
     coverage_factor: float
     given: bool
+    at_bound: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -182,7 +187,7 @@ class Model:
     def parameters(self) -> tuple[Estimated, ...]:
         """The parameters of all effects with their uncertainties (k for 95 %)."""
         return tuple(
-            Estimated(**{name: each[name] for name in Estimated.__slots__})
+            Estimated(**{name: each.get(name, "") for name in Estimated.__slots__})
             for each in report_model(self.fit)["parameters"]
         )
 
@@ -225,7 +230,7 @@ class Model:
     def covariance(self) -> FloatArray:
         """Covariance of the estimated parameters, in their units, shape (p, p).
 
-        Rows and columns are the `parameters` that are not given and vary continuously, in their order.
+        Rows and columns are the `parameters` that are estimated and vary continuously, in their order.
         """
         known = self.fit.uncertainties
         covariance = known.sigma**2 * known.inverse + known.systematic @ known.systematic.T

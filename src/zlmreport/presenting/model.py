@@ -92,12 +92,13 @@ class ParameterRow:
     name: str
     notation: str
     description: str
-    #: value, uncertainty and unit: As they are printed; no uncertainty of a given value.
+    #: value, uncertainty and unit: As they are printed; no uncertainty of a value given or held.
     value: str
     uncertainty: str
     unit: str
     number: float  #: The printed value as a number: what a click fixes is what was shown.
     is_given: bool = False  #: Whether the job states it.
+    at_bound: str = ""  #: The bound at which it is held, ``min`` or ``max``.
     #: Whether it is one of the values that were tried, and the uncertainty half the interval about it.
     is_on_grid: bool = False
     plausibility: Plausibility = Plausibility.UNKNOWN  #: How it lies to what is usual for the effect.
@@ -109,7 +110,7 @@ class ParameterRow:
         own, is_counted = estimate.parameter, design.time_is_counted
         unit = unit_of(own.dimension, design.axis.kind, time_is_counted=is_counted)
         value, half, number = _rounded(estimate.value, estimate.expanded_uncertainty, unit, language)
-        if estimate.is_given:
+        if estimate.is_given or estimate.at_bound:
             value, half = general_number(unit.from_si(estimate.value), language.decimal_sign), ""
             number = float(f"{unit.from_si(estimate.value):.6g}")
         expected = estimate.expected
@@ -125,6 +126,7 @@ class ParameterRow:
             else unit.symbol,
             number,
             estimate.is_given,
+            estimate.at_bound,
             estimate.is_scanned and not estimate.is_given,
             estimate.plausibility(time_is_counted=is_counted),
             "" if expected is None else general_number(unit.from_si(expected), language.decimal_sign),

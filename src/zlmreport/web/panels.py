@@ -190,6 +190,7 @@ def parameter_values(row: ParameterRow) -> dict[str, Any]:
         "uncertainty": row.uncertainty,
         "unit": row.unit,
         "given": row.is_given,
+        "at_bound": row.at_bound,
         "plausibility": row.plausibility.name.lower(),
         "expected": row.expected,
     }

@@ -124,6 +124,7 @@ TEXTS: Mapping[str, Words] = MappingProxyType(
             en="Estimate {parameter} from the readings", de="{parameter} aus den Messwerten schätzen"
         ),
         "given": Words(en="given", de="vorgegeben"),
+        "atBound": Words(en="held at bound", de="an der Grenze"),
         "probability": Words(en="Probability", de="Wahrscheinlichkeit"),
         "errorAfter": Words(en="Error after it", de="Abweichung danach"),
         "alike": Words(
