@@ -82,11 +82,16 @@ def read(path: Path, most: int) -> bytes:
             os.close(handle)
 
 
-def demanded(path: Path, most: int) -> bytes:
-    """Return what a file holds, as `read` does; raise `AccessError` if it cannot be read."""
+def demanded(path: Path, most: int, named_at: Place | None = None) -> bytes:
+    """Return what a file holds, as `read` does; raise `AccessError` if it cannot be read.
+
+    `named_at`: Where somebody names the file; it is told of there.
+    """
     try:
         return read(path, most)
     except OSError as error:
+        if named_at:
+            raise AccessError.at(named_at, f"{path} cannot be read: {reason(error)}") from error
         raise unreadable(path, error) from error
 
 

@@ -5,7 +5,7 @@ from io import BytesIO
 import pytest
 from PIL import Image
 
-from zlmreport.certificate.logo import read_logo
+from zlmreport.certificate.own_look import read_logo
 from zlmreport.errors import AccessError, InputError, Place
 
 PLACE = Place("job.yaml", 3, 9)

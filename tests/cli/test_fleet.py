@@ -15,7 +15,7 @@ from fleet.fleets import FLEET, Fleet, without_processes
 from processes import PYTHON
 from processes import run as run_program
 from zlmreport.cli import main
-from zlmreport.cli.fleet_log import Progress, TextLog, bar
+from zlmreport.cli.fleet import Progress, TextLog, bar
 from zlmreport.fleet.issuing import Happened, What
 
 OTHER_READINGS = "2 2 3 -1 -2 -3"

@@ -78,7 +78,7 @@ def test_mistake_in_an_extended_file_is_placed_there(tmp_path: Path) -> None:
 
 
 def test_missing_file_is_named_where_it_is_extended(tmp_path: Path) -> None:
-    with pytest.raises(AccessError, match=r"job\.yaml:1:19: '.*none\.yaml' cannot be read: no such file"):
+    with pytest.raises(AccessError, match=r"job\.yaml:1:19: .*none\.yaml cannot be read: no such file"):
         _loaded(tmp_path, job=f"extends: [a.yaml, none.yaml]\n{SOUND}", a="machine: {}\n")
 
 

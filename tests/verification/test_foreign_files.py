@@ -216,7 +216,7 @@ def test_a_job_inside_a_pdf_extends_no_file_of_the_same_kind_outside(
     secret = tmp_path / "secret.yaml"
     secret.write_text(SECRET, encoding="utf-8")
     job = JOB.replace("extends: ../laboratory.yaml", f"extends: {secret}").encode()
-    with pytest.raises(AccessError, match=r"secret\.yaml' cannot be read: no such file") as refused:
+    with pytest.raises(AccessError, match=r"secret\.yaml cannot be read: no such file") as refused:
         verified(with_source(issued, "job.yaml", job))
     assert SECRET not in str(refused.value)
 

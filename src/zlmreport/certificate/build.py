@@ -12,9 +12,8 @@ from zlmreport.certificate.attachments import sources
 from zlmreport.certificate.conditions import Described
 from zlmreport.certificate.cover import lines
 from zlmreport.certificate.document import Certificate, Letterhead, PageWords, Party
-from zlmreport.certificate.logo import Logo, read_logo
 from zlmreport.certificate.material import LaidOut, Material, in_full
-from zlmreport.certificate.own_look import read_look
+from zlmreport.certificate.own_look import Logo, read_logo, read_look
 from zlmreport.certificate.own_words import arranged, filled
 from zlmreport.certificate.statements import document_title, running_title
 from zlmreport.evaluation.likely_units import doubts

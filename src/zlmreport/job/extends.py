@@ -9,8 +9,8 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from zlmreport.errors import AccessError, InputError, Place, Problem, quoted
-from zlmreport.files import read, reason, unreadable
+from zlmreport.errors import InputError, Place, Problem, quoted
+from zlmreport.files import demanded
 from zlmreport.job.parse import LARGEST, parse
 from zlmreport.job.tree import Items, Keys, Node, Scalar, keys_of, merged
 from zlmreport.job.types import path_named
@@ -162,7 +162,7 @@ class _Reader:
         if named_at and len(chain) == LONGEST_CHAIN:
             raise InputError.at(named_at, f"more than {LONGEST_CHAIN} files extend one another in a row")
         if identity not in self._known:
-            content = self.given[identity] if identity in self.given else _content(path, named_at)
+            content = self.given[identity] if identity in self.given else demanded(path, LARGEST, named_at)
             self.files[identity] = SourceFile.of(path, content)
             self._known[identity] = self._with_bases(parse(content, str(path)), (*chain, path))
         return self._known[identity]
@@ -206,13 +206,3 @@ def _base(name: Scalar, naming_file: Path) -> Path:
         return path_named(name.text, naming_file)
     except ValueError as error:
         raise InputError.at(name.place, f"extends: {error}") from error
-
-
-def _content(path: Path, named_at: Place | None) -> bytes:
-    """Return a file's bytes, one more than is allowed at most."""
-    try:
-        return read(path, LARGEST)
-    except OSError as error:
-        if named_at:
-            raise AccessError.at(named_at, f"{str(path)!r} cannot be read: {reason(error)}") from error
-        raise unreadable(path, error) from error

@@ -19,7 +19,7 @@ from typing import Any, TypeAlias
 from urllib.parse import unquote
 
 from zlmreport.errors import AccessError, InputError, Place, did_you_mean
-from zlmreport.files import read, reason
+from zlmreport.files import demanded
 from zlmreport.signing.state import in_silence
 
 #: Of a key with its certificates, bytes.
@@ -211,10 +211,7 @@ def _in_file(path: Path, ask_password: Callable[[str], str], place: Place) -> An
     from cryptography.hazmat.primitives.serialization import pkcs12  # noqa: PLC0415 (an optional extra)
     from pyhanko.sign.signers import SimpleSigner  # noqa: PLC0415 (an optional extra)
 
-    try:
-        content = read(path, _LARGEST)
-    except OSError as error:
-        raise AccessError.at(place, f"{path} cannot be read: {reason(error)}") from error
+    content = demanded(path, _LARGEST, place)
     password = ask_password(str(path)).encode() or None
     try:
         key, certificate, _ = pkcs12.load_key_and_certificates(content, password)

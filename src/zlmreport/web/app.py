@@ -26,11 +26,10 @@ from zlmreport.web.bench import PLACE, Bench
 from zlmreport.web.changes import ConflictError, NothingToUndoError, Request, change
 from zlmreport.web.commands import Commands, Wanted
 from zlmreport.web.comparison import Comparison
-from zlmreport.web.diagnoses import Diagnoses
+from zlmreport.web.diagnoses import Answers, Diagnoses
 from zlmreport.web.effect_page import effect_page
 from zlmreport.web.guard import HOST, Door, Guard
 from zlmreport.web.making import page_picture
-from zlmreport.web.remembered import Answers
 from zlmreport.web.texts import texts
 from zlmreport.web.view import before_and_after, closer, results, view
 

@@ -1,14 +1,21 @@
-"""What the page asks for: lengths of the axis that nobody stated and that let more effects be tried."""
+"""What the page asks for: lengths that let more effects be tried, and what a certificate would lack."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from types import MappingProxyType
+from typing import Any, Literal
 
-from zlmreport.language import Words
+from zlmreport import pipeline
+from zlmreport.certificate.clauses import MANDATORY_ITEMS
+from zlmreport.job.job import Job
+from zlmreport.language import Language, Words
 from zlmreport.measurement.axis import AxisKind
 from zlmreport.model.effect import Effect
+from zlmreport.plugins import Registry
+from zlmreport.uncertainty.job_budget import INSTRUMENT
+from zlmreport.uncertainty.wording import DEVICE, contributor
 from zlmreport.web.bench import Loaded
 
 #: The lengths by their keys: what they are called, and a usual part of the travel, with which is tried
@@ -48,3 +55,137 @@ def asked(loaded: Loaded, effects: Sequence[Effect]) -> tuple[Asked, ...]:
             called = _OF_ROTARY.get(key, name) if axis.kind is AxisKind.ROTARY else name
             found.append(Asked(key, called, axis.position_unit.symbol, tried))
     return tuple(sorted(found, key=lambda each: -len(each.effects)))
+
+
+_FULL_RANGE = Words(en="{name}: full range", de="{name}: volle Spanne")
+_INSTRUMENT_U = "instrument.expanded_uncertainty"
+
+
+@dataclass(frozen=True, slots=True)
+class Field:
+    """Something that the job does not state."""
+
+    key: str  #: Its key in the job.
+    name: Words  #: What people call it.
+    form: Literal["text", "date", "number", "place"] = "text"  #: How it is written.
+    unit: str = ""  #: Symbol of the unit of a number.
+    reason: str = ""  #: The key that says instead why it is negligible; empty where it cannot be.
+
+
+#: Of the items that clause 7.8 demands, by the keys that its check names.
+_FIELDS: Mapping[str, Field] = MappingProxyType(
+    {
+        each.key: each
+        for each in (
+            Field("laboratory.name", Words(en="Laboratory", de="Laboratorium")),
+            Field("laboratory.address", Words(en="Its address", de="Dessen Anschrift")),
+            Field("location", Words(en="Place of the work", de="Ort der Kalibrierung"), "place"),
+            Field("customer.name", Words(en="Customer", de="Auftraggeber")),
+            Field("customer.address", Words(en="The customer's address", de="Anschrift des Auftraggebers")),
+            Field("machine.model", Words(en="Model of the machine", de="Typ der Maschine")),
+            Field("machine.serial", Words(en="Its serial number", de="Deren Seriennummer")),
+            Field("measurement.date", Words(en="Date of the measurement", de="Datum der Messung"), "date"),
+            Field(
+                "as_found.measurement.date",
+                Words(
+                    en="Date of the measurement before the adjustment", de="Datum der Messung vor der Justage"
+                ),
+                "date",
+            ),
+            Field("certificate.issued", Words(en="Date of issue", de="Ausstellungsdatum"), "date"),
+            Field("certificate.authorised_by.name", Words(en="Authorised by", de="Freigegeben durch")),
+            Field("instrument.name", DEVICE),
+            Field(_INSTRUMENT_U, Words(en="Its U (k = 2)", de="Dessen U (k = 2)"), "number"),
+            Field(
+                "instrument.certificate",
+                Words(en="Its calibration certificate", de="Dessen Kalibrierschein"),
+            ),
+            Field("as_found.adjustment", Words(en="What was adjusted", de="Was justiert wurde")),
+            Field(
+                "environment.air_temperature",
+                Words(en="Air temperature", de="Lufttemperatur"),
+                "number",
+                "°C",
+            ),
+            Field(
+                "environment.axis_temperature",
+                Words(en="Temperature of the machine's scale", de="Temperatur des Maschinenmaßstabs"),
+                "number",
+                "°C",
+            ),
+            Field(
+                "environment.expansion_coefficient",
+                Words(en="Expansion coefficient of the machine", de="Ausdehnungskoeffizient der Maschine"),
+                "number",
+                "µm/(m·K)",
+            ),
+        )
+    }
+)
+#: Items that groups of keys state: the first of their keys.
+_FIRST_OF = MappingProxyType(
+    {
+        "certificate.authorised_by": "certificate.authorised_by.name",
+        "environment": "environment.air_temperature",
+    }
+)
+_TEMPERATURES = ("environment.axis_temperature", "environment.expansion_coefficient")
+_UNITS = MappingProxyType(
+    {
+        "misalignment": "mm",
+        "machine_temperature": "K",
+        "device_temperature": "K",
+        "expansion_coefficient": "µm/(m·K)",
+        "device_expansion_coefficient": "µm/(m·K)",
+        "air_temperature": "K",
+        "air_pressure": "hPa",
+        "relative_humidity": "%",
+    }
+)
+
+
+def lacking(loaded: Loaded, registry: Registry) -> tuple[Field, ...]:
+    """Return what a job lacks to be a calibration certificate; nothing for a measuring report."""
+    job = loaded.job
+    if job.keys.certificate.kind != "certificate":
+        return ()
+    return tuple({each.key: each for each in _lacking(job, loaded, registry)}.values())
+
+
+def _lacking(job: Job, loaded: Loaded, registry: Registry) -> Iterator[Field]:
+    unstated = (item.key for item in MANDATORY_ITEMS if not item.stated(job.keys))
+    of_clause = {_FIRST_OF.get(key, key) for key in unstated}
+    if of_clause & {_INSTRUMENT_U, "instrument.certificate"} and job.keys.instrument is None:
+        of_clause.add("instrument.name")
+    unit = job.axis.deviation_unit.symbol
+    for key, field in _FIELDS.items():
+        if key in of_clause:
+            yield replace(field, unit=unit) if key == _INSTRUMENT_U else field
+    budget = pipeline.budget_of_job(job, loaded.measurements, registry)
+    if budget.uncorrected_expansion is None:
+        stated = job.keys.environment
+        for key in _TEMPERATURES:
+            if stated is None or getattr(stated, key.partition(".")[2]) is None:
+                yield _FIELDS[key]
+    for name in budget.missing:
+        if name == INSTRUMENT:
+            yield replace(_FIELDS[_INSTRUMENT_U], unit=unit)
+        else:
+            yield Field(
+                f"uncertainty.{name}",
+                contributor(name) if name == "resolution" else _FULL_RANGE.given(name=contributor(name)),
+                "number",
+                _UNITS.get(name, unit),
+                f"uncertainty.negligible.{name}",
+            )
+
+
+def field_values(field: Field, language: Language) -> dict[str, Any]:
+    """Return a field as a page is told of it."""
+    return {
+        "key": field.key,
+        "name": field.name.in_language(language),
+        "form": field.form,
+        "unit": field.unit,
+        "reason": field.reason,
+    }

@@ -22,10 +22,9 @@ from zlmreport.job.measurement_keys import ExclusionKeys
 from zlmreport.language import Words
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.model.study import Fitted, addition, refuse_useless
-from zlmreport.web.asked import asked
+from zlmreport.web.asked import asked, lacking
 from zlmreport.web.bench import PLACE, Bench, Loaded
 from zlmreport.web.journal import REDO, UNDO, Entry, Journal, entry, redoable, undoable
-from zlmreport.web.lacking import lacking
 
 _KEY = "model.effects"
 _TABLE = "axis.compensation_table"

@@ -3,30 +3,85 @@
 A diagnosis keeps a processor busy for a second, or for minutes on thousands of readings. Apart, it slows no
 page down, and is ended when the job has changed or nobody waits for it. A line of standard input asks for a
 diagnosis of the job as it is on the disk; a line of JSON answers. What was answered once is remembered by the
-content of the files: taking a step back asks nothing anew.
+content of the files, in the user's cache folder: taking a step back asks nothing anew.
 """
 
 from __future__ import annotations
 
+import contextlib
+import hashlib
 import json
 import os
 import subprocess
 import sys
 import time
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from threading import Lock, Thread
 from typing import Any
 
-from zlmreport.errors import ZlmreportError
+from zlmreport import version
+from zlmreport.errors import AccessError, ZlmreportError
+from zlmreport.files import Document, cache_folder, write
 from zlmreport.language import Language
 from zlmreport.model.comparison import Told, untold
+from zlmreport.model.effect import Effect
 from zlmreport.planning.deciding import experiment_of_tie, experiment_values
 from zlmreport.plugins import Registry, find_plugins
 from zlmreport.web.bench import Bench
-from zlmreport.web.remembered import Answers
 from zlmreport.web.view import diagnosed
+
+#: Diagnoses that are kept: some hundred kilobytes each.
+_KEPT = 200
+
+
+@dataclass(frozen=True, slots=True)
+class Answers:
+    """Diagnoses by the content of the files that they were made from."""
+
+    folder: Path | None  #: Where they lie; None for memory alone.
+    program: str  #: Names the program and the effects that make them.
+    _known: dict[str, Any] = field(default_factory=dict)
+
+    @classmethod
+    def of_user(cls, effects: Iterable[Effect]) -> Answers:
+        """Return those of a user, of this program with these effects."""
+        folder = cache_folder()
+        return cls(folder / "diagnoses" if folder else None, _program(effects))
+
+    def recall(self, content: str) -> Any:
+        """Return the diagnosis of a content; None if none was made."""
+        name = self._name(content)
+        if name not in self._known and self.folder:
+            with contextlib.suppress(OSError, ValueError):
+                self._known[name] = json.loads((self.folder / name).read_text(encoding="utf-8"))
+        return self._known.get(name)
+
+    def keep(self, content: str, diagnosis: Any) -> None:
+        """Remember the diagnosis of a content; the oldest give way."""
+        name = self._name(content)
+        self._known[name] = diagnosis
+        if self.folder is None:
+            return
+        with contextlib.suppress(AccessError, OSError):
+            write([Document(self.folder / name, json.dumps(diagnosis).encode())])
+            kept = sorted(self.folder.glob("*.json"), key=lambda each: each.stat().st_mtime_ns)
+            for path in kept[:-_KEPT]:
+                path.unlink()
+
+    def _name(self, content: str) -> str:
+        return f"{hashlib.sha256(f'{self.program} {content}'.encode()).hexdigest()}.json"
+
+
+def _program(effects: Iterable[Effect]) -> str:
+    """Return what tells this program and its effects, as they stand in their files, from any other."""
+    package = Path(version.__file__).parent
+    modules = (sys.modules.get(each.__class__.__module__) for each in effects)
+    homes = {Path(found) for each in modules if (found := getattr(each, "__file__", None))}
+    stats = [(str(path), path.stat()) for path in sorted({*package.rglob("*.py"), *homes})]
+    return repr([(path, stat.st_mtime_ns, stat.st_size) for path, stat in stats])
+
 
 _SHARE = "share-done"
 _TOLD = f'{{"{_SHARE}"'

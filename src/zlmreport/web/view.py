@@ -15,11 +15,10 @@ from zlmreport.model.effect import Effect
 from zlmreport.model.faults import Fault
 from zlmreport.model.study import Study
 from zlmreport.presenting.diagnosis import CandidateRow, DiagnosisRows
-from zlmreport.web.asked import asked
+from zlmreport.web.asked import asked, field_values, lacking
 from zlmreport.web.bench import PLACE, Bench, Loaded
 from zlmreport.web.commands import offered
 from zlmreport.web.journal import REDO, UNDO, Entry, Journal, redoable, undoable
-from zlmreport.web.lacking import field_values, lacking
 from zlmreport.web.panels import Panels, error_values, parameter_values
 
 _READING = Words(en="{target} {arrow}, run {run}", de="{target} {arrow}, Durchlauf {run}")
