@@ -57,6 +57,16 @@ def test_one_that_breaks_a_rule_of_ptb_does_not_hold(tmp_path, schema):
     assert "not valid by PTB's rules" in rules.detail
 
 
+def test_one_that_the_rules_cannot_be_held_against_does_not_hold(tmp_path, schema):
+    """They calculate with a date that is none."""
+    end = "<dcc:endPerformanceDate>2022-04-07"
+    broken = carried(tmp_path, **{end: "<dcc:endPerformanceDate>2022-04-1e308"})
+    rules, _ = digital_findings(broken, schema)
+
+    assert rules.verdict is Verdict.DIFFERS
+    assert "not valid by PTB's rules: Invalid date" in rules.detail
+
+
 def test_one_that_breaks_the_schema_does_not_hold_and_the_line_is_named(tmp_path):
     _, by_schema = digital_findings(carried(tmp_path), written(tmp_path, "9.9.9"))
 

@@ -279,8 +279,12 @@ def _digital(name: str, content: bytes, schema: Path) -> Iterator[Finding]:
 
 def _broken_rules(text: str) -> list[str]:
     from dcclib.validation.schematron import SchematronValidator  # noqa: PLC0415 - an optional extra
+    from saxonche import PySaxonApiError  # noqa: PLC0415 - comes with the extra
 
-    found = SchematronValidator.for_dcc().validate_str(text)
+    try:
+        found = SchematronValidator.for_dcc().validate_str(text)
+    except PySaxonApiError as error:  # such as a date that is none, which the rules calculate with
+        return [str(error)]
     reports = [each.text for each in found.successful_reports if each.role == "error"]
     return [*(each.text for each in found.failed_assertions), *reports]
 
