@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import chain
 from math import exp, inf, log
+from statistics import NormalDist
 
 import pytest
 
@@ -175,3 +177,39 @@ def test_no_time_at_all_is_a_time_too_short_and_not_a_second() -> None:
     at_once, late = (place._in_time(guess, 1, stop(2, time=time)) for time in (5.0, 9.0))
     assert at_once == -20.0
     assert late > 0.0
+
+
+def test_a_time_is_as_likely_as_its_distance_from_the_plan_and_what_was_left_out() -> None:
+    """30 % too early, in logarithms: one standard deviation; a rest left out counts as well."""
+    time = PROGRAMME.seconds(0, 1) * exp(-0.3)
+    weight = placed()._in_time(_Guess(0, 0.0, 0.0, 0, 0), 1, stop(2, time=time))
+    assert exp(weight) == pytest.approx(NormalDist(0, 0.3).pdf(-0.3) + exp(-3.0 - 1.5))
+
+
+def test_the_way_from_the_start_with_its_turns_speaks_for_a_visit() -> None:
+    """The fourth visit is behind a turn; two visits in between went unseen, and one more."""
+    route = Route(SETTINGS.tolerance)
+    route.add(PROGRAMME.start)
+    assert placed()._from_rest(-1, 3, [0.205], route) == pytest.approx(3.0 - 1.0 - 0.7 * 3)
+
+
+def test_an_axis_goes_on_to_the_same_target_and_only_a_little() -> None:
+    near, far = (replace(stop(1), position=stop(1).position + each) for each in (1e-3, 50e-3))
+    beside = replace(stop(1), target=2)
+    assert [placed()._is_same(stop(1), each) for each in (near, far, beside)] == [True, False, False]
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "files", "weight"),
+    [
+        (UP, DOWN, (1, 1), 0.0),  # it was seen how the axis came
+        (None, None, (1, 1), 0.0),  # nor is it now
+        (None, UP, (1, 1), 0.0),
+        (None, DOWN, (1, None), -13.0),  # the other way round: no stop of the program
+    ],
+)
+def test_an_axis_that_goes_on_shows_how_it_came(
+    before: Approach | None, after: Approach | None, files: tuple[int | None, ...], weight: float
+) -> None:
+    guess = placed()._gone_on(_Guess(1, 0.0, 0.0, 0, 0, files=(1,)), stop(2, before), stop(2, after))
+    assert (guess.place, guess.files, guess.weight) == (1, files, weight)

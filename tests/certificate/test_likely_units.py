@@ -42,6 +42,12 @@ def test_condition_in_another_unit_is_named_with_it(
     assert sentence.endswith(likely)
 
 
+def test_a_share_of_1_is_called_one_in_german(tmp_path: Path) -> None:
+    environment = {"axis_temperature": 20, "expansion_coefficient": 11.5, "relative_humidity": 0.45}
+    (doubt,) = certificate(tmp_path, {**COMPLETE, "environment": environment}).doubts
+    assert doubt.in_language(Language.GERMAN).endswith("0,45 von 1 wären 45 %")
+
+
 def test_condition_that_fits_no_unit_is_unusual(tmp_path: Path) -> None:
     environment = {"axis_temperature": 20, "air_temperature": -20.0}
     (sentence,) = said(tmp_path, {"environment": environment})

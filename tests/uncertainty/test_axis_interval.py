@@ -15,6 +15,7 @@ from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.testing import bidirectional_test
 from zlmreport.uncertainty.axis_interval import (
     _digamma,
+    _interval,
     _inverse_trigamma,
     _pooled,
     _scatter_of,
@@ -203,3 +204,9 @@ def test_the_functions_of_variances_agree_with_what_is_known_of_them() -> None:
     assert [_digamma(x) for x in (1.0, 0.5)] == pytest.approx([-EULER, -EULER - 2 * math.log(2)], abs=1e-5)
     assert [_inverse_trigamma(y) for y in (math.pi**2 / 2, math.pi**2 / 6)] == pytest.approx([0.5, 1.0])
     assert _inverse_trigamma(1e-5) == pytest.approx(1e5 + 0.5, rel=1e-6)
+
+
+def test_a_value_that_reached_nothing_in_a_drawn_test_does_not_go_below() -> None:
+    drawn = np.array([0.0, 2.0]), np.array([2.0, 0.0])
+    assert _interval(1.0, *drawn) == pytest.approx((0.0, 3.0), rel=0.1)
+    assert _interval(1.0, drawn[0] - 0.1, drawn[1])[0] < -1.0

@@ -189,6 +189,23 @@ def test_the_last_digit_of_corrected_readings_says_nothing_of_the_instrument(tmp
 
 
 @pytest.mark.parametrize(
+    ("stated", "said"),
+    [
+        ({"expanded_uncertainty": 0.5}, "U = 0.5 µm (k = 2)"),
+        ({"standard_uncertainty": 0.5}, "u = 0.5 µm"),
+        ({"range": 0.5}, "R = 0.5 µm"),
+    ],
+)
+def test_any_other_contribution_says_how_it_is_stated(
+    tmp_path: Path, stated: dict[str, Any], said: str
+) -> None:
+    other = {"name": "Dead path", "acts": "at-each-position", **stated}
+    found = contributions(tmp_path, keys(uncertainty={"contributions": [other]}))["Dead path"]
+
+    assert found.stated.in_language(Language.ENGLISH) == said
+
+
+@pytest.mark.parametrize(
     ("stated", "standard_uncertainty", "distribution"),
     [
         ({"expanded_uncertainty": 0.5}, 0.25, Distribution.NORMAL),
@@ -266,6 +283,18 @@ def test_what_a_warm_machine_shows_too_long_is_a_known_error_and_in_the_budget_w
     assert budget.uncorrected_expansion == pytest.approx(11 * 11.5e-6 * LENGTH)
     (known,) = (each for each in budget.contributions if each.distribution is Distribution.KNOWN)
     assert (size(known), known.sign) == (pytest.approx(11 * 11.5 * LENGTH), -1)
+    assert known.stated.in_language(Language.ENGLISH) == "α·ΔT·L = 5.06 µm"
+    assert known.source.in_language(Language.ENGLISH) == (
+        "of known size: α = 11.5 µm/(m·K), ΔT = 11 K, L = 0.04 m"
+    )
+
+
+def test_what_a_cold_machine_shows_too_short_goes_the_other_way(tmp_path: Path) -> None:
+    cold = made(tmp_path, keys(environment={"axis_temperature": 9, "expansion_coefficient": 11.5}))
+
+    assert isinstance(cold, Budget)
+    (known,) = (each for each in cold.contributions if each.distribution is Distribution.KNOWN)
+    assert (size(known), known.sign) == (pytest.approx(11 * 11.5 * LENGTH), 1)
 
 
 @pytest.mark.parametrize(("temperature", "difference"), [(20.04, 0.0), (19.96, 0.0), (20.06, 0.06)])
