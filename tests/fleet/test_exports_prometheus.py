@@ -14,6 +14,7 @@ from fleet.histories import entry, history, parameter, quarters
 from zlmreport.fleet.exports import heartbeat, metrics
 from zlmreport.fleet.records import About, Entry, Notice, PastNight, State
 from zlmreport.fleet.state import Rules, state_of
+from zlmreport.language import same
 
 NIGHT = PastNight(
     datetime(2026, 11, 21, 2, tzinfo=UTC), datetime(2026, 11, 21, 2, tzinfo=UTC) + timedelta(seconds=94.5)
@@ -65,7 +66,7 @@ def test_jobs_are_counted_by_their_state() -> None:
 
 
 def test_what_concerns_the_whole_night_is_one_and_all_else_zero() -> None:
-    noticed = PastNight(NIGHT.began, NIGHT.ended, (Notice(About.FOLDER, "the folder is empty"),))
+    noticed = PastNight(NIGHT.began, NIGHT.ended, (Notice(About.FOLDER, same("the folder is empty")),))
     samples = told(DRIFT, night=noticed)["zlmreport_fleet_notice"].samples
     assert {dict(labels)["about"]: value for labels, value in samples.items()} == {
         "jobs": 0,
@@ -75,6 +76,9 @@ def test_what_concerns_the_whole_night_is_one_and_all_else_zero() -> None:
         "stuck": 0,
         "untold": 0,
         "priors": 0,
+        "broken": 0,
+        "left": 0,
+        "documents": 0,
     }
 
 

@@ -18,6 +18,7 @@ from zlmreport.fleet.database import FORMAT
 from zlmreport.fleet.issuing import What
 from zlmreport.fleet.ledger import Ledger, Night, NumberTakenError
 from zlmreport.fleet.records import About, Entry, Notice, RecordedParameter, State
+from zlmreport.language import Words
 
 NIGHTS = ("2026-11-20T02:00:00+00:00", "2026-11-21T02:00:00+00:00")
 BASIS = Basis(
@@ -215,12 +216,12 @@ def test_a_ledger_of_an_older_format_is_brought_up_to_date(older: int, address: 
     with night(address, NIGHTS[1]) as (ledger, at_work):
         assert list(ledger.entries()) == [ENTRY]
         at_work.beat(NIGHTS[1])
-        at_work.notice([Notice(About.CLOCK, "set back")])
+        at_work.notice([Notice(About.CLOCK, Words("set back", "zurückgestellt"))])
         at_work.issue(replace(ENTRY, number="CAL-2"), FILES, BASIS, {"kind": "linear"})
         assert [each.lesson for each in ledger.lessons()] == [{"kind": "linear"}]
         last = ledger.last_night()
         assert last is not None
-        assert last.notices == (Notice(About.CLOCK, "set back"),)
+        assert last.notices == (Notice(About.CLOCK, Words("set back", "zurückgestellt")),)
 
 
 def test_a_copy_of_a_ledger_says_the_same(address: str, tmp_path: Path) -> None:

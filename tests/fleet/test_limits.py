@@ -74,7 +74,9 @@ def stopping(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Fleet:
 def test_what_is_stopped_twice_is_set_aside_until_its_inputs_change(stopping: Fleet) -> None:
     assert stopping.spend().what == {"x": What.FAILED}
     assert "set aside until" in stopping.spend().of("x").problems[0].message
-    assert stopping.spend().what == {"x": What.SET_ASIDE}
+    aside = stopping.spend().of("x")
+    assert aside.what is What.SET_ASIDE
+    assert aside.problems[0].message.startswith("was stopped; it is set aside until")
     assert [each.state for each in stopping.entries()] == [State.STOPPED, State.SET_ASIDE]
     stopping.readings("x", "2 2 3 -1 -2 -3")
     assert stopping.spend().what == {"x": What.FAILED}
@@ -126,4 +128,7 @@ def test_after_its_time_a_night_begins_no_job_and_says_what_is_left(
     witness = Witness()
     night.spend(fleet.file, night.Order(seconds=0.0), witness)
     assert witness.what == {"x": What.LEFT, "y": What.LEFT}
+    assert [each.english for each in witness.notices] == [
+        "the time of the night was over before 2 of 2 jobs; they are for the next night"
+    ]
     assert fleet.spend().what == {"x": What.ISSUED, "y": What.ISSUED}

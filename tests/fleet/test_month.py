@@ -34,6 +34,7 @@ MEASURED = range(1, 29, 3)
 TOLD = {
     "folder": 1,
     "clock": 1,
+    "broken": 2,
     "lost": 1,
     "hangs": 1,
     "aside": 1,
@@ -145,6 +146,7 @@ def kind_of(line: str) -> str:
     words = {
         "the folder is empty": "folder",
         "the clock stands": "clock",
+        "was broken off": "broken",
         "the job is gone": "lost",
         "it is set aside until": "aside",
         "the limit of a job": "hangs",

@@ -18,12 +18,13 @@ from fleet.fleets import FLEET, Fleet, Witness, without_processes
 from fleet.histories import entry, history, parameter
 from zlmreport.errors import InputError
 from zlmreport.fleet import news, night
+from zlmreport.fleet.ledger import Ledger
 from zlmreport.fleet.news import digest, news_of
 from zlmreport.fleet.night import MissingError
 from zlmreport.fleet.plan import Planned
-from zlmreport.fleet.records import About, Notice, PastNight
+from zlmreport.fleet.records import About, Notice, PastNight, State
 from zlmreport.fleet.state import Rules, state_of
-from zlmreport.language import Language
+from zlmreport.language import Language, same
 from zlmreport.plugin import AccessError, Message, Occasion, Options, Place, Words, hookimpl
 from zlmreport.plugins import Plugin, collect
 
@@ -120,6 +121,44 @@ def test_what_could_not_be_told_is_told_by_the_next_night(fleet: Fleet, post: Po
     assert [title for title, _ in post.letters] == ["Hall North: 1 failed"]
 
 
+def test_that_nobody_was_reached_stands_in_the_ledger_until_somebody_is(fleet: Fleet, post: Post) -> None:
+    post.is_shut = True
+    fleet.readings("x", "1 2")
+    noticed = []
+    for is_shut in (True, True, False, False):
+        post.is_shut = is_shut
+        fleet.spend()
+        noticed.append([each.about for each in last_of(fleet).notices])
+    assert noticed == [[About.UNTOLD], [About.UNTOLD], [], []]
+    assert len(post.letters) == 1
+
+
+def last_of(fleet: Fleet) -> PastNight:
+    with Ledger.open(fleet.file.ledger, "Hall North") as ledger:
+        last = ledger.last_night()
+    assert last is not None
+    return last
+
+
+def test_a_new_way_is_told_what_is_still_so_and_no_history(fleet: Fleet, post: Post) -> None:
+    fleet.job("z", readings="1 2")
+    for readings in ("1 2", "1 2 3 -1 -2 -3"):
+        fleet.readings("x", readings)
+        fleet.spend()
+    post.messages.clear()
+    fleet.write("fleet.yaml", FLEET + NOTIFY.replace("Ada", "Grace"))
+    fleet.spend()
+    ((_, text),) = post.letters
+    assert "jobs/z" in text
+    assert "jobs/x" not in text
+
+
+def test_a_message_that_begins_with_its_job_names_it_once() -> None:
+    failed = entry(dt.date(2026, 8, 1), job="z.yaml", state=State.FAILED, message="z.yaml: was stopped")
+    (told,) = news_of(state_of("Hall North", [failed], ["z.yaml"], None), Language.ENGLISH)
+    assert told.text == "z.yaml: was stopped"
+
+
 def test_a_folder_that_is_gone_is_told_though_nothing_is_done(fleet: Fleet, post: Post) -> None:
     fleet.spend()
     (fleet.folder / "certificates").rename(fleet.folder / "elsewhere")
@@ -170,14 +209,14 @@ def test_a_way_that_hangs_does_not_stop_the_night(
     fleet.readings("x", "1 2")
     (notice,) = fleet.spend().notices
     released.set()
-    assert notice.text == "the news was not sent by post Ada: it was not taken within 0.05 s"
+    assert notice.english == "the news was not sent by post Ada: it was not taken within 0.05 s"
 
 
 def test_news_is_in_the_language_of_the_fleet() -> None:
     values = [6.0, 6.2, 5.9, 6.1, 6.0, 6.1, 16.4]
     entries = [*history(values), *history([5.0, 6.0, 7.1, 8.0, 9.1, 10.0, 11.1], axis="Y")]
     entries.append(entry(dt.date(2026, 8, 1), parameter(21.53, conforms=False), axis="Z", job="z.yaml"))
-    clock = Notice(About.CLOCK, "the clock stands at …")
+    clock = Notice(About.CLOCK, same("die Uhr steht auf …"))
     last = PastNight(dt.datetime(2027, 9, 1, tzinfo=dt.UTC), None, (clock,))
     state = state_of("Halle Nord", entries, [], last, Rules(365))
     keys = SimpleNamespace(name="Halle Nord", keys=SimpleNamespace(language="de"))
@@ -187,7 +226,7 @@ def test_news_is_in_the_language_of_the_fleet() -> None:
     )
     machine = "Example Works MT 500, serial 1"
     for line in (
-        "Zum ganzen Lauf\n- Uhr: the clock stands at …",
+        "Zum ganzen Lauf\n- Uhr: die Uhr steht auf …",
         f"- {machine}, Z: A = 21,5 µm, Grenzwert 20 µm",
         f"- {machine}, X: A + 10,4 µm seit 2026-07-15",
         f"- {machine}, Y: A + 4,1 µm im Jahr, Grenzwert erreicht 2028-",

@@ -189,13 +189,6 @@ def test_a_certificate_that_somebody_changed_is_left_and_named(fleet: Fleet) -> 
     assert fleet.certificate("x").read_bytes() == b"changed"
 
 
-def test_a_certificate_that_was_signed_since_is_as_it_was_issued(fleet: Fleet) -> None:
-    fleet.spend()
-    with fleet.certificate("x").open("ab") as file:
-        file.write(b"signature")
-    assert fleet.spend().what["x"] is What.UNCHANGED
-
-
 def test_a_file_that_no_ledger_knows_is_never_overwritten(fleet: Fleet) -> None:
     fleet.write("certificates/17/X/CAL-X.txt", "of last year")
     assert fleet.spend().what["x"] is What.DRAFT

@@ -20,7 +20,7 @@ from zlmreport.fleet.overview import overview
 from zlmreport.fleet.overview_cells import Names
 from zlmreport.fleet.records import MODEL, About, Entry, Notice, PastNight, State
 from zlmreport.fleet.state import state_of
-from zlmreport.language import Language
+from zlmreport.language import Language, same
 from zlmreport.plugins import find_plugins
 
 NIGHT = datetime(2026, 11, 21, 2, 0, tzinfo=UTC)
@@ -61,7 +61,7 @@ FAILURE = of_night(
 
 
 def test_what_concerns_the_whole_night_stands_first() -> None:
-    notices = (Notice(About.FOLDER, "the folder is empty"),)
+    notices = (Notice(About.FOLDER, same("the folder is empty")),)
     state = state_of("Hall North", CALM, ["x"], PastNight(NIGHT, NIGHT, notices))
     html = overview(state, Language.ENGLISH, Names(find_plugins().standards), ".")
     assert "Folder of certificates the folder is empty" in text(section(html, "needs"))

@@ -79,11 +79,17 @@ def test_other_files_are_left_alone(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("content", "intact"), [(b"pages", True), (b"pages, signed", True), (b"paper", False), (b"pag", False)]
 )
-def test_a_certificate_is_as_it_was_issued_if_it_begins_so(
-    tmp_path: Path, content: bytes, *, intact: bool
-) -> None:
+def test_a_pdf_is_as_it_was_issued_if_it_begins_so(tmp_path: Path, content: bytes, *, intact: bool) -> None:
     with laid(tmp_path, FILES[:1]) as files:
         files.name()
     path = tmp_path / "m/X/CAL-1.pdf"
     path.write_bytes(content)
     assert is_intact(path, files.known[0]) is intact
+
+
+def test_to_any_other_file_nothing_may_be_added(tmp_path: Path) -> None:
+    with laid(tmp_path, FILES[1:2]) as files:
+        files.name()
+    path = tmp_path / files.known[0].path
+    path.write_bytes(path.read_bytes() + b" ")
+    assert not is_intact(path, files.known[0])

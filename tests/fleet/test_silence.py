@@ -9,12 +9,14 @@ from pathlib import Path
 import pytest
 
 from fleet.fleets import FLEET, Fleet, without_processes
+from zlmreport.errors import InputError
 from zlmreport.fleet import ledger, night
 from zlmreport.fleet.issuing import What
 from zlmreport.fleet.ledger import Ledger
 from zlmreport.fleet.night import MissingError
-from zlmreport.fleet.records import About, Notice, PastNight, State
+from zlmreport.fleet.records import About, PastNight, State
 from zlmreport.fleet.state import Rules, state_of
+from zlmreport.language import Language
 
 
 @pytest.fixture
@@ -93,7 +95,8 @@ def test_a_ledger_that_knows_nothing_of_the_certificates_is_refused(fleet: Fleet
 def test_a_clock_that_was_set_back_is_noticed(fleet: Fleet, monkeypatch: pytest.MonkeyPatch) -> None:
     on_a_day("2026-10-01", monkeypatch)
     text = "the clock stands at 2026-10-01T02:00:00+00:00, before the last night: 2026-11-20T02:00:00+00:00"
-    assert fleet.spend().notices == [Notice(About.CLOCK, text)]
+    (notice,) = fleet.spend().notices
+    assert (notice.about, notice.english) == (About.CLOCK, text)
     assert noticed(fleet) == [About.CLOCK]
     on_a_day("2026-10-02", monkeypatch)
     assert fleet.spend().notices == []
@@ -115,7 +118,7 @@ def test_many_jobs_that_are_gone_at_once_are_told_as_one_thing_too(fleet: Fleet)
     for stem in "klmn":
         (fleet.folder / f"jobs/{stem}.yaml").unlink()
     witness = fleet.spend()
-    assert [each.text for each in witness.notices] == [
+    assert [each.english for each in witness.notices] == [
         "4 of 10 jobs are gone since the last night; look whether that is meant"
     ]
     assert {witness.what[stem] for stem in "klmn"} == {What.VANISHED}
@@ -138,6 +141,77 @@ def test_a_refusal_does_not_hide_that_the_night_before_was_interrupted(
         ledger.night("2026-11-23T02:00:00+00:00", "fleet.yaml") as third,
     ):
         assert third.was_interrupted
+
+
+def test_a_night_that_was_broken_off_is_told_once_with_what_it_came_to(
+    fleet: Fleet, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    on_a_day("2026-11-21", monkeypatch)
+    fleet.readings("x", "2 2 3 -1 -2 -3")
+    with monkeypatch.context() as patched:
+        patched.setattr(night, "documents", lambda *_: (_ for _ in ()).throw(KeyboardInterrupt))
+        with pytest.raises(KeyboardInterrupt):
+            fleet.spend()
+    on_a_day("2026-11-22", monkeypatch)
+    (fleet.folder / "certificates").rename(fleet.folder / "elsewhere")
+    with pytest.raises(MissingError):
+        fleet.spend()
+    (fleet.folder / "elsewhere").rename(fleet.folder / "certificates")
+    with Ledger.open(fleet.file.ledger, "Hall North") as ledger:
+        last = ledger.last_night()
+    assert last is not None
+    assert [each.about for each in last.notices] == [About.BROKEN, About.FOLDER]
+    moment = "2026-11-21T02:00:00+00:00"
+    assert last.notices[0].english == (
+        f"the night of {moment} was broken off, with its last sign of life at {moment}; it had come to "
+        "1 as drafts. This one makes good what it left"
+    )
+    assert "der Lauf vom" in last.notices[0].text.in_language(Language.GERMAN)
+    assert fleet.spend().notices == []
+
+
+def test_jobs_whose_folder_is_not_mounted_are_missed_and_no_mistake(fleet: Fleet) -> None:
+    (fleet.folder / "jobs").rename(fleet.folder / "elsewhere")
+    with pytest.raises(MissingError, match="5 jobs are gone since the last night, and 0 are there"):
+        fleet.spend()
+    assert noticed(fleet) == [About.JOBS]
+
+
+def test_a_pattern_that_never_matched_is_a_mistake_and_makes_no_ledger(tmp_path: Path) -> None:
+    fleet = Fleet.of(tmp_path)
+    with pytest.raises(InputError, match="no file is called"):
+        fleet.spend()
+    assert not (tmp_path / "ledger.db").exists()
+
+
+@pytest.mark.parametrize("retired", ["", "retired: [jobs/x.yaml]\n"])
+def test_certificates_that_no_job_makes_any_more_are_still_watched(fleet: Fleet, retired: str) -> None:
+    fleet.write("fleet.yaml", FLEET + retired)
+    if not retired:
+        fleet.job("x", ("CAL-X", "CAL-X-1"))
+    assert fleet.spend().notices == []
+    fleet.certificate("x").write_bytes(b"changed")
+    for _ in range(2):
+        assert [each.english.partition(";")[0] for each in fleet.spend().notices] == [
+            "CAL-X: issued, gone or changed since, and made again by no job"
+        ]
+    assert noticed(fleet) == [About.DOCUMENTS]
+    fleet.write("fleet.yaml", f"{FLEET}retired: [jobs/x.yaml, CAL-X]\n")
+    assert fleet.spend().notices == []
+
+
+def test_a_certificate_that_is_gone_while_its_job_gives_a_draft_is_missed(fleet: Fleet) -> None:
+    fleet.readings("x", "2 2 3 -1 -2 -3")
+    fleet.spend()
+    fleet.certificate("x").unlink()
+    assert [each.about for each in fleet.spend().notices] == [About.DOCUMENTS]
+
+
+def test_a_job_that_says_so_itself_is_no_second_news(fleet: Fleet) -> None:
+    fleet.certificate("x").write_bytes(b"changed")
+    witness = fleet.spend()
+    assert witness.what["x"] is What.FAILED
+    assert witness.notices == []
 
 
 def test_an_axis_that_was_not_measured_again_is_told_once(

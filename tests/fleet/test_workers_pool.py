@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import os
+import signal
 from pathlib import Path
 
 import pytest
 
 from fleet.deadly import PLUGIN
 from fleet.fleets import Fleet, Witness
+from processes import PYTHON, run
 from zlmreport.fleet import night, workers
 from zlmreport.fleet.issuing import What
 from zlmreport.fleet.records import State
@@ -60,6 +62,14 @@ def test_workers_make_several_certificates_and_are_renewed(fleet: Fleet) -> None
     pids = [fleet.certificate(f"a{number}", ".pid").read_text() for number in range(1, 5)]
     assert 1 < len(set(pids)) < 4
     assert str(os.getpid()) not in pids
+
+
+def test_a_worker_that_nobody_ends_is_ended_by_the_system() -> None:
+    deed = (
+        "import time; from zlmreport.fleet.workers import _ended_after as after\n"
+        "with after(60): pass\nwith after(0.01): time.sleep(60)"
+    )
+    assert run(PYTHON, "-c", deed).returncode == -signal.SIGALRM
 
 
 @pytest.mark.usefixtures("spent")

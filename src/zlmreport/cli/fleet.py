@@ -101,7 +101,7 @@ class _Watcher:
         for log in self._logs:
             log.noticed(notice)
         if self._options.quiet or self._options.json:
-            print(visible(f"{self._fleet.path}: {notice.text}"), file=sys.stderr)
+            print(visible(f"{self._fleet.path}: {notice.english}"), file=sys.stderr)
 
     def learned(self, file: Path) -> None:
         self.priors.append(shown_path(file))
@@ -247,7 +247,7 @@ class TextLog:
 
     def noticed(self, notice: Notice) -> None:
         """Write what concerns the whole night."""
-        self._line(notice.text)
+        self._line(notice.english)
 
     def learned(self, file: str) -> None:
         """Write which file of priors is new."""
@@ -282,7 +282,7 @@ class JsonLog:
 
     def noticed(self, notice: Notice) -> None:
         """Write what concerns the whole night."""
-        self._line({"event": "noticed", "about": notice.about.value, "message": notice.text})
+        self._line({"event": "noticed", "about": notice.about.value, "message": notice.english})
 
     def learned(self, file: str) -> None:
         """Write which file of priors is new."""

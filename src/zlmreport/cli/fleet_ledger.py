@@ -10,7 +10,7 @@ from functools import partial
 from pathlib import Path
 
 from zlmreport.cli.terminal import shown_path, visible
-from zlmreport.errors import AccessError, Place
+from zlmreport.errors import AccessError, InputError, Place
 from zlmreport.files import Document, write
 from zlmreport.fleet.basis import path_in
 from zlmreport.fleet.exports import calendar, metrics
@@ -18,7 +18,7 @@ from zlmreport.fleet.ledger import Ledger
 from zlmreport.fleet.overview import overview
 from zlmreport.fleet.overview_cells import Names
 from zlmreport.fleet.state import FleetState, Rules, state_of
-from zlmreport.job.fleet import FleetFile, is_retired, job_files, load_fleet
+from zlmreport.job.fleet import FleetFile, found_jobs, is_retired, load_fleet
 from zlmreport.language import Language
 from zlmreport.plugins import find_plugins
 
@@ -45,11 +45,15 @@ def report(options: Namespace) -> int:
 
 
 def _state(fleet: FleetFile) -> FleetState:
-    named = (path_in(fleet.path.parent, path) for path in job_files(fleet))
+    found, unmatched = found_jobs(fleet)
+    named = (path_in(fleet.path.parent, path) for path in found)
     jobs = [job for job in named if not is_retired(job, fleet)]
     with Ledger.open(fleet.ledger, fleet.name, create=False) as ledger:
         rules = Rules(fleet.keys.interval, partial(is_retired, fleet=fleet))
-        return state_of(fleet.name, ledger.entries(), jobs, ledger.last_night(), rules)
+        night = ledger.last_night()
+        if unmatched and night is None:
+            raise InputError(unmatched)
+        return state_of(fleet.name, ledger.entries(), jobs, night, rules)
 
 
 def backup(options: Namespace) -> int:

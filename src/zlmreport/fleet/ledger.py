@@ -42,6 +42,7 @@ from zlmreport.fleet.records import (
     State,
     Subject,
 )
+from zlmreport.language import Language, Words
 
 #: A night that has given no sign of life for so long does nothing any more.
 STUCK = dt.timedelta(minutes=15)
@@ -115,7 +116,7 @@ class Night:
 
     def notice(self, notices: Sequence[Notice]) -> None:
         """Note what concerns the whole night."""
-        self._note(notices=[[each.about.value, each.text] for each in notices])
+        self._note(notices=[[each.about.value, *map(each.text.in_language, Language)] for each in notices])
 
     def report(self, news: Sequence[News], *, is_all: bool = True) -> None:
         """Note what is new: what is not known yet, or had ended.
@@ -148,15 +149,17 @@ class Night:
             if new:
                 connection.execute(insert(NEWS), new)
 
-    def untold(self, way: str) -> tuple[News, ...]:
-        """Return what nobody heard of by a way, oldest first."""
+    def untold(self, way: str, *, was_tried: bool) -> tuple[News, ...]:
+        """Return what nobody heard of by a way, oldest first; by a new one, what is new or still so.
+
+        `was_tried`: Whether nobody was reached by it in the night before.
+        """
         query = select(NEWS).where(NEWS.c.fleet == self.fleet).order_by(NEWS.c.id)
         with self.database.transaction() as connection:
-            return tuple(
-                News(Kind(row.kind), row.subject, row.text)
-                for row in connection.execute(query)
-                if way not in row.told
-            )
+            rows = connection.execute(query).all()
+        if not was_tried and not any(way in row.told for row in rows):
+            rows = [row for row in rows if row.night == self.identity or _is_still_so(row)]
+        return tuple(News(Kind(row.kind), row.subject, row.text) for row in rows if way not in row.told)
 
     def tell(self, way: str) -> None:
         """Note that all news was told by a way."""
@@ -201,6 +204,10 @@ class Night:
             ]
             connection.execute(insert(PARAMETERS), rows)
         return identity
+
+
+def _is_still_so(news: Row[Any]) -> bool:
+    return news.ended is None and Kind(news.kind).is_condition
 
 
 def _added(connection: Connection, row: Insert) -> int:
@@ -303,11 +310,13 @@ class Ledger(Closable):
         query = select(NIGHTS).where(NIGHTS.c.fleet == self._fleet).order_by(NIGHTS.c.id.desc()).limit(1)
         with self._database.transaction() as connection:
             night = connection.execute(query).one_or_none()
-        if night is None:
-            return None
-        notices = tuple(Notice(About(about), text) for about, text in night.notices or ())
-        ended = dt.datetime.fromisoformat(night.ended) if night.ended else None
-        return PastNight(dt.datetime.fromisoformat(night.began), ended, notices)
+            if night is None:
+                return None
+            states = select(ENTRIES.c.state, func.count()).where(ENTRIES.c.night == night.id)
+            came_to = {State(row[0]): row[1] for row in connection.execute(states.group_by(ENTRIES.c.state))}
+        notices = tuple(Notice(About(about), _words(*texts)) for about, *texts in night.notices or ())
+        ended, beat = (dt.datetime.fromisoformat(at) if at else None for at in (night.ended, night.beat))
+        return PastNight(dt.datetime.fromisoformat(night.began), ended, notices, came_to, beat)
 
     def standings(self) -> Mapping[str, Standing]:
         """Return what the ledger knows of each job, by its path."""
@@ -453,6 +462,11 @@ def _parameter(row: Row[Any]) -> RecordedParameter:
     return RecordedParameter(
         row.standard, row.symbol, row.value, row.unit, row.expanded_uncertainty, row.limit, row.conforms
     )
+
+
+def _words(english: str, german: str = "") -> Words:
+    """Return the text of a notice; an older program kept it in English alone."""
+    return Words(english, german or english)
 
 
 def _files(kept: list[list[Any]]) -> tuple[KnownFile, ...]:

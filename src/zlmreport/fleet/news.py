@@ -54,14 +54,19 @@ _OVERDUE = Words(
 )
 _ISSUED = Words(en="{number} was issued", de="{number} wurde ausgestellt")
 _LIMIT = Words(en="; a limit is not met", de="; ein Grenzwert ist nicht eingehalten")
+_UNTOLD = Words(
+    en="the news was not sent by {way}: {reason}",
+    de="die Meldungen wurden nicht zugestellt ({way}): {reason}",
+)
 _FAILED = Words(en="{job} failed", de="{job} ist fehlgeschlagen")
 
 
 def news_of_night(notices: Iterable[Notice], language: Language) -> Iterator[News]:
     """Yield what concerns the whole night."""
     for each in notices:
-        about = ABOUTS[each.about].in_language(language)
-        yield News(Kind.NIGHT, each.about.value, f"{about}: {each.text}")
+        text = each.text.in_language(language)
+        subject = each.about.value if each.about.is_condition else f"{each.about.value}|{text}"
+        yield News(Kind.NIGHT, subject, f"{ABOUTS[each.about].in_language(language)}: {text}")
 
 
 def news_of(state: FleetState, language: Language) -> Iterator[News]:
@@ -70,7 +75,8 @@ def news_of(state: FleetState, language: Language) -> Iterator[News]:
     for failure in state.failures:
         entry = failure.entry
         message = entry.message.partition("\n")[0]
-        yield News(Kind.FAILED, f"{entry.job}|{message}", f"{entry.job}: {message}")
+        told = message if message.startswith(entry.job) else f"{entry.job}: {message}"
+        yield News(Kind.FAILED, f"{entry.job}|{message}", told)
     for (machine, axis), trends in by_axis(state.not_met).items():
         stated = ", ".join(_not_met(each, language) for each in trends)
         yield News(Kind.NOT_MET, f"{machine}|{axis}", f"{named(machine, axis)}: {stated}")
@@ -203,18 +209,19 @@ class Ways:
     """All ways of a fleet; one that failed is not tried again in the same night."""
 
     all: tuple[Way, ...] = ()  #: In the order of the fleet file.
-    failed: set[str] = field(default_factory=set)  #: Those that nobody was reached by tonight.
+    #: What is to be said of those that nobody was reached by tonight.
+    untold: dict[str, Notice] = field(default_factory=dict)
 
     def of(self, occasion: Occasion) -> Iterator[Way]:
         """Yield those that tell of an occasion, and may still work."""
-        return (way for way in self.all if occasion in way.tells and way.name not in self.failed)
+        return (way for way in self.all if occasion in way.tells and way.name not in self.untold)
 
     def tell(self, way: Way, message: Message, watch: Callable[[Notice], None]) -> bool:
         """Tell people by one of them, and return whether it was taken; if not, the watch takes note."""
         reason = way.tell(message)
         if reason:
-            self.failed.add(way.name)
-            watch(Notice(About.UNTOLD, f"the news was not sent by {way.name}: {reason}"))
+            self.untold[way.name] = Notice(About.UNTOLD, _UNTOLD.given(way=way.name, reason=reason))
+            watch(self.untold[way.name])
         return not reason
 
 

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Protocol
 
-from zlmreport.errors import AccessError, Place, ZlmreportError
+from zlmreport.errors import AccessError, InputError, Place, Problem
 from zlmreport.files import Document, confinement, write
 from zlmreport.fleet.basis import Basis, Disk, changes, path_in, program_versions
 from zlmreport.fleet.exports import heartbeat, priors
@@ -21,18 +21,21 @@ from zlmreport.fleet.issuing import Desk, Happened, What, tidy
 from zlmreport.fleet.ledger import Ledger, Night, Standing
 from zlmreport.fleet.making import Failed, Limits, Task, defaults_digest
 from zlmreport.fleet.news import Ways, digest, news_of, news_of_job, news_of_night, ways_of
+from zlmreport.fleet.notices import documents, left, missing, notices, of_last, vanished
 from zlmreport.fleet.plan import Due, Evening, Planned, plan, reasons
 from zlmreport.fleet.records import About, Notice, PastNight, State, due_date
 from zlmreport.fleet.state import Rules, state_of
 from zlmreport.fleet.workers import Cluster, Pool
-from zlmreport.job.fleet import FleetFile, is_retired, job_files, number_of
-from zlmreport.language import Language
+from zlmreport.job.fleet import FleetFile, found_jobs, is_retired, job_files
+from zlmreport.language import Language, Words
 from zlmreport.plugin.protocols import Occasion
 
 #: A job may take so many times as long as it ever took.
 _TIMES_LONGEST = 10
-#: So few may be gone without a word on mounts, or, of a large fleet, such a part.
-_FEW, _PART = 3, 0.1
+_UNTAUGHT = Words(
+    en="what the tests teach was not written: {problem}",
+    de="was die Messungen lehren, wurde nicht geschrieben: {problem}",
+)
 _MADE = frozenset({Due.CERTIFICATE, Due.COMPARISON})
 
 
@@ -95,31 +98,38 @@ def spend(fleet: FleetFile, order: Order, watch: Watch) -> None:
     of the jobs.
     """
     plugins, ends = order.plugins, time.monotonic() + order.seconds
-    jobs, ways, language = job_files(fleet), ways_of(fleet, plugins), Language(fleet.keys.language)
-    with Ledger.open(fleet.ledger, fleet.name) as ledger:
+    jobs, unmatched = found_jobs(fleet)
+    ways, language = ways_of(fleet, plugins), Language(fleet.keys.language)
+    with Ledger.open(fleet.ledger, fleet.name, create=not unmatched) as ledger:
         last = ledger.last_night()
         known = evening(fleet, jobs, ledger, plugins)
         gone = vanished(known)
-        missing = _missing(known, gone)
+        if unmatched and not gone:
+            raise InputError(unmatched)
+        lacking = missing(known, gone, is_unmatched=bool(unmatched))
         with ledger.night(_now(), str(fleet.path)) as night, _alive(fleet):
-            if missing:
-                place, notice = missing
-                night.notice([notice])
-                night.report(tuple(news_of_night([notice], language)), is_all=False)
-                _tell(fleet, night, ways, watch)
+            if lacking:
+                place, notice = lacking
+                noticed = (*of_last(night, last), notice)
+                night.notice(noticed)
+                night.report(tuple(news_of_night(noticed, language)), is_all=False)
+                _tell(fleet, night, ways, watch, last)
+                night.notice((*noticed, *ways.untold.values()))
                 if not night.was_interrupted:  # else the next night still has to tidy up
                     night.end(_now())
-                raise MissingError.at(place, notice.text)
-            noticed = tuple(_notices(known, night, gone, last))
+                raise MissingError.at(place, notice.english)
+            noticed = tuple(notices(known, night, gone, last))
             night.notice(noticed)
             for notice in noticed:
                 watch.noticed(notice)
             before = last.began.isoformat() if last else ""
             witness = _Witness(watch, known, ways)
-            _spend(known, order, witness, _Work(night, gone, before, ends, ledger.longest()))
+            for notice in _spend(known, order, witness, _Work(night, gone, before, ends, ledger.longest())):
+                watch.noticed(notice)
+                noticed = (*noticed, notice)
             if witness.saw_something or night.was_interrupted or (last and last.notices):
                 noticed = (*noticed, *_teach(fleet, ledger, watch))
-                night.notice(noticed)
+            night.notice(noticed)
             if witness.saw_something or noticed or (last and (last.notices or not last.ended)):
                 began = dt.datetime.fromisoformat(night.began)
                 rules = Rules(fleet.keys.interval, lambda job: is_retired(job, fleet))
@@ -127,7 +137,8 @@ def spend(fleet: FleetFile, order: Order, watch: Watch) -> None:
                 now = PastNight(began, None, noticed)
                 state = state_of(fleet.name, ledger.entries(), names, now, rules)
                 night.report(tuple(news_of(state, language)))
-            _tell(fleet, night, ways, watch)
+            _tell(fleet, night, ways, watch, last)
+            night.notice((*noticed, *ways.untold.values()))
             night.end(_now())
 
 
@@ -174,30 +185,18 @@ def _teach(fleet: FleetFile, ledger: Ledger, watch: Watch) -> Iterator[Notice]:
         for path in write(priors(ledger.lessons(), fleet.keys.priors)):
             watch.learned(path)
     except AccessError as error:
-        notice = Notice(About.PRIORS, f"what the tests teach was not written: {error.problems[0]}")
+        notice = Notice(About.PRIORS, _UNTAUGHT.given(problem=str(error.problems[0])))
         watch.noticed(notice)
         yield notice
 
 
-def _tell(fleet: FleetFile, night: Night, ways: Ways, watch: Watch) -> None:
+def _tell(fleet: FleetFile, night: Night, ways: Ways, watch: Watch, last: PastNight | None) -> None:
     """Tell people what is new, each way once; what could not be told is told by the next night."""
+    untold = [each.english for each in last.notices if each.about is About.UNTOLD] if last else []
     for way in ways.of(Occasion.DIGEST):
-        news = night.untold(way.name)
+        news = night.untold(way.name, was_tried=any(way.name in each for each in untold))
         if news and ways.tell(way, digest(fleet, news), watch.noticed):
             night.tell(way.name)
-
-
-def _notices(known: Evening, night: Night, gone: Sequence[str], last: PastNight | None) -> Iterator[Notice]:
-    """Yield what concerns the whole night, and lets it go on."""
-    if night.took_over:
-        yield Notice(About.STUCK, f"the night of {night.took_over} gave no sign of life; it was killed")
-    if last and dt.datetime.fromisoformat(night.began) < last.began:
-        text = f"the clock stands at {night.began}, before the last night: {last.began.isoformat()}"
-        yield Notice(About.CLOCK, text)
-    new, before = _newly_gone(known, gone), len(known.jobs) + len(gone)
-    if len(new) > _FEW and len(new) > _PART * before:
-        text = f"{len(new)} of {before} jobs are gone since the last night; look whether that is meant"
-        yield Notice(About.JOBS, text)
 
 
 @dataclass(frozen=True, slots=True)
@@ -211,12 +210,18 @@ class _Work:
     longest: Mapping[str, float]  #: The longest time that each job ever took, s.
 
 
-def _spend(known: Evening, order: Order, witness: _Witness, work: _Work) -> None:
+def _tidy(known: Evening) -> None:
+    """End what the night before left half done."""
+    kept = [each.files for each in known.standings.values()]
+    kept += [each.files for each in known.certificates.values()]
+    tidy(known.fleet.output, itertools.chain.from_iterable(kept))
+
+
+def _spend(known: Evening, order: Order, witness: _Witness, work: _Work) -> Iterator[Notice]:
+    """Make what is due, and yield what is to be said of the whole night at its end."""
     night = work.night
     if night.was_interrupted:
-        kept = [each.files for each in known.standings.values()]
-        kept += [each.files for each in known.certificates.values()]
-        tidy(known.fleet.output, itertools.chain.from_iterable(kept))
+        _tidy(known)
     why = reasons(known)
     with contextlib.ExitStack() as stack:
         due = sum(map(bool, why.values()))
@@ -231,19 +236,21 @@ def _spend(known: Evening, order: Order, witness: _Witness, work: _Work) -> None
             if each.due not in _MADE:
                 witness.happened(_not_made(each, desk))
         tasks = {each.path.absolute(): each for each in planned if each.due in _MADE}
-        left = [(each, _task(each, known, order.plugins, work)) for each in reversed(tasks.values())]
+        remaining = [(each, _task(each, known, order.plugins, work)) for each in reversed(tasks.values())]
 
         def waiting() -> Iterator[Task]:
-            while left and time.monotonic() < work.ends:
-                yield left.pop()[1]
+            while remaining and time.monotonic() < work.ends:
+                yield remaining.pop()[1]
 
         if executor:
             for task, result in executor.results(waiting()):
                 happened = desk.kept(tasks[task.job.absolute()], result)
                 is_upgrade = task.stated is not None and happened.what is What.CONFIRMED
                 witness.happened(replace(happened, is_upgrade=is_upgrade))
-        for each, _ in reversed(left):
+        for each, _ in reversed(remaining):
             witness.happened(Happened(What.LEFT, each.job, each.number, each.why))
+    yield from left(len(remaining), due)
+    yield from documents(known, planned)
 
 
 def _sign(fleet: FleetFile, night: Night) -> None:
@@ -256,16 +263,10 @@ def _not_made(planned: Planned, desk: Desk) -> Happened:
     if planned.due is Due.NOTHING:
         return Happened(What.UNCHANGED, planned.job, planned.number)
     if planned.due is Due.SET_ASIDE:
-        return Happened(What.SET_ASIDE, planned.job, planned.number, planned.why)
+        why = desk.known.standings[planned.job].message.partition(": ")[2]  # behind its place
+        problem = Problem(Place(str(planned.path)), why)
+        return Happened(What.SET_ASIDE, planned.job, planned.number, planned.why, problems=(problem,))
     return desk.failed(planned, Failed(planned.problems))
-
-
-def vanished(known: Evening) -> tuple[str, ...]:
-    """Return the jobs that the ledger knows, whose files are gone, and not on purpose."""
-    there = set(map(known.job_of, known.jobs))
-    return tuple(
-        job for job in sorted(known.standings) if job not in there and not is_retired(job, known.fleet)
-    )
 
 
 def overdue(known: Evening, last: str, now: str) -> Iterator[Happened]:
@@ -285,54 +286,6 @@ def overdue(known: Evening, last: str, now: str) -> Iterator[Happened]:
                 f"{subject.of_axis} was measured on {subject.measured}, and was to be measured again by {due}"
             )
             yield Happened(What.OVERDUE, job, standing.number, why)
-
-
-def _newly_gone(known: Evening, gone: Sequence[str]) -> Sequence[str]:
-    return [job for job in gone if known.standings[job].state is not State.VANISHED]
-
-
-def _missing(known: Evening, gone: Sequence[str]) -> tuple[Place, Notice] | None:
-    """Return what is not there and where: a folder that is not mounted, another fleet's ledger; else None."""
-    fleet = known.fleet
-    new = _newly_gone(known, gone)
-    if len(new) > _FEW and len(new) > len(known.jobs):
-        message = (
-            f"{len(new)} jobs are gone since the last night, and {len(known.jobs)} are there; look whether "
-            "their folder is mounted, or name those under retired that are gone on purpose"
-        )
-        return Place(str(fleet.path)), Notice(About.JOBS, message)
-    own = [each for each in known.certificates.values() if each.fleet == fleet.name and each.files]
-    is_empty = not fleet.output.is_dir() or not _other_than_reports(fleet)
-    if own and is_empty:
-        message = (
-            f"the folder is empty, and {len(own)} certificates were issued into it; look whether it is "
-            "mounted. A file in it, whatever it is, lets the night make them again"
-        )
-        return Place(str(fleet.output)), Notice(About.FOLDER, message)
-    if known.standings or is_empty:
-        return None
-    stems = {path.name.partition(".")[0] for path in fleet.output.rglob("*") if path.is_file()}
-    found = sum(_number(path, fleet) in stems for path in known.jobs)
-    if found > _FEW and 2 * found > len(known.jobs):
-        message = (
-            f"the ledger knows none of the certificates in {fleet.output}, where {found} of "
-            f"{len(known.jobs)} jobs have theirs; put its backup back, or make it again: "
-            f"zlmreport fleet rebuild {fleet.path}"
-        )
-        return Place(str(fleet.ledger)), Notice(About.LEDGER, message)
-    return None
-
-
-def _other_than_reports(fleet: FleetFile) -> bool:
-    """Whether anything lies in the folder of certificates but overviews, which are written there, too."""
-    return any(path.name not in fleet.reports for path in fleet.output.iterdir())
-
-
-def _number(path: Path, fleet: FleetFile) -> str:
-    try:
-        return number_of(path, fleet.defaults)[0]
-    except ZlmreportError:
-        return ""
 
 
 def _task(planned: Planned, known: Evening, plugins: tuple[Path, ...], work: _Work) -> Task:

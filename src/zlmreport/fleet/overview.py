@@ -182,7 +182,7 @@ _NOTICED: _Table[Notice] = _Table(
     words.NOTICED,
     words.NOTICED_CAPTION,
     words.ABOUT,
-    ((words.MESSAGE, lambda _, notice: _message(notice.text)),),
+    ((words.MESSAGE, lambda cells, notice: _message(cells.say(notice.text))),),
 )
 _FAILED: _Table[Failure] = _Table(
     "failed",

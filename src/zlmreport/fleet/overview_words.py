@@ -51,6 +51,9 @@ ABOUTS = {
     About.UNTOLD: Words(en="News that was not sent", de="Nicht zugestellte Meldungen"),
     About.PRIORS: Words(en="Priors from the tests", de="Vorwissen aus den Messungen"),
     About.STUCK: Words(en="A run that hung", de="Ein Lauf, der hing"),
+    About.BROKEN: Words(en="A run that was broken off", de="Ein abgebrochener Lauf"),
+    About.LEFT: Words(en="Jobs that are left", de="Übrige Aufträge"),
+    About.DOCUMENTS: Words(en="Issued certificates", de="Ausgestellte Kalibrierscheine"),
 }
 FAILED = Words(en="Failed", de="Fehlgeschlagen")
 FAILED_CAPTION = Words(

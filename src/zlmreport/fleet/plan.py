@@ -96,10 +96,10 @@ def _why(standing: Standing | None, evening: Evening, sources: Disk, shelf: Disk
         return f"{'; '.join(found)} since {_day(standing.night)}"
     certificate = evening.certificates.get(standing.number)
     files = certificate.files if certificate and standing.state is State.MADE else standing.files
-    return "; ".join(_damage(evening.fleet.output, files, shelf))
+    return "; ".join(damage(evening.fleet.output, files, shelf))
 
 
-def _damage(folder: Path, files: Sequence[KnownFile], shelf: Disk) -> Iterator[str]:
+def damage(folder: Path, files: Sequence[KnownFile], shelf: Disk) -> Iterator[str]:
     """Yield what has become of a certificate's own files."""
     for file in files:
         if not shelf.has(file):

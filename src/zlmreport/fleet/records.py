@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from datetime import date, datetime, timedelta
 from enum import StrEnum
 from pathlib import PurePosixPath
@@ -15,6 +15,7 @@ from zlmreport.certificate.document import Certificate
 from zlmreport.job.job import Job
 from zlmreport.job.keys import JobKeys
 from zlmreport.job.measurement_keys import Machine
+from zlmreport.language import Language, Words
 from zlmreport.quantities.units import Unit
 
 
@@ -61,6 +62,17 @@ class About(StrEnum):
     UNTOLD = "untold"
     #: What the tests teach could not be written.
     PRIORS = "priors"
+    #: The night before never came to its end.
+    BROKEN = "broken"
+    #: The time of the night was over before all was made.
+    LEFT = "left"
+    #: Certificates that no job makes any more are gone, or not as they were issued.
+    DOCUMENTS = "documents"
+
+    @property
+    def is_condition(self) -> bool:
+        """Whether it lasts until something is done, and is told once; others are events of one night."""
+        return self not in {About.BROKEN, About.STUCK, About.CLOCK, About.DOCUMENTS}
 
 
 class Kind(StrEnum):
@@ -94,7 +106,12 @@ class Notice:
     """What concerns a whole night, and is not as it should be."""
 
     about: About
-    text: str
+    text: Words
+
+    @property
+    def english(self) -> str:
+        """The text for the terminal."""
+        return self.text.in_language(Language.ENGLISH)
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,6 +121,8 @@ class PastNight:
     began: datetime  #: With its offset from UTC.
     ended: datetime | None  #: None for a run that is at work, or was interrupted.
     notices: tuple[Notice, ...] = ()  #: What concerned all of it.
+    came_to: Mapping[State, int] = field(default_factory=dict)  #: How many jobs became what in it.
+    beat: datetime | None = None  #: When it gave its last sign of life.
 
     @property
     def seconds(self) -> float | None:

@@ -21,6 +21,8 @@ from typing import Any, Self
 from zlmreport.errors import AccessError, InputError, Place, Problem
 from zlmreport.fleet.making import BEAT, Failed, Made, Task, late, warm, work
 
+#: After its task should have been ended by the night, a worker ends itself, s: the night may be gone.
+_GRACE = 60
 #: Certificates after which a worker makes room for a new one: no library is trusted to leak nothing.
 LIFE = 500
 
@@ -164,7 +166,23 @@ def _serve(line: Connection, plugins: tuple[Path, ...]) -> None:
         while True:
             task: Task = line.recv()
             _limit_memory(task.limits.megabytes * 10**6)
-            line.send(work(task))
+            with _ended_after(task.limits.seconds + _GRACE):
+                result = work(task)
+            line.send(result)
+
+
+@contextlib.contextmanager
+def _ended_after(seconds: float) -> Iterator[None]:
+    """Let the system end this process after a time, whatever it does, where the system can."""
+    if not hasattr(signal, "setitimer"):
+        yield
+        return
+    signal.signal(signal.SIGALRM, signal.SIG_DFL)
+    signal.setitimer(signal.ITIMER_REAL, seconds)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
 
 
 def _limit_memory(size: int) -> None:

@@ -173,8 +173,8 @@ class FleetKeys(JobPart):
     )
     retired: list[Text] = Field(
         [],
-        description="Jobs that are gone on purpose, as the ledger names them, with wildcards; any other that "
-        "is gone is reported.",
+        description="Jobs, as the ledger names them, and certificates, by their numbers, that are gone on "
+        "purpose, with wildcards; any other that is gone is reported.",
         examples=[["machines/old-mill/*.yaml"]],
     )
     ledger: Annotated[str, BeforeValidator(_address)] | None = Field(
@@ -290,8 +290,16 @@ def job_files(fleet: FleetFile) -> tuple[Path, ...]:
 
     Raises `InputError` for each pattern that matches no file.
     """
+    found, problems = found_jobs(fleet)
+    if problems:
+        raise InputError(problems)
+    return found
+
+
+def found_jobs(fleet: FleetFile) -> tuple[tuple[Path, ...], Sequence[Problem]]:
+    """Return the job files of a fleet as far as there are any, and what is wrong with its patterns."""
     found: set[Path] = set()
-    problems = []
+    problems: list[Problem] = []
     for pattern, place in _patterns(fleet):
         matches = glob.glob(pattern, root_dir=fleet.path.parent, recursive=True)  # noqa: PTH207 - of a root
         files = {fleet.path.parent / match for match in matches}
@@ -301,13 +309,11 @@ def job_files(fleet: FleetFile) -> tuple[Path, ...]:
             message = f"jobs: no file is called {quoted(pattern)}; {_nearest(pattern, fleet)}"
             problems.append(Problem(place, message))
         found |= files
-    if problems:
-        raise InputError(problems)
-    return tuple(sorted(found))
+    return tuple(sorted(found)), problems
 
 
 def is_retired(job: str, fleet: FleetFile) -> bool:
-    """Whether a job, as the ledger names it, is gone on purpose."""
+    """Whether a job, as the ledger names it, or a certificate, by its number, is gone on purpose."""
     return any(fnmatch.fnmatchcase(job, pattern) for pattern in fleet.keys.retired)
 
 

@@ -1,0 +1,189 @@
+"""What concerns a whole night and no single job: what is not there of jobs, folders and certificates."""
+
+from __future__ import annotations
+
+import datetime as dt
+from collections.abc import Iterable, Iterator, Sequence
+from pathlib import Path
+
+from zlmreport.errors import Place, ZlmreportError
+from zlmreport.fleet.basis import Disk
+from zlmreport.fleet.ledger import Night
+from zlmreport.fleet.plan import Evening, Planned, damage
+from zlmreport.fleet.records import About, Notice, PastNight, State
+from zlmreport.job.fleet import FleetFile, is_retired, number_of
+from zlmreport.language import Words, same
+
+#: So few may be gone without a word on mounts, or, of a large fleet, such a part.
+_FEW, _PART = 3, 0.1
+#: Of certificates that are gone, so many are named.
+_NAMED = 5
+#: About which a night says that it does nothing.
+_REFUSALS = frozenset({About.JOBS, About.FOLDER, About.LEDGER})
+
+_STUCK = Words(
+    en="the night of {night} gave no sign of life; it was killed",
+    de="der Lauf vom {night} gab kein Lebenszeichen; er wurde beendet",
+)
+_BROKEN = Words(
+    en="the night of {night} was broken off, with its last sign of life at {beat}; it had come to {states}. "
+    "This one makes good what it left",
+    de="der Lauf vom {night} wurde abgebrochen, letztes Lebenszeichen um {beat}; sein Ergebnis: {states}. "
+    "Dieser Lauf holt nach, was offen blieb",
+)
+_CAME_TO = {
+    State.MADE: Words(en="{number} made", de="{number} erstellt"),
+    State.DRAFT: Words(en="{number} as drafts", de="{number} als Entwurf"),
+    State.FAILED: Words(en="{number} failed", de="{number} fehlgeschlagen"),
+    State.STOPPED: Words(en="{number} stopped", de="{number} angehalten"),
+    State.SET_ASIDE: Words(en="{number} set aside", de="{number} zurückgestellt"),
+    State.VANISHED: Words(en="{number} vanished", de="{number} verschwunden"),
+}
+_NOTHING = Words(en="nothing", de="nichts")
+_CLOCK = Words(
+    en="the clock stands at {now}, before the last night: {last}",
+    de="die Uhr steht auf {now}, vor dem letzten Lauf: {last}",
+)
+_MANY_GONE = Words(
+    en="{gone} of {before} jobs are gone since the last night; look whether that is meant",
+    de="{gone} von {before} Aufträgen fehlen seit dem letzten Lauf; bitte prüfen, ob das gewollt ist",
+)
+_MOST_GONE = Words(
+    en="{gone} jobs are gone since the last night, and {there} are there; look whether their folder is "
+    "mounted, or name those under retired that are gone on purpose",
+    de="{gone} Aufträge fehlen seit dem letzten Lauf, {there} sind da; bitte prüfen, ob ihr Ordner "
+    "eingehängt ist, oder unter retired nennen, was mit Absicht fehlt",
+)
+_EMPTY = Words(
+    en="the folder is empty, and {number} certificates were issued into it; look whether it is mounted. A "
+    "file in it, whatever it is, lets the night make them again",
+    de="der Ordner ist leer, und {number} Kalibrierscheine wurden darin ausgestellt; bitte prüfen, ob er "
+    "eingehängt ist. Liegt irgendeine Datei darin, erstellt der Lauf sie wieder",
+)
+_FOREIGN = Words(
+    en="the ledger knows none of the certificates in {folder}, where {found} of {jobs} jobs have theirs; put "
+    "its backup back, or make it again: zlmreport fleet rebuild {fleet}",
+    de="das Verzeichnis kennt keinen der Kalibrierscheine in {folder}, wo {found} von {jobs} Aufträgen den "
+    "ihren haben; bitte seine Sicherung zurückspielen oder es neu erstellen: zlmreport fleet rebuild {fleet}",
+)
+_LEFT = Words(
+    en="the time of the night was over before {left} of {due} jobs; they are for the next night",
+    de="die Zeit des Laufs endete vor {left} von {due} Aufträgen; der nächste Lauf erstellt sie",
+)
+_DOCUMENTS = Words(
+    en="{numbers}: issued, gone or changed since, and made again by no job; put them back from a backup, or "
+    "name them under retired",
+    de="{numbers}: ausgestellt, seither verschwunden oder verändert, und von keinem Auftrag wieder erstellt; "
+    "bitte aus einer Sicherung zurückspielen oder unter retired nennen",
+)
+_MORE = Words(en="{numbers} and {more} more", de="{numbers} und {more} weitere")
+
+
+def vanished(known: Evening) -> tuple[str, ...]:
+    """Return the jobs that the ledger knows, whose files are gone, and not on purpose."""
+    there = set(map(known.job_of, known.jobs))
+    return tuple(
+        job for job in sorted(known.standings) if job not in there and not is_retired(job, known.fleet)
+    )
+
+
+def notices(known: Evening, night: Night, gone: Sequence[str], last: PastNight | None) -> Iterator[Notice]:
+    """Yield what is to be said before a night, and lets it go on."""
+    yield from of_last(night, last)
+    if last and dt.datetime.fromisoformat(night.began) < last.began:
+        yield Notice(About.CLOCK, _CLOCK.given(now=night.began, last=last.began.isoformat()))
+    new, before = _newly_gone(known, gone), len(known.jobs) + len(gone)
+    if len(new) > _FEW and len(new) > _PART * before:
+        yield Notice(About.JOBS, _MANY_GONE.given(gone=len(new), before=before))
+
+
+def of_last(night: Night, last: PastNight | None) -> Iterator[Notice]:
+    """Yield how the night before ended, if it did not end by itself; one that was refused since told it."""
+    if night.took_over:
+        yield Notice(About.STUCK, _STUCK.given(night=night.took_over))
+    if last is None or not night.was_interrupted or night.took_over == last.began.isoformat():
+        return
+    told = {each.about for each in last.notices}
+    if About.BROKEN not in told or not told & _REFUSALS:
+        states = [_CAME_TO[each].given(number=last.came_to[each]) for each in State if each in last.came_to]
+        came_to = _listed(states) if states else _NOTHING
+        beat = (last.beat or last.began).isoformat()
+        text = _BROKEN.given(night=last.began.isoformat(), beat=beat, states=came_to)
+        yield Notice(About.BROKEN, text)
+
+
+def missing(known: Evening, gone: Sequence[str], *, is_unmatched: bool) -> tuple[Place, Notice] | None:
+    """Return what is not there and where: a folder that is not mounted, another fleet's ledger; else None.
+
+    `is_unmatched`: Whether a pattern of jobs matches no file.
+    """
+    fleet = known.fleet
+    new = _newly_gone(known, gone)
+    if is_unmatched or (len(new) > _FEW and len(new) > len(known.jobs)):
+        text = _MOST_GONE.given(gone=len(new if not is_unmatched else gone), there=len(known.jobs))
+        return Place(str(fleet.path)), Notice(About.JOBS, text)
+    own = [each for each in known.certificates.values() if each.fleet == fleet.name and each.files]
+    is_empty = not fleet.output.is_dir() or not _other_than_reports(fleet)
+    if own and is_empty:
+        return Place(str(fleet.output)), Notice(About.FOLDER, _EMPTY.given(number=len(own)))
+    if known.standings or is_empty:
+        return None
+    stems = {path.name.partition(".")[0] for path in fleet.output.rglob("*") if path.is_file()}
+    found, jobs = sum(_number(path, fleet) in stems for path in known.jobs), len(known.jobs)
+    if found > _FEW and 2 * found > jobs:
+        places = {"folder": str(fleet.output), "fleet": str(fleet.path)}
+        return Place(str(fleet.ledger)), Notice(
+            About.LEDGER, _FOREIGN.given(found=found, jobs=jobs, **places)
+        )
+    return None
+
+
+def left(number: int, due: int) -> Iterator[Notice]:
+    """Yield how many jobs there was no time for."""
+    if number:
+        yield Notice(About.LEFT, _LEFT.given(left=number, due=due))
+
+
+def documents(known: Evening, planned: Iterable[Planned]) -> Iterator[Notice]:
+    """Yield, after a night, what became of certificates that no job made again.
+
+    They are those of retired jobs, of jobs that have another number by now, or that are drafts.
+    """
+    fleet, shelf = known.fleet, Disk(known.fleet.output)
+    refused = {each.number for each in planned if each.problems}  # these say so themselves
+    damaged = [
+        number
+        for number, issued in sorted(known.certificates.items())
+        if issued.fleet == fleet.name
+        and number not in refused
+        and not is_retired(number, fleet)
+        and any(damage(fleet.output, issued.files, shelf))
+    ]
+    if damaged:
+        numbers = same(", ".join(damaged[:_NAMED]))
+        more = len(damaged) - _NAMED
+        text = _MORE.given(numbers=numbers, more=more) if more > 0 else numbers
+        yield Notice(About.DOCUMENTS, _DOCUMENTS.given(numbers=text))
+
+
+def _listed(words: Sequence[Words]) -> Words:
+    """Return phrases one after the other."""
+    names = [f"word{index}" for index in range(len(words))]
+    phrase = ", ".join(f"{{{name}}}" for name in names)
+    return Words(phrase, phrase, dict(zip(names, words, strict=True)))
+
+
+def _newly_gone(known: Evening, gone: Sequence[str]) -> Sequence[str]:
+    return [job for job in gone if known.standings[job].state is not State.VANISHED]
+
+
+def _other_than_reports(fleet: FleetFile) -> bool:
+    """Whether anything lies in the folder of certificates but overviews, which are written there, too."""
+    return any(path.name not in fleet.reports for path in fleet.output.iterdir())
+
+
+def _number(path: Path, fleet: FleetFile) -> str:
+    try:
+        return number_of(path, fleet.defaults)[0]
+    except ZlmreportError:
+        return ""
