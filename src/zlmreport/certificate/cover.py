@@ -147,11 +147,10 @@ def identity(job: Job, evaluations: Sequence[Evaluation], writer: Writer) -> Ite
             ", ".join(filter(None, (customer.name, address))),
             ("customer.name", "customer.address"),
         )
-    named = " ".join(filter(None, (machine.manufacturer, machine.model)))
     kind = writer.say(MACHINE_KINDS[machine.kind])
     yield Fact(
         Words(en="Item calibrated", de="Gegenstand"),
-        f"{named} ({kind})" if named else kind,
+        f"{machine.type} ({kind})" if machine.type else kind,
         ("machine.manufacturer", "machine.model", "machine.kind"),
     )
     yield Fact(Words(en="Serial number", de="Seriennummer"), machine.serial, ("machine.serial",))

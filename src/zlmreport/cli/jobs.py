@@ -217,7 +217,7 @@ def _missing_readings(result: Result) -> list[dict[str, Any]]:
         {
             "target": unit.from_si(reading.target_position),
             "unit": unit.ascii,
-            "direction": "+" if reading.approach > 0 else "-",
+            "direction": reading.approach.sign,
             "run": reading.run,
         }
         for reading in measurements.missing()
@@ -283,9 +283,8 @@ def requirements(designation: str, found: Iterable[Finding], writer: Writer) -> 
 
 def _subject(job: Job) -> str:
     machine = job.keys.machine
-    named = " ".join(part for part in (machine.manufacturer, machine.model) if part)
     serial = f"serial {machine.serial}" if machine.serial else ""
-    return ", ".join(part for part in (f"axis {job.axis.name}", named, serial) if part)
+    return ", ".join(part for part in (f"axis {job.axis.name}", machine.type, serial) if part)
 
 
 def _parameters(evaluation: Evaluation, writer: Writer) -> Iterator[str]:

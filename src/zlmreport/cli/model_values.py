@@ -78,7 +78,7 @@ def fit_values(fitted: Fitted) -> dict[str, Any]:
         "noise": report_noise(fitted.fit.noise, axis),
         "polynomials": [
             {
-                "direction": "+" if approach > 0 else "-",
+                "direction": approach.sign,
                 "unit": axis.position_unit.ascii,
                 "coefficients": values.tolist(),
                 "covariance": covariance.tolist(),
@@ -118,7 +118,7 @@ def point_values(points: Points | None, axis: Axis) -> dict[str, Any]:
         "points": [
             {
                 "position": axis.position_unit.from_si(place),
-                "direction": "+" if approach > 0 else "-",
+                "direction": approach.sign,
                 "deviation": unit.from_si(float(found.deviation[number])),
                 "expanded_uncertainty": unit.from_si(float(found.expanded_uncertainty[number])),
                 "coverage_factor": float(found.coverage_factor[number]),

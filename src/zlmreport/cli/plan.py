@@ -21,7 +21,6 @@ from zlmreport.job.choices import Choice, ExtensionChoice, Find, programs_by_nam
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
 from zlmreport.language import Language
-from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.axis import Axis
 from zlmreport.model.effect import unit_of
 from zlmreport.model.study import Study
@@ -37,7 +36,6 @@ from zlmreport.plugins import Registry, find_plugins
 SCHEMA, DECISION = "zlmreport/plan/1", "zlmreport/decision/1"
 _RUN = Place("zlmreport plan --run")
 
-SIGNS = {Approach.POSITIVE: "+", Approach.NEGATIVE: "-"}
 _OPTION = Place("zlmreport plan --program")
 
 
@@ -156,7 +154,7 @@ def plan_values(job: Job, planned: PlannedTest, written: Sequence[Path]) -> dict
         "visits": [
             {
                 "target": targets[visit.target],
-                "direction": SIGNS[visit.approach],
+                "direction": visit.approach.sign,
                 "run": visit.run,
                 "time": time,
             }
@@ -303,7 +301,7 @@ def _readings(job: Job, planned: PlannedTest) -> Iterator[str]:
     yield f"# A form to fill in: deviation is actual - target, {unit}. Columns that nobody logs may go out."
     yield ",".join(["target", "direction", "run", "deviation", *logs])
     for visit in planned.visits:
-        cells = [f"{targets[visit.target]:.12g}", SIGNS[visit.approach], str(visit.run)]
+        cells = [f"{targets[visit.target]:.12g}", visit.approach.sign, str(visit.run)]
         yield ",".join([*cells, "", *("" for _ in logs)])
 
 

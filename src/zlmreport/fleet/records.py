@@ -158,7 +158,7 @@ _LONGEST_NAME = 100
 
 def designation(machine: Machine) -> str:
     """Return a machine's manufacturer, model and serial number: what it is called in a fleet."""
-    return " ".join(part for part in (machine.manufacturer, machine.model, machine.serial) if part)
+    return " ".join(filter(None, (machine.type, machine.serial)))
 
 
 def folder_of(keys: JobKeys, layout: str) -> PurePosixPath:
@@ -224,8 +224,7 @@ class Subject:
         stated = (used.manufacturer, used.name, used.serial) if used else ()
         instrument = " ".join(part for part in stated if part)
         number, interval = keys.certificate.number, keys.fleet.interval
-        kind = " ".join(part for part in (keys.machine.manufacturer, keys.machine.model) if part)
-        return cls(number, machine, keys.axis.name, measured, interval, instrument, kind)
+        return cls(number, machine, keys.axis.name, measured, interval, instrument, keys.machine.type)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

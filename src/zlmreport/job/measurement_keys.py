@@ -106,6 +106,11 @@ class Machine(JobPart):
     location: Text | None = Field(None, description="Where it stands.")
     condition: Text | None = Field(None, description="Condition in which it was found.")
 
+    @property
+    def type(self) -> str:
+        """Who built it, and what: as far as it is stated."""
+        return " ".join(filter(None, (self.manufacturer, self.model)))
+
 
 class AxisKeys(JobPart):
     """The axis under test."""

@@ -21,6 +21,11 @@ class Approach(IntEnum):
         return 0 if self is Approach.POSITIVE else 1
 
     @property
+    def sign(self) -> str:
+        """As jobs and files write it."""
+        return "+" if self is Approach.POSITIVE else "-"
+
+    @property
     def arrow(self) -> str:
         """The arrow that the standards print."""
         return "↑" if self is Approach.POSITIVE else "↓"

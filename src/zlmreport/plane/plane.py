@@ -153,7 +153,7 @@ def _direction(surface: Surface, axis: Axis, points: Sequence[tuple[float, float
     unit = axis.deviation_unit
     interaction = surface.interaction
     return {
-        "direction": "+" if surface.approach > 0 else "-",
+        "direction": surface.approach.sign,
         "along": [axis.position_unit.from_si(end) for end in surface.along],
         "across": [axis.position_unit.from_si(end) for end in surface.across],
         "error": report_error(surface.error, axis),

@@ -20,6 +20,7 @@ from zlmreport.job.edit_items import ParameterChoice, edit_keys, edit_parameter,
 from zlmreport.job.loading import load
 from zlmreport.job.measurement_keys import ExclusionKeys
 from zlmreport.language import Words
+from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.model.study import Fitted, addition, refuse_useless
 from zlmreport.web.asked import asked, lacking
@@ -164,7 +165,7 @@ def _exclusion(measurements: MeasurementSet, reading: int, reason: str) -> Exclu
     return ExclusionKeys.model_validate(
         {
             "target": round(measurements.axis.position_unit.from_si(float(target)), _DECIMALS),
-            "direction": "+" if measurements.approach[reading] > 0 else "-",
+            "direction": Approach(int(measurements.approach[reading])).sign,
             "run": int(measurements.run[reading]),
             "reason": reason,
         }

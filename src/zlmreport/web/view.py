@@ -144,8 +144,7 @@ def _done(entry: Entry) -> Words:
 
 def _subject(job: Job, language: Language) -> str:
     machine = job.keys.machine
-    named = " ".join(part for part in (machine.manufacturer, machine.model) if part)
-    parts = (_AXIS.given(axis=job.axis.name).in_language(language), named, machine.serial or "")
+    parts = (_AXIS.given(axis=job.axis.name).in_language(language), machine.type, machine.serial)
     return ", ".join(part for part in parts if part)
 
 

@@ -168,8 +168,8 @@ def _core_data(certificate: Certificate, job: Job) -> ET.Element:
 
 def _item(job: Job, writer: Writer) -> ET.Element:
     machine = job.keys.machine
-    named = " ".join(filter(None, (machine.manufacturer, machine.model)))
-    name = _AXIS_OF.given(axis=job.axis.name, machine=named) if named else _AXIS.given(axis=job.axis.name)
+    of = {"axis": job.axis.name, "machine": machine.type}
+    name = (_AXIS_OF if machine.type else _AXIS).given(**of)
     return dcc(
         "item",
         writer.named("name", name),
