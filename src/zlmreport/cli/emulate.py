@@ -15,9 +15,10 @@ from zlmreport.errors import InputError, Place
 from zlmreport.language import Language
 from zlmreport.plugins import find_plugins
 from zlmreport.quantities.formatting import general_number
-from zlmreport.quantities.units import MICROMETRE, MILLIMETRE
+from zlmreport.quantities.units import MILLIMETRE
 
-_SECONDS_A_MINUTE = 60
+#: Standard deviation of what shakes the axis, m.
+_NOISE = 0.05e-6
 
 
 def run(options: Namespace) -> int:
@@ -40,19 +41,12 @@ def run(options: Namespace) -> int:
 
 def axis_of(options: Namespace) -> MovingAxis:
     """Return the axis that the command line describes; raise `InputError` for one that there cannot be."""
-    wrong = next((name for name in ("dwell", "noise") if getattr(options, name) < 0), None)
-    if wrong or options.feed <= 0:
-        name = wrong or "feed"
+    if options.dwell < 0:
         raise InputError.at(
-            Place("zlmreport emulate"), f"--{name} {getattr(options, name):g} makes no axis; it is positive"
+            Place("zlmreport emulate"), f"--dwell {options.dwell:g} makes no axis; it is positive"
         )
-    return MovingAxis(
-        course=tuple(MILLIMETRE.to_si(position) for position in options.course),
-        feed=MILLIMETRE.to_si(options.feed) / _SECONDS_A_MINUTE,
-        dwell=options.dwell,
-        noise=MICROMETRE.to_si(options.noise),
-        drift=MICROMETRE.to_si(options.drift) / _SECONDS_A_MINUTE,
-    )
+    course = tuple(MILLIMETRE.to_si(position) for position in options.course)
+    return MovingAxis(course, dwell=options.dwell, noise=_NOISE)
 
 
 def refuse_two_lines(options: Namespace, command: str) -> None:
