@@ -134,3 +134,24 @@ def test_on_paper_it_is_paged_as_the_pdf_is(window: Window, file: Path) -> None:
         assert "Measuring Report EXAMPLE-2026-" in text
     corner = printed[0].render(scale=0.2).to_numpy()[0, 0]
     assert tuple(corner[:3]) == (255, 255, 255), "a dark screen is no dark paper"
+
+
+def test_a_section_stands_apart_from_what_is_before_it(window: Window, file: Path) -> None:
+    page = window(file.as_uri())
+    gap = "e => e.getBoundingClientRect().top - e.previousElementSibling.getBoundingClientRect().bottom"
+    gaps = page.locator("section.new-page").evaluate_all(f"all => all.map({gap})")
+    assert gaps
+    assert min(gaps) > 12
+
+
+def test_a_phone_parts_neither_the_number_nor_a_name(window: Window, file: Path) -> None:
+    page = window(file.as_uri(), viewport={"width": 390, "height": 844})
+    assert page.locator(".title .number").evaluate("e => e.getClientRects().length") == 1
+    longest = page.locator(".facts th").first.evaluate(
+        """e => {
+            const canvas = document.createElement("canvas").getContext("2d")
+            canvas.font = getComputedStyle(e).font
+            return e.getBoundingClientRect().width / canvas.measureText("Ausstellungsdatum").width
+        }"""
+    )
+    assert longest > 1

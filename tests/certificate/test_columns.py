@@ -5,7 +5,17 @@ from __future__ import annotations
 import pytest
 
 from zlmreport.certificate import columns
-from zlmreport.certificate.document import Align, Cell, Column, Mark, RowGroup, Symbol, Table, Verdict
+from zlmreport.certificate.document import (
+    Align,
+    Cell,
+    Column,
+    Formulas,
+    Mark,
+    RowGroup,
+    Symbol,
+    Table,
+    Verdict,
+)
 
 NUMBERS = Align.RIGHT
 
@@ -68,6 +78,13 @@ def test_many_columns_are_set_smaller_until_they_fit() -> None:
 def test_a_dense_table_is_set_in_small_type_though_it_would_fit() -> None:
     small = table((Column("x"),), ("1",), dense=True)
     assert columns.size(small, columns.measures(small)).name == "dense"
+
+
+def test_a_formula_keeps_its_line_beside_a_long_name() -> None:
+    formula = "max(x̄_{i}↑ + 2s_{i}↑; x̄_{i}↓ + 2s_{i}↓) − min(x̄_{i}↑ − 2s_{i}↑; x̄_{i}↓ − 2s_{i}↓)"
+    rows = ((Symbol("A"), Symbol(formula), "Unidirectional systematic positional deviation, positive " * 2),)
+    of_formula = columns.table_layout(Formulas("caption", rows)).rooms[1]
+    assert of_formula > columns.width_of(columns.text_of(Symbol(formula)))
 
 
 def test_a_combining_mark_takes_no_room() -> None:

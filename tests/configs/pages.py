@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from itertools import pairwise
 
@@ -29,6 +30,7 @@ def embarrassments(certificate: Certificate, pdf: bytes) -> list[str]:
         *(f"page {number} is filled to {fill:.2f}" for number, fill in _emptiness(pages)),
         *(f"page {number} leaves alone {line!r}" for number, line in _left_alone(certificate, bodies)),
         *(f"page {number} parts a paragraph: {line!r}" for number, line in _widows(certificate, bodies)),
+        *(f"page {number} parts a value from its unit: {line!r}" for number, line in _torn(bodies)),
         *(f"page {number} parts the table {caption!r}" for number, caption in _parted(certificate, bodies)),
         *(
             f"page {number} has text outside its margins"
@@ -94,21 +96,28 @@ def _widows(certificate: Certificate, bodies: list[list[str]]) -> Iterator[tuple
                     yield number + 1, after[0]
 
 
+def _torn(bodies: list[list[str]]) -> Iterator[tuple[int, str]]:
+    for number, body in enumerate(bodies, 1):
+        for before, after in pairwise(body):
+            if re.search(r"(?<!\S)−?\d[\d.,]*$", before) and re.match(r"(?:[µmn]?m|hPa|K|°C|%)(?!\w)", after):
+                yield number, f"{before} / {after}"
+
+
 def _parted(certificate: Certificate, bodies: list[list[str]]) -> Iterator[tuple[int, str]]:
-    """Yield short tables whose rows do not all stand on the page of their caption."""
+    """Yield tables of which a row stands elsewhere than their caption: of long ones, one of the first two."""
     numbered_blocks = [each for each in _blocks(certificate) if isinstance(each, Table | Formulas)]
     for place, table in enumerate(numbered_blocks, 1):
         if isinstance(table, Formulas):
             continue
         begins = f"{certificate.page_words.table} {place} {table.caption[:20]}"
         numbered = [at for at, body in enumerate(bodies) if any(each.startswith(begins) for each in body)]
-        if not numbered or not table_layout(table).is_whole:
+        if not numbered:
             continue
+        rows = [row for group in table.groups for row in group.rows]
         words = "".join("".join(bodies[numbered[0]]).split())
         cells = [
             text_of(cell)
-            for group in table.groups
-            for row in group.rows
+            for row in (rows if table_layout(table).is_whole else rows[:2])
             for cell in row
             if not isinstance(cell, Symbol)
         ]

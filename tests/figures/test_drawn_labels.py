@@ -9,9 +9,9 @@ import pytest
 
 from figures.samples import ALL, ORDINARY, both_directions, collisions, drawn, each_direction, figure
 from zlmreport.figures.canvas import Face
-from zlmreport.figures.figure import Figure
+from zlmreport.figures.figure import Bar, Figure, Panel
 from zlmreport.figures.layout import figure_size
-from zlmreport.language import Language
+from zlmreport.language import Language, same
 
 by_name = pytest.mark.parametrize("sample", ALL.values(), ids=ALL.keys())
 
@@ -89,6 +89,14 @@ def test_a_symbol_is_set_in_italics_and_subscript() -> None:
     letter, index, arrow = label.runs
     assert index.size < letter.size == arrow.size
     assert index.y > letter.y == arrow.y
+
+
+def test_a_bar_named_by_a_symbol_has_it_as_a_table_has_it() -> None:
+    named = Bar(same("P_{s max}"), 80.0, same("80.0"), is_symbol=True)
+    words = Bar(same("a word"), 60.0, same("60.0"))
+    symbol, plain = drawn(figure(Panel(bars=(named, words)))).texts_of("tick x")
+    assert [(run.text, run.face) for run in symbol.runs] == [("P", Face.ITALIC), ("s max", Face.REGULAR)]
+    assert [(run.text, run.face) for run in plain.runs] == [("a word", Face.REGULAR)]
 
 
 def test_the_runs_of_a_symbol_follow_one_another_without_overlap() -> None:

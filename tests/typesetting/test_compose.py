@@ -266,3 +266,9 @@ def test_a_short_table_stays_on_a_page_and_a_long_one_does_not() -> None:
 
 def test_the_same_certificate_is_set_the_same() -> None:
     assert compose(certificate()) == compose(certificate())
+
+
+def test_no_line_parts_a_number_from_its_unit() -> None:
+    said = Paragraph("12.5 µm at 20 °C by ISO 230-2, 5 runs")
+    document = compose(replace(certificate(), sections=(Section("s", "S", (said,)),)))
+    assert "12.5\N{NO-BREAK SPACE}µm at 20\N{NO-BREAK SPACE}°C by ISO 230-2, 5 runs" in document

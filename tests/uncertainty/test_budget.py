@@ -8,7 +8,9 @@ import numpy as np
 import pytest
 
 from uncertainty.budgets import MICROMETRE, budget, contribution, expanded
+from zlmreport.language import Language
 from zlmreport.testing import simulated_test
+from zlmreport.uncertainty import wording
 from zlmreport.uncertainty.budget import Acts, Budget, effect_along
 
 SOME = Budget(
@@ -44,3 +46,8 @@ def test_over_a_single_target_there_is_no_length() -> None:
 def test_a_budget_of_nothing_leaves_no_uncertainty() -> None:
     assert {each.uncertainty for each in expanded(NOTHING, simulated_test(), trials=20).values()} == {0.0}
     assert NOTHING.share(NOTHING.contributions[0]) == 0.0
+
+
+def test_a_sign_of_an_angle_follows_its_number_at_once() -> None:
+    assert wording.full_range("R", 0.1, "″").in_language(Language.GERMAN) == "R = 0,1″"
+    assert wording.expanded(0.5, "µm", 2).in_language(Language.ENGLISH) == "U = 0.5 µm (k = 2)"

@@ -73,6 +73,8 @@ _VERDICT_EM = 1.9
 _APART_EM = 1.15
 #: A longer word is broken rather than given the page.
 _LONGEST_WORD_EM = 16.0
+#: The same of a formula: what is left of the page is enough for its symbol and its name.
+_LONGEST_FORMULA_EM = 32.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -236,7 +238,7 @@ def _measure(column: Column, cells: Sequence[Cell], gap: float) -> Measure:
             case Verdict():
                 width = unbroken = _SEMIBOLD * width + _VERDICT_EM
             case Symbol():
-                unbroken = min(width, _LONGEST_WORD_EM)
+                unbroken = min(width, _LONGEST_FORMULA_EM)
             case _:
                 unbroken = _longest_word(text) if is_words else width
         natural = max(natural, width)

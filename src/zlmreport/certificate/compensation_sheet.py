@@ -32,6 +32,7 @@ from zlmreport.language import Words
 from zlmreport.presenting.writer import NOTHING, Writer
 from zlmreport.quantities.arrays import FloatArray, read_only_floats
 from zlmreport.quantities.formatting import fixed_number
+from zlmreport.quantities.units import with_unit
 
 if TYPE_CHECKING:
     from zlmreport.compensation.making import Made
@@ -190,7 +191,7 @@ def remarks(made: Made, writer: Writer) -> Iterator[Words]:
     forecast, unit = made.forecast, writer.deviation_unit
 
     def amount(value: float) -> str:
-        return f"{_number(unit.from_si(value), writer)} {unit.symbol}"
+        return with_unit(_number(unit.from_si(value), writer), unit.symbol)
 
     yield _grid(made, writer, amount)
     yield Words(
@@ -323,7 +324,7 @@ def _figure(made: Made, writer: Writer) -> Figure:
     band = Band("±U", Role.NOISE, targets, read_only_floats(-beside), read_only_floats(beside))
     unit = writer.deviation_unit.symbol
     words = {
-        name: f"{_number(float(printed(value)), writer)} {unit}"
+        name: with_unit(_number(float(printed(value)), writer), unit)
         for name, value in (
             ("low", means.min()),
             ("high", means.max()),

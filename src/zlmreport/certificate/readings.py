@@ -11,6 +11,7 @@ from zlmreport.certificate.document import Align, Block, Column, Notice, RowGrou
 from zlmreport.certificate.statements import exclusion_notice
 from zlmreport.language import Words
 from zlmreport.measurement.approach import Approach
+from zlmreport.quantities.units import with_unit
 
 if TYPE_CHECKING:
     from zlmreport.measurement.measurement_set import MeasurementSet
@@ -74,14 +75,13 @@ def missing_readings(measurements: MeasurementSet, writer: Writer) -> Iterator[N
         all=len(missing) + int(np.count_nonzero(np.isfinite(measurements.deviations()))),
     )
     one = Words(
-        en="target {target} {unit} {arrow}, run {run}",
-        de="Sollposition {target} {unit} {arrow}, Durchlauf {run}",
+        en="target {target} {arrow}, run {run}",
+        de="Sollposition {target} {arrow}, Durchlauf {run}",
     )
     items = [
         writer.say(
             one.given(
-                target=writer.position(reading.target_position),
-                unit=writer.position_unit.symbol,
+                target=with_unit(writer.position(reading.target_position), writer.position_unit.symbol),
                 arrow=reading.approach.arrow,
                 run=reading.run,
             )

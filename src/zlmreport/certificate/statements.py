@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from zlmreport.certificate.document import Block, Column, Notice, Paragraph, RowGroup, Section, Table
 from zlmreport.language import Words, same
 from zlmreport.presenting.writer import BY_CUSTOMER, EXTERNAL, NOTHING, Writer
+from zlmreport.quantities.units import with_unit
 
 if TYPE_CHECKING:
     from zlmreport.job.document_keys import CertificateKeys, Person
@@ -59,16 +60,16 @@ _SEVERAL = Words(
     de="{count} Messwerte wurden beiseite gelegt und gingen nicht in die Ergebnisse ein",
 )
 _READING = Words(
-    en="target {target} {position_unit} {arrow}, run {run}, read {deviation} {unit}: {reason}",
-    de="Sollposition {target} {position_unit} {arrow}, Durchlauf {run}, gelesen {deviation} {unit}: {reason}",
+    en="target {target} {arrow}, run {run}, read {deviation}: {reason}",
+    de="Sollposition {target} {arrow}, Durchlauf {run}, gelesen {deviation}: {reason}",
 )
 _EXCLUSION_STATED = Words(
-    en="Set aside{mark}: target {target} {position_unit} {arrow}, run {run}: {reason}",
-    de="Beiseite gelegt{mark}: Sollposition {target} {position_unit} {arrow}, Durchlauf {run}: {reason}",
+    en="Set aside{mark}: target {target} {arrow}, run {run}: {reason}",
+    de="Beiseite gelegt{mark}: Sollposition {target} {arrow}, Durchlauf {run}: {reason}",
 )
 _STATED_AS_FOUND = Words(
-    en="Set aside as found{mark}: target {target} {position_unit} {arrow}, run {run}: {reason}",
-    de="Beiseite gelegt, vorgefundener Zustand{mark}: Sollposition {target} {position_unit} {arrow}, "
+    en="Set aside as found{mark}: target {target} {arrow}, run {run}: {reason}",
+    de="Beiseite gelegt, vorgefundener Zustand{mark}: Sollposition {target} {arrow}, "
     "Durchlauf {run}: {reason}",
 )
 _KEY = "measurement.excluded"
@@ -176,8 +177,7 @@ def exclusions_stated(keys: JobKeys, writer: Writer) -> tuple[str, ...]:
         writer.say(
             words.given(
                 mark=writer.marks.after(key),
-                target=each.target,
-                position_unit=writer.position_unit.symbol,
+                target=with_unit(writer.number(each.target), writer.position_unit.symbol),
                 arrow=_ARROWS[each.direction],
                 run=each.run,
                 reason=each.reason,
@@ -193,12 +193,10 @@ def exclusions_stated(keys: JobKeys, writer: Writer) -> tuple[str, ...]:
 def _item(exclusion: Exclusion, writer: Writer) -> str:
     return writer.say(
         _READING.given(
-            target=writer.position(exclusion.target_position),
-            position_unit=writer.position_unit.symbol,
+            target=with_unit(writer.position(exclusion.target_position), writer.position_unit.symbol),
             arrow=exclusion.approach.arrow,
             run=exclusion.run,
-            deviation=writer.deviation(exclusion.deviation),
-            unit=writer.deviation_unit.symbol,
+            deviation=with_unit(writer.deviation(exclusion.deviation), writer.deviation_unit.symbol),
             reason=exclusion.reason,
         )
     )

@@ -68,11 +68,12 @@ def _bar(parameter: Parameter) -> Bar:
     accepted = None if decision is None else decision.acceptance_limit
     percent = 100.0 * abs(parameter.value) / limit
     return Bar(
-        label=same(plain(parameter.quantity.notation)),
+        label=same(parameter.quantity.notation),
         y=percent,
         value=wording.number(percent, 1),
         uncertainty=100.0 * (parameter.expanded_uncertainty or 0.0) / limit,
         accepted=None if accepted in (None, limit) else max(0.0, 100.0 * accepted / limit),
+        is_symbol=True,
     )
 
 
@@ -101,10 +102,10 @@ def budget_bars(budget: Budget, axis: Axis) -> Figure:
     sentences = []
     for number, each in enumerate(budget.contributions, 1):
         size = unit.from_si(each.standard_uncertainty)
-        bar = Bar(same(f"u{number}"), size, _written(size))
+        bar = Bar(same(f"u_{{{number}}}"), size, _written(size), is_symbol=True)
         bars.append(bar)
         sentences.append(
-            _CONTRIBUTION.given(symbol=bar.label, name=each.name, value=bar.value, unit=unit.symbol)
+            _CONTRIBUTION.given(symbol=f"u{number}", name=each.name, value=bar.value, unit=unit.symbol)
         )
     return Figure(
         key="budget",

@@ -11,7 +11,7 @@ from zlmreport.figures.canvas import Canvas, Fill, Run, Segment, Stroke, SvgCanv
 from zlmreport.figures.dimensions import GAP, HEAD, HEAD_HALF_WIDTH, OVERSHOOT, Dimension
 from zlmreport.figures.figure import Band, Bar, Curve, Figure, Readings, Role
 from zlmreport.figures.layout import TICK_GAP, TICK_LENGTH, TICK_LINE, FigureLayout, figure_size, lay_out
-from zlmreport.figures.metrics import plain_label
+from zlmreport.figures.metrics import plain_label, symbol_label
 from zlmreport.figures.panel_layout import LEGEND_GAP, LINE_SAMPLE, MARK_SAMPLE, Entry, PanelLayout
 from zlmreport.figures.shapes import (
     BAR,
@@ -44,6 +44,7 @@ from zlmreport.figures.shapes import (
 )
 from zlmreport.language import Language
 from zlmreport.quantities.arrays import BoolArray, FloatArray
+from zlmreport.quantities.formatting import plain
 
 #: Least distance between two marks of a curve that has very many targets.
 _MARK_DISTANCE = 11.0
@@ -90,7 +91,7 @@ def panel_shapes(layout: PanelLayout, *, is_lowest: bool) -> Iterator[Shape]:
     yield from _extensions(layout)
     for curve in panel.curves:
         yield from _curve(curve, frame)
-    yield from _axes(frame, is_lowest=is_lowest)
+    yield from _axes(layout, is_lowest=is_lowest)
     for value in layout.bar_values:
         yield _ground(value)
         yield Lettering("bar", value, INK)
@@ -127,8 +128,10 @@ def _grid(frame: Frame) -> Iterator[Shape]:
         yield lines("zero", [[(box.left, zero), (box.right, zero)]], ZERO)
 
 
-def _axes(frame: Frame, *, is_lowest: bool) -> Iterator[Shape]:
-    box = frame.box
+def _axes(layout: PanelLayout, *, is_lowest: bool) -> Iterator[Shape]:
+    frame, box = layout.frame, layout.frame.box
+    notations = [bar.label.in_language(Language.ENGLISH) for bar in layout.panel.bars if bar.is_symbol]
+    symbols = {plain(each): each for each in notations}
     yield lines("frame", [[(box.left, box.top), (box.left, box.bottom), (box.right, box.bottom)]], FRAME)
     ticks = [[(box.left - TICK_LENGTH, y), (box.left, y)] for y in map(frame.y_point, frame.y_scale.ticks)]
     for positions, length in ((frame.x_scale.ticks, TICK_LENGTH), (frame.x_scale.marks, TICK_LENGTH / 2)):
@@ -143,7 +146,8 @@ def _axes(frame: Frame, *, is_lowest: bool) -> Iterator[Shape]:
         top = box.bottom - TICK_LENGTH - TICK_GAP
         for value, text in zip(frame.x_scale.ticks, frame.x_scale.labels, strict=True):
             for line, part in enumerate(text.split("\n")):
-                label = plain_label(part, TICK_TEXT_SIZE)
+                setting = symbol_label if part in symbols else plain_label
+                label = setting(symbols.get(part, part), TICK_TEXT_SIZE)
                 middle = frame.x_point(value)
                 place = PlacedLabel(label, middle - label.width / 2, top - 2 * label.rise - line * TICK_LINE)
                 yield Lettering("tick x", place, INK)

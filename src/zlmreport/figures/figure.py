@@ -122,13 +122,14 @@ class Level:
 class Bar:
     """A value as a bar from zero; the bars of a panel stand side by side instead of over positions."""
 
-    label: Words  #: Below the bar.
+    label: Words  #: Below the bar: words, or the notation of a symbol.
     y: float  #: Where it ends.
     value: Words  #: Written at its end.
     #: Half the width of the interval about its end that is drawn as a whisker; 0 for none.
     uncertainty: float = 0.0
     #: Up to where the bar may reach, marked by a line across it; None for no mark.
     accepted: float | None = None
+    is_symbol: bool = False  #: Whether its label is one.
 
 
 @dataclass(frozen=True, slots=True)

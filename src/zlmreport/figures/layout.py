@@ -25,6 +25,7 @@ from zlmreport.figures.scale import Scale, category_scale, position_scale, value
 from zlmreport.figures.shapes import TEXT_SIZE, TICK_TEXT_SIZE, Box, Frame, PlacedLabel
 from zlmreport.language import Language, Words
 from zlmreport.quantities.arrays import FloatArray
+from zlmreport.quantities.formatting import plain
 
 _MILLIMETRE = 72 / 25.4
 #: The text width of an A4 page.
@@ -156,7 +157,9 @@ def _boxes_in_a_row(first: Box, distance: float, legends: list[LegendLayout]) ->
 
 def _x_scale(figure: Figure, language: Language, width: float) -> Scale:
     """Return the scale along the lower edge: of categories where there are bars, else of positions."""
-    names = [bar.label.in_language(language) for panel in figure.panels for bar in panel.bars]
+    bars = [bar for panel in figure.panels for bar in panel.bars]
+    labels = [bar.label.in_language(language) for bar in bars]
+    names = [plain(text) if bar.is_symbol else text for bar, text in zip(bars, labels, strict=True)]
     if names:
         return category_scale(names, width, _tick_width)
     positions = _positions(figure.panels)

@@ -118,7 +118,7 @@ _ROOMS = {
     "zlmreport.presenting.writer": "Writer",
     "zlmreport.quantities.arrays": "BoolArray FloatArray read_only_floats",
     "zlmreport.quantities.formatting": (
-        "DecimalSign MINUS_SIGN=MINUS fixed_number general_number notation_spans=spans"
+        "DecimalSign MINUS_SIGN=MINUS fixed_number general_number held_together=held notation_spans=spans"
     ),
     "zlmreport.quantities.units": (
         "CELSIUS DEGREE HECTOPASCAL INCH LENGTH_UNITS MICROMETRE MICROMETRE_PER_METRE_KELVIN MICRORADIAN "

@@ -17,7 +17,7 @@ from zlmreport.model.fit import Fit
 from zlmreport.model.study import Wave, moves_with_time, waves
 from zlmreport.presenting.writer import NOTHING
 from zlmreport.quantities.formatting import MINUS, general_number, rounded_pair
-from zlmreport.quantities.units import DEGREE, Unit
+from zlmreport.quantities.units import DEGREE, Unit, with_unit
 
 _RMS = Words(en="Root mean square error", de="Quadratischer Mittelwert der Abweichungen")
 _FLOOR = Words(en="Noise floor", de="Grundrauschen")
@@ -63,10 +63,10 @@ class ErrorRows:
         unit = axis.deviation_unit.symbol
 
         def amount(value: float | None) -> str | None:
-            return None if value is None else f"{deviation(value, axis, language)} {unit}"
+            return None if value is None else with_unit(deviation(value, axis, language), unit)
 
         return cls(
-            f"{deviation(error.rms, axis, language)} {unit}",
+            with_unit(deviation(error.rms, axis, language), unit),
             amount(error.noise_rms),
             amount(error.cross_validated_rms),
             None

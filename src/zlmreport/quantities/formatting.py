@@ -30,6 +30,9 @@ _MOST_LOST = 0.05
 _ANY_DOUBLE = Context(prec=800, rounding=ROUND_HALF_EVEN)
 _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
+#: A blank between a number and its unit.
+_BEFORE_UNIT = re.compile(r"(?<=\d) (?=(?:[µmn]?m|s|min|K|hPa|°C|%)(?!\w))")
+
 _SUBSCRIPT = re.compile(r"_\{([^}]*)\}")
 # Fractions count as word characters, but they are numbers.
 _LETTERS = re.compile(r"([^\W\d_¼½¾][\u0300-\u036f]*)+")
@@ -72,6 +75,15 @@ def general_number(value: float, sign: DecimalSign = DecimalSign.POINT, digits: 
     if "e" in text:
         text = f"{Decimal(text):f}"
     return text.replace("-", MINUS).replace(".", sign)
+
+
+def held(text: str) -> str:
+    r"""Return a text of a page in which no line parts a number from its unit.
+
+    >>> held("2 °C below, 11.5 µm/(m·K)")
+    '2\xa0°C below, 11.5\xa0µm/(m·K)'
+    """
+    return _BEFORE_UNIT.sub(HELD, text)
 
 
 def percentage(share: float, sign: DecimalSign = DecimalSign.POINT, decimals: int = 0) -> str:

@@ -25,7 +25,7 @@ from markupsafe import Markup
 
 from zlmreport.certificate.document import Certificate, Facts, Letterhead, Notice, Paragraph
 from zlmreport.errors import InputError, Place
-from zlmreport.quantities.formatting import Span, spans
+from zlmreport.quantities.formatting import Span, held, spans
 from zlmreport.typesetting.overview import (
     OverviewContext,
     OverviewLegendContext,
@@ -215,6 +215,11 @@ _WORDS = re.compile(r"[+−-]?\w+(?:[.,]\w+)*")
 _PICTURES = re.compile(r"<(?:img|svg)\b")
 
 
+def _held(value: object) -> object:
+    """Hold together what belongs together in a text; markup and what was escaped are left as they are."""
+    return held(value) if type(value) is str else value
+
+
 @lru_cache(maxsize=8)
 def environment(own: tuple[tuple[str, str], ...] = ()) -> ImmutableSandboxedEnvironment:
     """Return the environment; templates are compiled once in a process, those of a laboratory's own first."""
@@ -222,6 +227,7 @@ def environment(own: tuple[tuple[str, str], ...] = ()) -> ImmutableSandboxedEnvi
     return ImmutableSandboxedEnvironment(
         loader=ChoiceLoader([DictLoader(dict(own)), usual, PrefixLoader({_USUAL: usual})]) if own else usual,
         autoescape=True,
+        finalize=_held,
         undefined=StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,

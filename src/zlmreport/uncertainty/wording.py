@@ -8,7 +8,7 @@ from types import MappingProxyType
 from zlmreport.evaluation.evaluation import Least
 from zlmreport.language import Words
 from zlmreport.measurement.measurement_set import CONDITION_NAMES
-from zlmreport.quantities.units import METRE, Unit
+from zlmreport.quantities.units import METRE, Unit, with_unit
 from zlmreport.uncertainty.budget import Acts, Distribution
 
 NO_INSTRUMENT = Words(
@@ -131,8 +131,8 @@ DISTRIBUTIONS: Mapping[Distribution, Words] = MappingProxyType(
     }
 )
 
-_VALUE = Words(en="{symbol} = {value} {unit}", de="{symbol} = {value} {unit}")
-_EXPANDED = Words(en="U = {value} {unit} (k = {factor})", de="U = {value} {unit} (k = {factor})")
+_VALUE = Words(en="{symbol} = {value}", de="{symbol} = {value}")
+_EXPANDED = Words(en="U = {value} (k = {factor})", de="U = {value} (k = {factor})")
 
 
 def calibration(certificate: str | None) -> Words:
@@ -147,14 +147,19 @@ def length(value: float) -> Words:
 
 def full_range(symbol: str, value: float, unit: str) -> Words:
     """Return a full range as it is stated."""
-    return _VALUE.given(symbol=symbol, value=value, unit=unit)
+    return _VALUE.given(symbol=symbol, value=_quantity(value, unit))
 
 
 def standard(value: float, unit: Unit) -> Words:
     """Return a standard uncertainty as it is stated."""
-    return _VALUE.given(symbol="u", value=value, unit=unit.symbol)
+    return _VALUE.given(symbol="u", value=_quantity(value, unit.symbol))
 
 
 def expanded(value: float, unit: str, factor: float) -> Words:
     """Return an expanded uncertainty as it is stated."""
-    return _EXPANDED.given(value=value, unit=unit, factor=factor)
+    return _EXPANDED.given(value=_quantity(value, unit), factor=factor)
+
+
+def _quantity(value: float, unit: str) -> Words:
+    phrase = with_unit("{value}", unit)
+    return Words(phrase, phrase).given(value=value)

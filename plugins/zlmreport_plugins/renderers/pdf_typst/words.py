@@ -20,6 +20,7 @@ from zlmreport.plugin import (
     InputError,
     Place,
     has_letter,
+    held_together,
     mark_offset,
     notation_spans,
     text_advance,
@@ -41,6 +42,7 @@ _WIDEST_LETTER = 1.0
 
 def fitted(text: str, room: float, face: FontFace = FontFace.REGULAR) -> Text:
     """Return a text for a place of a width, in em: as it stands where every word fits and none has marks."""
+    text = held_together(text)
     longest = max(map(len, text.split()), default=0)
     if _WIDEST_LETTER * longest <= room and not has_marks(text):
         return text
