@@ -147,6 +147,7 @@ def _finish(certificate: Certificate, _: Any, pdf: Any) -> None:
         pdf.catalog["AF"] = pydyf.Array(dict.fromkeys(pdf.catalog["AF"]))
     structure.identify(pdf, certificate)
     structure.mend(pdf, {section.key: section.title for section in certificate.sections})
+    structure.settle(pdf)
 
 
 class _Document(HTML):  # type: ignore[misc]

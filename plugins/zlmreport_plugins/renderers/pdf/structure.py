@@ -40,6 +40,23 @@ def mend(pdf: Any, link_texts: Mapping[str, str]) -> None:
         annotation["Contents"] = pydyf.String(link_texts.get(target, target))
 
 
+def settle(pdf: Any) -> None:
+    """Write each object once: pydyf asks each for its bytes twice, and compresses every stream anew."""
+    pdf.objects[:] = [each if each.free == "f" else _Settled(each) for each in pdf.objects]
+
+
+class _Settled(pydyf.Object):  # type: ignore[misc]
+    """An object that changes no more."""
+
+    data = b""
+    compressible = False
+
+    def __init__(self, settled: Element) -> None:
+        super().__init__()
+        self.number, self.generation = settled.number, settled.generation
+        self.data, self.compressible = settled.data, settled.compressible
+
+
 def _take_page_margins_out(pdf: Any, root: Element, reachable: set[bytes]) -> None:
     """Mark what stands in page margins as an artifact.
 
