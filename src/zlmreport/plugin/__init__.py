@@ -22,8 +22,7 @@ _ROOMS = {
     "zlmreport.certificate.attachments": "Attachment CertificateSource=Source Relationship",
     "zlmreport.certificate.circumstances": "Fact",
     "zlmreport.certificate.columns": (
-        "GatheredBlock NumberedBlock decimal_padding facts_side_by_side=side_by_side gather_facts "
-        "numbered_blocks=numbered table_layout"
+        "NumberedBlock decimal_padding facts_side_by_side=side_by_side numbered_blocks=numbered table_layout"
     ),
     "zlmreport.certificate.conditions": "Described",
     "zlmreport.certificate.conformity": "CONFORMITY_STATEMENTS=STATEMENTS",
