@@ -78,7 +78,7 @@ def test_restricted_likelihood_is_that_of_the_textbook() -> None:
         squares = left @ inverse @ left
         determinants = np.linalg.slogdet(covariance)[1] + np.linalg.slogdet(inner)[1]
         expected = (len(base) - base.shape[1]) * np.log(squares) + determinants
-        found, found_squares = space.restricted(space.of(values), ratios)
+        found, found_squares = space.restricted(space.of(values))(ratios)
         assert found_squares == pytest.approx(squares, rel=1e-9)
         differences.append(found - expected)
     assert differences[0] == pytest.approx(differences[1], abs=1e-7)  # a constant of the base model only
@@ -90,8 +90,9 @@ def test_estimate_of_the_noise_is_nowhere_surpassed_on_the_grid() -> None:
     grid = ratio_grid(PARTS)
     contrast = space.of(values)
     ratios, _ = restricted_estimate(space, contrast, grid, grid.max(axis=0))
-    best = min(space.restricted(contrast, each)[0] for each in grid)
-    assert space.restricted(contrast, ratios)[0] <= best
+    criterion = space.restricted(contrast)
+    best = min(criterion(each)[0] for each in grid)
+    assert criterion(ratios)[0] <= best
 
 
 def test_noise_of_known_parts_is_found_on_average() -> None:

@@ -7,7 +7,7 @@ matrices (Woodbury), r the number of targets, runs and drift terms; the number o
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import product
 
@@ -69,25 +69,33 @@ class Contrasts:
         logarithms = np.log(np.diagonal(factor))
         return Metric(active, np.linalg.inv(factor) * roots, 2.0 * float(logarithms.sum()))
 
-    def restricted(self, contrast: FloatArray, ratios: FloatArray, known: float = 0.0) -> tuple[float, float]:
-        """Return −2 ln(restricted likelihood) and the residual sum of squares, σ profiled out.
+    def restricted(
+        self, contrast: FloatArray, known: float = 0.0
+    ) -> Callable[[FloatArray], tuple[float, float]]:
+        """Return what gives −2 ln(restricted likelihood) and the residual sum of squares for one φ, (parts,).
+
+        σ is profiled out.
 
         `contrast`, (N,): Of the deviations.
-        `ratios`, (parts,): φ.
         `known`: Residual sum of squares of a noise of known size that stands beside σ.
         """
-        total = float(contrast @ contrast)
-        active, roots, gram = self._active(ratios)
-        # A border of products with the readings: the last pivot of the root is what these leave.
-        bordered = np.eye(len(active) + 1)
-        bordered[:-1, :-1] += gram
+        total, products = float(contrast @ contrast), self.factors.T @ contrast
         length = np.sqrt(max(total, _NOTHING))
-        bordered[-1, :-1] = roots * (self.factors.T @ contrast)[active] / length
-        bordered[-1, -1] += _ROUNDING
-        pivots = np.diagonal(np.linalg.cholesky(bordered))
-        squares = total * float(pivots[-1]) ** 2 + known
-        criterion = self.degrees * np.log(max(squares, _NOTHING)) + 2.0 * np.log(pivots[:-1]).sum()
-        return float(criterion), squares
+
+        def criterion(ratios: FloatArray) -> tuple[float, float]:
+            active, roots, gram = self._active(ratios)
+            # A border of products with the readings: the last pivot of the root is what these leave.
+            bordered = np.zeros((len(active) + 1, len(active) + 1))
+            bordered[:-1, :-1] = gram
+            bordered[-1, :-1] = roots * products[active] / length
+            bordered[np.diag_indices(len(active))] += 1.0
+            bordered[-1, -1] = 1.0 + _ROUNDING
+            pivots = np.diagonal(np.linalg.cholesky(bordered))
+            squares = total * float(pivots[-1]) ** 2 + known
+            logarithms = self.degrees * np.log(max(squares, _NOTHING)) + 2.0 * np.log(pivots[:-1]).sum()
+            return float(logarithms), squares
+
+        return criterion
 
     def _active(self, ratios: FloatArray) -> tuple[IntArray, FloatArray, FloatArray]:
         """Return the columns of the factors with a share in the covariance, √φ of each, and √φ·ZᵀZ·√φ."""
@@ -129,10 +137,8 @@ def restricted_estimate(
     `known`: Residual sum of squares of a noise of known size that stands beside σ; σ̂² contains it.
     """
 
-    def criterion(ratios: FloatArray) -> float:
-        return space.restricted(contrasts, ratios, known)[0]
-
-    tried = [criterion(ratios) for ratios in grid]
+    criterion = space.restricted(contrasts, known)
+    tried = [criterion(ratios)[0] for ratios in grid]
     best, ratios = min(tried), grid[int(np.argmin(tried))].copy()
     for step in _REFINEMENTS:
         improved = True
@@ -141,10 +147,10 @@ def restricted_estimate(
             for part, factor in product(range(len(ratios)), (step, 1 / step)):
                 changed = ratios.copy()
                 changed[part] = min(max(ratios[part], _SMALLEST_RATIO) * factor, largest[part])
-                value = criterion(changed)
+                value = criterion(changed)[0]
                 if value < best - _WORTHWHILE:
                     best, ratios, improved = value, changed, True
-    return ratios, space.restricted(contrasts, ratios, known)[1] / space.degrees
+    return ratios, criterion(ratios)[1] / space.degrees
 
 
 @dataclass(frozen=True, slots=True)

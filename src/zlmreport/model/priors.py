@@ -98,9 +98,8 @@ class Lesson:
         levels = {part.source: part.ratios for part in parts}
         space = contrasts_of(fitted.base(), parts, fitted.noise.weights)
         contrast = space.of(fitted.open_deviation)
-        criteria = np.array(
-            [space.restricted(contrast, ratios)[0] for ratios in combinations([*levels.values()])]
-        )
+        criterion = space.restricted(contrast)
+        criteria = np.array([criterion(ratios)[0] for ratios in combinations([*levels.values()])])
         sizes = {name: float(axis.deviation_unit.from_si(size)) for name, size in _sizes(fitted)}
         return cls(axis.kind, sizes, levels, np.exp(-0.5 * (criteria - criteria.min())))
 

@@ -144,14 +144,17 @@ class Study:
         `whole`: The fit of the whole model, where it is there already.
         """
         terms = self.model.terms
-        parts = [self._fitted(AxisModel(terms[:count])) for count in range(len(terms))]
-        return (*parts, whole or self.fitted())
+        last = whole or self.fitted()
+        # How unequally readings scatter is seen from repeats, whatever the model.
+        assumptions = replace(self.assumptions, weights=last.fit.noise.weights)
+        parts = [self._fitted(AxisModel(terms[:count]), assumptions) for count in range(len(terms))]
+        return (*parts, last)
 
-    def _fitted(self, model: AxisModel) -> Fitted:
+    def _fitted(self, model: AxisModel, assumptions: Assumptions | None = None) -> Fitted:
         every = thinned(self.together)
         kept = every.without(outliers(every.design, every.deviation).readings)
         try:
-            found = fit(model, kept.design, kept.deviation, self.assumptions)
+            found = fit(model, kept.design, kept.deviation, assumptions or self.assumptions)
         except ModelError as error:
             raise InputError(self._problems(error)) from error
         return Fitted(found, error_numbers(found))

@@ -41,8 +41,8 @@ def possible_scatters(after: Fit) -> tuple[Scatter, ...]:
     """
     parts = noise_parts(after.design)
     space = contrasts_of(after.base(), parts, after.noise.weights)
-    contrast, grid = space.of(after.open_deviation), ratio_grid(parts)
-    criteria, squares = np.transpose([space.restricted(contrast, ratios) for ratios in grid])
+    criterion, grid = space.restricted(space.of(after.open_deviation)), ratio_grid(parts)
+    criteria, squares = np.transpose([criterion(ratios) for ratios in grid])
     likelihoods = np.cumsum(np.exp(-0.5 * (criteria - criteria.min())))
     places = np.searchsorted(likelihoods, likelihoods[-1] * (np.arange(_SCATTERS) + 0.5) / _SCATTERS)
     sigmas = np.sqrt(squares / space.degrees)
