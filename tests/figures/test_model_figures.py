@@ -33,6 +33,7 @@ from zlmreport.figures.model_residuals import (
 )
 from zlmreport.language import Language
 from zlmreport.measurement.approach import Approach
+from zlmreport.model.design import at_positions
 from zlmreport.quantities.arrays import FloatArray
 
 MICROMETRE = 1e6
@@ -242,3 +243,21 @@ def test_a_graph_says_what_it_shows_with_values_in_both_languages(key: str) -> N
 @pytest.mark.parametrize("key", all_figures())
 def test_a_graph_can_be_drawn(key: str) -> None:
     assert drawn(all_figures()[key]).outlines
+
+
+@pytest.mark.parametrize("length", [1.0, 3.0])
+def test_every_drawn_position_has_the_value_that_the_model_gives_there(length: float) -> None:
+    test = linear_test()
+    stretched = replace(
+        test,
+        axis=replace(test.axis, travel=(0.0, length), screw_pitch=5e-3),
+        position=test.position * length / np.ptp(test.position),
+        span=(0.0, length),
+    )
+    found = fitted(*WHOLE, design=stretched)
+    figure = estimate(ModelDiagram(found.fit, found.error))
+    for curve, approach in zip(figure.panels[0].curves, Approach, strict=True):
+        asked = at_positions(stretched, curve.x / 1e3, approach)
+        np.testing.assert_allclose(curve.y, MICROMETRE * found.fit.value_at(asked), atol=1e-6)
+    says_so = "the line shows how far they reach" in figure.title.in_language(Language.ENGLISH)
+    assert says_so == (length == 3.0)

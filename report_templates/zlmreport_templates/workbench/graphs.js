@@ -39,10 +39,12 @@ export class Graphs {
     this.reading = h("div", { class: "reading", role: "status" });
     this.table = h("details", { class: "table", toggle: () => this.#list() }, h("summary", {}, texts.asTable), h("div", { class: "wide", tabindex: "0", role: "region", "aria-label": texts.asTable }));
     this.caption = h("p", { class: "caption", hidden: true });
+    this.reach = h("p", { class: "quiet", hidden: true }, texts.reach);
     this.element = h("section", { class: "graphs", "aria-labelledby": "measured" },
       h("div", { class: "heading" }, h("h2", { id: "measured" }, texts.measured), this.#legend(), this.whole),
       this.caption,
       this.above.element,
+      this.reach,
       h("div", { class: "heading" },
         h("h2", {}, texts.residuals),
         h("label", { for: "over" }, texts.over), this.choice,
@@ -162,8 +164,10 @@ export class Graphs {
     const { readings } = graphs;
     const position = this.axes.get("position");
     const alike = { direction: readings.direction, fitted: readings.fitted, alternative: graphs.alternative, hidden: this.hidden, shades: this.#shades() };
+    const curves = step ? step.after.model : this.near?.model ?? graphs.model;
+    this.reach.hidden = !curves.some((each) => each.reach);
     this.above.show({
-      ...alike, x: position.values, y: readings.deviation, curves: step ? step.after.model : this.near?.model ?? graphs.model, others: this.others, noise: null,
+      ...alike, x: position.values, y: readings.deviation, curves, others: this.others, noise: null,
       ghost: step && { curves: step.before.model, y: readings.deviation },
       range: this.ranges.get("position") ?? null, span: this.spans.get("above") ?? null,
       xTitle: titled(position), yTitle: `${graphs.deviation} (${graphs.unit})`,

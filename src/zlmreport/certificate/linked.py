@@ -13,6 +13,7 @@ from zlmreport.figures.model_diagram import SPREAD, ModelDiagram, estimate
 from zlmreport.figures.model_residuals import over_position
 from zlmreport.language import Language, Words, same
 from zlmreport.measurement.measurement_set import CONDITION_NAMES, CONDITIONS
+from zlmreport.model.curve import shows_reach_only
 from zlmreport.model.repeats import outliers
 from zlmreport.model.residuals import Failure, ResidualTest
 from zlmreport.model.study import Fitted, Study, corrected
@@ -60,6 +61,11 @@ GRAPH_TEXTS: Mapping[str, Words] = MappingProxyType(
         "downwards": Words(en="downwards ↓", de="abwärts ↓"),
         "modelUp": Words(en="model ↑ with U", de="Modell ↑ mit U"),
         "modelDown": Words(en="model ↓ with U", de="Modell ↓ mit U"),
+        "reach": Words(
+            en="The waves are too short to be parted on this length: the line shows how far they reach.",
+            de="Die Wellen sind zu kurz, um auf dieser Länge einzeln sichtbar zu sein: Die Linie zeigt, "
+            "wie weit sie reichen.",
+        ),
         "noise": Words(en="± 2σ of single readings", de="± 2σ einzelner Messwerte"),
         "zoom": Words(
             en="Drag to look closer, with Shift to move; double-click for the whole axis.",
@@ -162,6 +168,7 @@ def model_curves(diagram: ModelDiagram) -> list[dict[str, Any]]:
     if not diagram.fit.model.terms:
         return []
     (panel,) = estimate(diagram).panels
+    reaches = shows_reach_only(diagram.fit, diagram.span)
     return [
         {
             "direction": int(approach),
@@ -169,6 +176,7 @@ def model_curves(diagram: ModelDiagram) -> list[dict[str, Any]]:
             "y": drawn_values(curve.y),
             "low": drawn_values(band.lower),
             "high": drawn_values(band.upper),
+            "reach": reaches,
         }
         for approach, curve, band in zip(diagram.approaches, panel.curves, panel.bands, strict=True)
     ]

@@ -12,7 +12,7 @@ from zlmreport.language import Words
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.axis import Axis
 from zlmreport.model import wording
-from zlmreport.model.curve import curve_positions
+from zlmreport.model.curve import curve_positions, shows_reach_only
 from zlmreport.model.design import Design, at_positions
 from zlmreport.model.diagnosis import ErrorNumbers
 from zlmreport.model.effect import Shape
@@ -162,6 +162,11 @@ _AT_THE_MEAN = Words(
     en="{title}; at the mean time and the mean logged conditions of the test",
     de="{title}; zur mittleren Zeit und bei den mittleren aufgezeichneten Bedingungen der Messung",
 )
+_REACH = Words(
+    en="{title}; its waves are too short to be parted on this length: the line shows how far they reach",
+    de="{title}; ihre Wellen sind zu kurz, um auf dieser Länge einzeln sichtbar zu sein: Die Linie zeigt, "
+    "wie weit sie reichen",
+)
 _ESTIMATE = Words(en="Estimate {arrow}", de="Schätzwert {arrow}")
 _LARGEST = Words(
     en="The expanded uncertainty is {largest} at most.",
@@ -193,9 +198,10 @@ def estimate(diagram: ModelDiagram) -> Figure:
         sentences.append(diagram.range_sentence(_ESTIMATE.given(arrow=arrow), value))
         largest = max(largest, float(half.max()))
     moves = any(term.effect.shape in {Shape.TIME, Shape.RUN} for term in fit.model.terms)
+    title = _AT_THE_MEAN.given(title=_TITLE) if moves else _TITLE
     return diagram.figure(
         "estimate",
-        _AT_THE_MEAN.given(title=_TITLE) if moves else _TITLE,
+        _REACH.given(title=title) if shows_reach_only(fit, diagram.span) else title,
         alternative_text(*sentences, _LARGEST.given(largest=wording.deviation(axis, largest))),
         POSITION_TITLE,
         axis.position_unit.symbol,

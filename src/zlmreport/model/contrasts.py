@@ -136,7 +136,6 @@ def restricted_estimate(
     `largest`, (parts,): Ratios that it does not exceed.
     `known`: Residual sum of squares of a noise of known size that stands beside σ; σ̂² contains it.
     """
-
     criterion = space.restricted(contrasts, known)
     tried = [criterion(ratios)[0] for ratios in grid]
     best, ratios = min(tried), grid[int(np.argmin(tried))].copy()

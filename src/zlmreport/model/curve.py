@@ -42,6 +42,16 @@ def curve_positions(fitted: Fit, approach: Approach, span: tuple[float, float] |
     return _positions(pairs, at, span or design.span, fitted.value_at)
 
 
+def shows_reach_only(fitted: Fit, span: tuple[float, float] | None = None) -> bool:
+    """Return whether the travel holds more waves than a page can part: a curve then shows how far they reach.
+
+    `span`: As of `curve_positions`.
+    """
+    first, last = span or fitted.design.span
+    shortest = min(waves_along(fitted).values(), default=np.inf)
+    return bool(_PER_PERIOD * (last - first) / shortest > _MOST)
+
+
 def effect_positions(
     effect: Effect, theta: FloatArray, design: Design, approach: Approach, span: tuple[float, float]
 ) -> FloatArray:
