@@ -199,6 +199,12 @@ def test_an_axis_goes_on_to_the_same_target_and_only_a_little() -> None:
     assert [placed()._is_same(stop(1), each) for each in (near, far, beside)] == [True, False, False]
 
 
+def test_a_program_that_ran_on_unwatched_did_so_from_the_last_visit_that_was_read() -> None:
+    told, ran_on = Place(PROGRAMME, SETTINGS, 2, last=5.0)._guesses
+    assert (told.place, told.is_told) == (1, True)
+    assert (ran_on.place, ran_on.is_told, ran_on.time, ran_on.weight) == (1, False, 5.0, -7.0)
+
+
 @pytest.mark.parametrize(
     ("before", "after", "files", "weight"),
     [

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import datetime as dt
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -16,8 +17,18 @@ from zlmreport.errors import AccessError, InputError
 from zlmreport.fleet.basis import Basis, KnownFile, Look
 from zlmreport.fleet.database import FORMAT
 from zlmreport.fleet.issuing import What
-from zlmreport.fleet.ledger import Ledger, Night, NumberTakenError
-from zlmreport.fleet.records import About, Entry, Notice, RecordedParameter, State
+from zlmreport.fleet.ledger import Issued, Ledger, Night, NumberTakenError
+from zlmreport.fleet.records import (
+    About,
+    Entry,
+    Kind,
+    News,
+    Notice,
+    PastNight,
+    RecordedParameter,
+    State,
+    Subject,
+)
 from zlmreport.language import Words
 
 NIGHTS = ("2026-11-20T02:00:00+00:00", "2026-11-21T02:00:00+00:00")
@@ -232,3 +243,136 @@ def test_a_copy_of_a_ledger_says_the_same(address: str, tmp_path: Path) -> None:
     with Ledger.open(str(copy), "north") as copied:
         assert list(copied.entries()) == [ENTRY]
         assert copied.certificates()["CAL-1"].files == FILES
+
+
+@pytest.fixture
+def north(tmp_path: Path) -> Iterator[tuple[Ledger, Night]]:
+    """A ledger at night, after a certificate of the fleet south."""
+    path = str(tmp_path / "ledger.db")
+    with night(path, fleet="south") as (_, at_work):
+        at_work.issue(replace(ENTRY, number="S-1", seconds=99.0), FILES, BASIS, {"of": "south"})
+        at_work.report([OVERDUE])
+    with night(path) as opened:
+        yield opened
+
+
+FAILED = News(Kind.FAILED, "y.yaml", "y.yaml cannot be read")
+OVERDUE = News(Kind.OVERDUE, "x.yaml", "x.yaml is due")
+
+
+def test_what_the_latest_certificate_of_a_job_states_is_found(north: tuple[Ledger, Night]) -> None:
+    """Neither what another job states, nor a draft that came later."""
+    _, at_work = north
+    at_work.issue(replace(ENTRY, parameters=()), FILES, BASIS)
+    at_work.issue(ENTRY, FILES, BASIS)
+    at_work.issue(replace(ENTRY, job="z.yaml", number="CAL-9", parameters=ENTRY.parameters[1:]), FILES, BASIS)
+    at_work.add(replace(ENTRY, state=State.DRAFT, parameters=()))
+    assert at_work.stated("x.yaml") == ENTRY.parameters
+    assert at_work.stated("y.yaml") == ()
+
+
+def test_news_is_told_once_by_each_way_and_only_the_own(north: tuple[Ledger, Night]) -> None:
+    _, at_work = north
+    at_work.report([FAILED, OVERDUE])
+    assert at_work.untold("mail", was_tried=True) == (FAILED, OVERDUE)
+    at_work.tell("mail")
+    assert (at_work.untold("mail", was_tried=True), at_work.untold("page", was_tried=True)) == (
+        (),
+        (FAILED, OVERDUE),
+    )
+    at_work.tell("mail")  # again: nothing changes
+    at_work.tell("page")
+    assert at_work.untold("page", was_tried=True) == ()
+
+
+def test_what_is_told_is_told_to_nobody_else(north: tuple[Ledger, Night]) -> None:
+    ledger, at_work = north
+    at_work.report([FAILED])
+    at_work.tell("mail")
+    assert at_work.untold("mail", was_tried=True) == ()
+    with Ledger.open(f"{ledger._database.engine.url.database}", "south") as south:
+        assert replace(at_work, fleet="south", database=south._database).untold("mail", was_tried=True) == (
+            OVERDUE,
+        )
+
+
+def test_a_condition_that_ended_is_news_when_it_comes_back_and_an_event_never(
+    north: tuple[Ledger, Night],
+) -> None:
+    _, at_work = north
+    for news in ([FAILED, OVERDUE], [FAILED], [], [FAILED, OVERDUE]):
+        at_work.report(news)
+    assert at_work.untold("mail", was_tried=True) == (FAILED, OVERDUE, FAILED)
+
+
+def test_a_condition_that_was_not_looked_at_goes_on(north: tuple[Ledger, Night]) -> None:
+    _, at_work = north
+    for news in ([FAILED], [], [FAILED]):
+        at_work.report(news, is_all=False)
+    assert at_work.untold("mail", was_tried=True) == (FAILED,)
+
+
+def test_the_longest_time_of_each_job_is_known(north: tuple[Ledger, Night]) -> None:
+    ledger, at_work = north
+    for seconds in (2.0, 3.0, None, 1.0):
+        at_work.add(replace(ENTRY, seconds=seconds, state=State.DRAFT))
+    at_work.add(FAILURE)
+    assert ledger.longest() == {"x.yaml": 3.0}
+
+
+def test_of_each_test_the_latest_certificate_teaches_in_the_order_of_measurement(
+    north: tuple[Ledger, Night],
+) -> None:
+    ledger, at_work = north
+    readings = KnownFile("readings", "x.csv", "c" * 64)
+    basis = replace(BASIS, files=(*BASIS.files, readings))
+    for number, measured, lesson in (
+        ("CAL-3", "2026-11-19", {"a": 3}),
+        ("CAL-1", "2026-11-18", {"a": 1}),
+        ("CAL-1", "2026-11-18", {"a": 2}),
+        ("CAL-4", "2026-11-20", None),
+    ):
+        at_work.issue(replace(ENTRY, number=number, measured=measured), FILES, basis, lesson)
+    taught = list(ledger.lessons())
+    assert [(each.subject.number, each.lesson) for each in taught] == [
+        ("CAL-1", {"a": 2}),
+        ("CAL-3", {"a": 3}),
+    ]
+    assert {each.readings for each in taught} == {frozenset({readings.sha256})}
+
+
+def test_the_last_night_is_that_of_the_fleet_with_what_became_of_it(north: tuple[Ledger, Night]) -> None:
+    ledger, at_work = north
+    said = Notice(About.CLOCK, Words("set back", "zurückgestellt"))
+    at_work.notice([said])
+    at_work.beat(NIGHTS[1])
+    for entry in (FAILURE, FAILURE, replace(ENTRY, state=State.DRAFT)):
+        at_work.add(entry)
+    began, later = map(dt.datetime.fromisoformat, NIGHTS)
+    at_work_still = PastNight(began, None, (said,), {State.FAILED: 2, State.DRAFT: 1}, later)
+    assert ledger.last_night() == at_work_still
+    at_work.end(NIGHTS[1])
+    assert ledger.last_night() == replace(at_work_still, ended=later)
+
+
+def test_before_its_first_night_a_fleet_has_none(tmp_path: Path) -> None:
+    with Ledger.open(str(tmp_path / "ledger.db"), "north") as ledger:
+        assert ledger.last_night() is None
+
+
+def test_a_standing_is_all_that_was_noted_of_the_last_entry(north: tuple[Ledger, Night]) -> None:
+    ledger, at_work = north
+    at_work.add(replace(FAILURE, machine="HMC 500 17", axis="X", interval=365, digest="d"))
+    standing = ledger.standings()["y.yaml"]
+    assert (standing.state, standing.message, standing.digest) == (State.FAILED, FAILURE.message, "d")
+    assert (standing.files, standing.basis) == ((), None)
+    assert standing.subject == Subject(machine="HMC 500 17", axis="X", interval=365)
+
+
+def test_a_certificate_is_known_by_its_number_with_where_it_belongs(north: tuple[Ledger, Night]) -> None:
+    ledger, at_work = north
+    at_work.issue(ENTRY, FILES, BASIS)
+    assert ledger.certificates() == {
+        "S-1": Issued("south", "x.yaml", NIGHTS[0], FILES),
+        "CAL-1": Issued("north", "x.yaml", NIGHTS[0], FILES),
+    }

@@ -149,7 +149,7 @@ def test_mutants_are_tried_by_a_command_of_its_own(machine: Machine) -> None:
     machine.install("python", "exit 0")
     (machine.bin / "python").rename(machine.environment / "bin" / "python")
     assert machine.run("mutation", "--mutants", "3").returncode == 0
-    assert machine.calls("python")[-1] == "python tests/mutation --mutants 3"
+    assert machine.calls("python")[-1] == "python tests/mutation.py --mutants 3"
 
 
 @pytest.mark.parametrize("script", ["run", ".ci/run"])
