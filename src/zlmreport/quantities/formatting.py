@@ -30,8 +30,8 @@ _MOST_LOST = 0.05
 _ANY_DOUBLE = Context(prec=800, rounding=ROUND_HALF_EVEN)
 _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
-#: A blank between a number and its unit.
-_BEFORE_UNIT = re.compile(r"(?<=\d) (?=(?:[µmn]?m|s|min|K|hPa|°C|%)(?!\w))")
+#: A blank between a number and its unit, and within a coverage factor in brackets.
+_TOGETHER = re.compile(r"(?<=\d) (?=(?:[µmn]?m|s|min|K|hPa|°C|%)(?!\w))|(?<=\(k) (?== )|(?<=\(k =) (?=\d)")
 
 _SUBSCRIPT = re.compile(r"_\{([^}]*)\}")
 # Fractions count as word characters, but they are numbers.
@@ -78,12 +78,12 @@ def general_number(value: float, sign: DecimalSign = DecimalSign.POINT, digits: 
 
 
 def held(text: str) -> str:
-    r"""Return a text of a page in which no line parts a number from its unit.
+    r"""Return a text of a page in which no line parts a number from its unit or sign.
 
-    >>> held("2 °C below, 11.5 µm/(m·K)")
-    '2\xa0°C below, 11.5\xa0µm/(m·K)'
+    >>> held("2 °C below, 11.5 µm/(m·K), U = 2 µm (k = 2)")
+    '2\xa0°C below, 11.5\xa0µm/(m·K), U = 2\xa0µm (k\xa0=\xa02)'
     """
-    return _BEFORE_UNIT.sub(HELD, text)
+    return _TOGETHER.sub(HELD, text)
 
 
 def percentage(share: float, sign: DecimalSign = DecimalSign.POINT, decimals: int = 0) -> str:
