@@ -39,6 +39,7 @@ schema: zlmreport/fleet/1
 jobs: jobs/*.yaml
 output: {{formats: [{format}]}}
 executor: {{workers: 1}}
+limits: {{seconds: 36000}} # also beside other work
 """
 
 

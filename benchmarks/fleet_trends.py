@@ -7,10 +7,11 @@ half its limit, normal scatter between tests, quarterly tests. All numbers are i
 from __future__ import annotations
 
 import argparse
+import itertools
 import math
 import random
 import statistics
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from datetime import date, timedelta
 
@@ -29,12 +30,12 @@ _ENTRY = Entry(job="", night="", state=State.MADE)
 
 #: How the axes of a fleet scatter, by what the table calls it.
 SCATTERS: dict[str, Callable[[random.Random], float]] = {
+    "1/60 or 1/15, half of them each": lambda rng: rng.choice((1 / 60, 1 / 15)),
+    "1/30 or 1/10, half of them each": lambda rng: rng.choice((1 / 30, 1 / 10)),
     "1/15, all alike": lambda _: 1 / 15,
     "1/30, all alike": lambda _: 1 / 30,
     "from 1/60 to 1/15, evenly on a logarithmic scale": lambda rng: math.exp(rng.uniform(*_LOGARITHMS)),
-    "1/60 or 1/15, half of them each": lambda rng: rng.choice((1 / 60, 1 / 15)),
     "1/60, and 1/15 of every tenth axis": lambda rng: 1 / 15 if rng.random() < 0.1 else 1 / 60,
-    "1/30 or 1/10, half of them each": lambda rng: rng.choice((1 / 30, 1 / 10)),
     "1/40, and 1/10 of every tenth axis": lambda rng: 1 / 10 if rng.random() < 0.1 else 1 / 40,
     "1/40, and 1/8 of every fiftieth axis": lambda rng: 1 / 8 if rng.random() < 0.02 else 1 / 40,
 }
@@ -144,12 +145,21 @@ def night(name: str, before: int, fleets: int, axes: int, seed: int) -> Night:
     return Night(Share.of(named), Share.of(seen), Share.of(promised))
 
 
-#: What is said of a night, by the title of its table.
-_TABLES: dict[str, Callable[[Night], str]] = {
-    "False alarms a night": lambda each: str(each.alarms),
-    "Steps of 1/3 that are seen at once": lambda each: each.seen.percent(),
-    "Steps as large as is printed that are seen at once": lambda each: each.promised.percent(),
-}
+#: Of the table of nights: what is said of each.
+_NIGHTS = (
+    "Scatter between tests",
+    "Tests before",
+    "False alarms a night",
+    "Steps of 1/3 seen at once",
+    "Steps as large as is printed seen at once",
+)
+
+
+def _nights(fleets: int, seed: int) -> Iterator[tuple[str, ...]]:
+    """Yield each night as soon as it is simulated: that takes long, and may be stopped."""
+    for name, before in itertools.product(SCATTERS, BEFORE):
+        found = night(name, before, fleets, 300, seed + before)
+        yield name, str(before), str(found.alarms), found.seen.percent(), found.promised.percent()
 
 
 def _stepped(values: Sequence[Sequence[float]], steps: Sequence[float]) -> list[bool]:
@@ -254,11 +264,11 @@ def _rows(fleets: int, axes: int, seed: int) -> Iterator[tuple[str, ...]]:
         yield f"A drift of 1/{drift} a quarter is named after", *(f"{each:.0f} quarters" for each in needed)
 
 
-def _print(*rows: Sequence[str]) -> None:
-    for number, row in enumerate(rows):
-        print(f"| {' | '.join(row)} |")
-        if not number:
-            print(f"|{'---|' * len(row)}")
+def _print(head: Sequence[str], rows: Iterable[Iterable[str]]) -> None:
+    """Print a table, each row as it comes."""
+    print(f"| {' | '.join(head)} |\n|{'---|' * len(head)}", flush=True)
+    for row in rows:
+        print(f"| {' | '.join(row)} |", flush=True)
     print(flush=True)
 
 
@@ -268,17 +278,11 @@ def main(words: Sequence[str]) -> None:
     parser.add_argument("--fleets", type=int, default=20, help="simulated for each number")
     parser.add_argument("--seed", type=int, default=20261120)
     options = parser.parse_args(words)
-    found_in = {
-        name: [night(name, each, 2 * options.fleets, 300, options.seed + each) for each in BEFORE]
-        for name in SCATTERS
-    }
-    columns = [f"after {each} tests" for each in BEFORE]
-    for title, said in _TABLES.items():
-        _print((title, *columns), *((name, *map(said, each)) for name, each in found_in.items()))
-    _print(("", "Scatter 1/15", "Scatter 1/30"), *_rows(max(1, options.fleets // 4), 100, options.seed))
+    _print(("", "Scatter 1/15", "Scatter 1/30"), _rows(max(1, options.fleets // 4), 100, options.seed))
     drifts = (0.5, 1, 2, 4)
     rows = (
         (str(tests), *(_percent(found(each, tests, 2 * options.fleets, options.seed)) for each in drifts))
         for tests in (5, 6, 8, 12)
     )
-    _print(("Calibrations", *(f"{each:g} s each" for each in drifts)), *rows)
+    _print(("Calibrations", *(f"{each:g} s each" for each in drifts)), rows)
+    _print(_NIGHTS, _nights(2 * options.fleets, options.seed))

@@ -31,6 +31,6 @@ def test_the_tables_are_printed(monkeypatch: pytest.MonkeyPatch, capsys: pytest.
     monkeypatch.setattr(fleet_trends, "found", lambda *_: 0.5)
     fleet_trends.main(["--fleets", "1"])
     printed = capsys.readouterr().out
-    assert "| 1/15, all alike | 0.6 ± 0.1 |" in printed
+    assert "| 1/15, all alike | 4 | 0.6 ± 0.1 |" in printed
     assert "| 60.0 ± 10.0 % |" in printed
     assert "| 8 | 50 % | 50 % | 50 % | 50 % |" in printed

@@ -64,6 +64,26 @@ def test_workers_make_several_certificates_and_are_renewed(fleet: Fleet) -> None
     assert str(os.getpid()) not in pids
 
 
+STILLBORN = """\
+import multiprocessing
+import os
+
+if multiprocessing.parent_process():
+    os._exit(3)
+"""
+
+
+def test_jobs_are_not_set_aside_for_workers_that_never_began(tmp_path: Path) -> None:
+    fleet = Fleet.of(tmp_path, "a")
+    plugin = fleet.write("stillborn.py", STILLBORN)
+    witness = Witness()
+    night.spend(fleet.file, night.Order((plugin,), workers=1), witness)
+    assert witness.of("a").problems[0].message == (
+        "the worker process ended with exit code 3 before it was ready, twice"
+    )
+    assert [each.state for each in fleet.entries()] == [State.FAILED]
+
+
 def test_a_worker_that_nobody_ends_is_ended_by_the_system() -> None:
     deed = (
         "import time; from zlmreport.fleet.workers import _ended_after as after\n"

@@ -15,6 +15,7 @@ from dataclasses import dataclass, field
 from multiprocessing import get_context
 from multiprocessing.connection import Connection, wait
 from multiprocessing.process import BaseProcess
+from multiprocessing.synchronize import Event
 from pathlib import Path
 from typing import Any, Self
 
@@ -33,9 +34,27 @@ class _Worker:
 
     process: BaseProcess
     line: Connection
+    is_ready: Event  # whether it came so far that it waited for a task
     task: Task | None = None
     deadline: float = 0.0
     done: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class _Ended:
+    """How a worker ended that had a task."""
+
+    code: int
+    was_ready: bool
+
+    def failed(self, task: Task) -> Failed:
+        """Return the answer of a task that had two such workers, the second while nothing else was done."""
+        code = self.code
+        how = f"was killed by {signal.Signals(-code).name}" if code < 0 else f"ended with exit code {code}"
+        when = "while it made this certificate, twice" if self.was_ready else "before it was ready, twice"
+        hint = "; the system may have run out of memory" if code == -signal.SIGKILL else ""
+        problem = Problem(Place(str(task.job)), f"the worker process {how} {when}{hint}")
+        return Failed((problem,), is_stopped=self.was_ready)
 
 
 @dataclass(slots=True)
@@ -73,9 +92,9 @@ class Pool:
                 killers.append(task)
         for task in killers:
             for _, again in self._worked(iter([task]), 1):
-                yield task, _killed(task, again) if isinstance(again, int) else again
+                yield task, again.failed(task) if isinstance(again, _Ended) else again
 
-    def _worked(self, tasks: Iterator[Task], most: int) -> Iterator[tuple[Task, Made | Failed | int]]:
+    def _worked(self, tasks: Iterator[Task], most: int) -> Iterator[tuple[Task, Made | Failed | _Ended]]:
         """Yield each task with its result, or with how the worker that had it ended."""
         free = deque(self._staff)
         busy: dict[Connection, _Worker] = {}
@@ -119,8 +138,8 @@ class Pool:
         with contextlib.suppress(OSError):  # one that is gone is noticed where its answer is awaited
             worker.line.send(task)
 
-    def _received(self, worker: _Worker) -> tuple[Task, Made | Failed | int]:
-        """Return a worker's answer, or the exit code of one that is gone."""
+    def _received(self, worker: _Worker) -> tuple[Task, Made | Failed | _Ended]:
+        """Return a worker's answer, or how it ended if it is gone."""
         task, worker.task = worker.task, None
         if task is None:
             raise RuntimeError("a worker answers that was asked nothing")
@@ -130,7 +149,7 @@ class Pool:
             worker.process.join()
             if worker.deadline <= time.monotonic():
                 return task, late(task)
-            return task, worker.process.exitcode or 0
+            return task, _Ended(worker.process.exitcode or 0, was_ready=worker.is_ready.is_set())
         worker.done += 1
         return task, result
 
@@ -138,10 +157,11 @@ class Pool:
         context = get_context("forkserver")
         context.set_forkserver_preload([_serve.__module__])  # what all need is loaded once, plugins apart
         ours, theirs = context.Pipe()
-        process = context.Process(target=_serve, args=(theirs, self.plugins), daemon=True)
+        is_ready = context.Event()
+        process = context.Process(target=_serve, args=(theirs, is_ready, self.plugins), daemon=True)
         process.start()
         theirs.close()
-        return _Worker(process, ours)
+        return _Worker(process, ours, is_ready)
 
     def _replaced(self, worker: _Worker) -> _Worker:
         self._dismiss(worker)
@@ -157,11 +177,12 @@ class Pool:
         worker.process.join()
 
 
-def _serve(line: Connection, plugins: tuple[Path, ...]) -> None:
+def _serve(line: Connection, is_ready: Event, plugins: tuple[Path, ...]) -> None:
     """Answer tasks until the line is closed, by whatever end of the other side."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # of a terminal: the night decides what it means
     with contextlib.suppress(Exception):  # what is wrong with a plugin is said of each job
         warm(plugins)
+    is_ready.set()
     with contextlib.suppress(EOFError, OSError):
         while True:
             task: Task = line.recv()
@@ -194,14 +215,6 @@ def _limit_memory(size: int) -> None:
     _, hard = resource.getrlimit(resource.RLIMIT_DATA)
     soft = size if hard == resource.RLIM_INFINITY else min(size, hard)
     resource.setrlimit(resource.RLIMIT_DATA, (soft, hard))
-
-
-def _killed(task: Task, code: int) -> Failed:
-    """Return the answer of a task that ended two workers, the second while nothing else was done."""
-    how = f"was killed by {signal.Signals(-code).name}" if code < 0 else f"ended with exit code {code}"
-    hint = "; the system may have run out of memory" if code == -signal.SIGKILL else ""
-    message = f"the worker process {how} while it made this certificate, twice{hint}"
-    return Failed((Problem(Place(str(task.job)), message),), is_stopped=True)
 
 
 #: For which a scheduler may be silent, and be without workers, s.
