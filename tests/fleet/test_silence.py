@@ -69,7 +69,9 @@ def test_the_overview_counts_what_is_gone(fleet: Fleet) -> None:
 def test_when_most_jobs_are_gone_nothing_is_done(fleet: Fleet) -> None:
     for stem in "wxyz":
         (fleet.folder / f"jobs/{stem}.yaml").unlink()
-    with pytest.raises(MissingError, match="4 jobs are gone since the last night, and 1 are there"):
+    with pytest.raises(
+        MissingError, match="4 of 5 jobs are gone since the last night; look whether their folder"
+    ):
         fleet.spend()
     assert noticed(fleet) == [About.JOBS]
     assert len(fleet.entries()) == 5
@@ -172,9 +174,20 @@ def test_a_night_that_was_broken_off_is_told_once_with_what_it_came_to(
 
 def test_jobs_whose_folder_is_not_mounted_are_missed_and_no_mistake(fleet: Fleet) -> None:
     (fleet.folder / "jobs").rename(fleet.folder / "elsewhere")
-    with pytest.raises(MissingError, match="5 jobs are gone since the last night, and 0 are there"):
+    with pytest.raises(
+        MissingError, match="5 of 5 jobs are gone since the last night; look whether their folder"
+    ):
         fleet.spend()
     assert noticed(fleet) == [About.JOBS]
+
+
+def test_a_pattern_that_matches_no_more_is_named_and_the_others_are_made(fleet: Fleet) -> None:
+    fleet.write("fleet.yaml", FLEET.replace("jobs/*.yaml", "[jobs/x.yaml, 'jobs/[vwyz].yaml']"))
+    (fleet.folder / "jobs/x.yaml").unlink()
+    fleet.readings("y", "2 2 3 -1 -2 -3")
+    witness = fleet.spend()
+    assert (witness.what["x"], witness.what["y"]) == (What.VANISHED, What.DRAFT)
+    assert "no file is called 'jobs/x.yaml'" in witness.notices[0].english
 
 
 def test_a_pattern_that_never_matched_is_a_mistake_and_makes_no_ledger(tmp_path: Path) -> None:

@@ -27,7 +27,7 @@ from zlmreport.fleet.records import About, Notice, PastNight, State, due_date
 from zlmreport.fleet.state import Rules, state_of
 from zlmreport.fleet.workers import Cluster, Pool
 from zlmreport.job.fleet import FleetFile, found_jobs, is_retired, job_files
-from zlmreport.language import Language, Words
+from zlmreport.language import Language, Words, same
 from zlmreport.plugin.protocols import Occasion
 
 #: A job may take so many times as long as it ever took.
@@ -106,7 +106,7 @@ def spend(fleet: FleetFile, order: Order, watch: Watch) -> None:
         gone = vanished(known)
         if unmatched and not gone:
             raise InputError(unmatched)
-        lacking = missing(known, gone, is_unmatched=bool(unmatched))
+        lacking = missing(known, gone)
         with ledger.night(_now(), str(fleet.path)) as night, _alive(fleet):
             if lacking:
                 place, notice = lacking
@@ -118,7 +118,8 @@ def spend(fleet: FleetFile, order: Order, watch: Watch) -> None:
                 if not night.was_interrupted:  # else the next night still has to tidy up
                     night.end(_now())
                 raise MissingError.at(place, notice.english)
-            noticed = tuple(notices(known, night, gone, last))
+            mistakes = (Notice(About.JOBS, same(each.message)) for each in unmatched)
+            noticed = (*notices(known, night, gone, last), *mistakes)
             night.notice(noticed)
             for notice in noticed:
                 watch.noticed(notice)

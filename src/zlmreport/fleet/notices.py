@@ -49,10 +49,10 @@ _MANY_GONE = Words(
     de="{gone} von {before} Aufträgen fehlen seit dem letzten Lauf; bitte prüfen, ob das gewollt ist",
 )
 _MOST_GONE = Words(
-    en="{gone} jobs are gone since the last night, and {there} are there; look whether their folder is "
-    "mounted, or name those under retired that are gone on purpose",
-    de="{gone} Aufträge fehlen seit dem letzten Lauf, {there} sind da; bitte prüfen, ob ihr Ordner "
-    "eingehängt ist, oder unter retired nennen, was mit Absicht fehlt",
+    en="{gone} of {before} jobs are gone since the last night; look whether their folder is mounted, or name "
+    "those under retired that are gone on purpose",
+    de="{gone} von {before} Aufträgen fehlen seit dem letzten Lauf; bitte prüfen, ob ihr Ordner eingehängt "
+    "ist, oder unter retired nennen, was mit Absicht fehlt",
 )
 _EMPTY = Words(
     en="the folder is empty, and {number} certificates were issued into it; look whether it is mounted. A "
@@ -112,15 +112,12 @@ def of_last(night: Night, last: PastNight | None) -> Iterator[Notice]:
         yield Notice(About.BROKEN, text)
 
 
-def missing(known: Evening, gone: Sequence[str], *, is_unmatched: bool) -> tuple[Place, Notice] | None:
-    """Return what is not there and where: a folder that is not mounted, another fleet's ledger; else None.
-
-    `is_unmatched`: Whether a pattern of jobs matches no file.
-    """
+def missing(known: Evening, gone: Sequence[str]) -> tuple[Place, Notice] | None:
+    """Return what is not there and where: a folder that is not mounted, another fleet's ledger; else None."""
     fleet = known.fleet
     new = _newly_gone(known, gone)
-    if is_unmatched or (len(new) > _FEW and len(new) > len(known.jobs)):
-        text = _MOST_GONE.given(gone=len(new if not is_unmatched else gone), there=len(known.jobs))
+    if (gone and not known.jobs) or (len(new) > _FEW and len(new) > len(known.jobs)):
+        text = _MOST_GONE.given(gone=len(new or gone), before=len(known.jobs) + len(gone))
         return Place(str(fleet.path)), Notice(About.JOBS, text)
     own = [each for each in known.certificates.values() if each.fleet == fleet.name and each.files]
     is_empty = not fleet.output.is_dir() or not _other_than_reports(fleet)

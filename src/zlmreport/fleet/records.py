@@ -72,7 +72,7 @@ class About(StrEnum):
     @property
     def is_condition(self) -> bool:
         """Whether it lasts until something is done, and is told once; others are events of one night."""
-        return self not in {About.BROKEN, About.STUCK, About.CLOCK, About.DOCUMENTS}
+        return self not in {About.BROKEN, About.STUCK, About.CLOCK, About.JOBS, About.DOCUMENTS}
 
 
 class Kind(StrEnum):
