@@ -78,10 +78,10 @@ def evaluation(*, uncertain: bool, limited: bool) -> Evaluation:
 @pytest.mark.parametrize(
     ("stated", "columns"),
     [
-        ({"uncertain": False, "limited": False}, 1),
-        ({"uncertain": True, "limited": False}, 3),
-        ({"uncertain": False, "limited": True}, 3),
-        ({"uncertain": True, "limited": True}, 5),
+        ({"uncertain": False, "limited": False}, 3),
+        ({"uncertain": True, "limited": False}, 5),
+        ({"uncertain": False, "limited": True}, 5),
+        ({"uncertain": True, "limited": True}, 7),
     ],
 )
 def test_there_are_columns_for_what_is_stated(stated: dict[str, bool], columns: int) -> None:
@@ -89,5 +89,5 @@ def test_there_are_columns_for_what_is_stated(stated: dict[str, bool], columns: 
 
     values = Values.of([found], SCRIBE)
 
-    assert len(values.columns) == columns
-    assert all(len(values.cells(each)) == len(values.columns) for each in found.parameters)
+    assert len(values.columns()) == columns
+    assert all(len(values.cells(each)) + 2 == columns for each in found.parameters)

@@ -10,8 +10,7 @@ from model.axis_tests import SIGMA, linear_test, observations
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.axis import Axis
 from zlmreport.model.estimate import InstrumentError
-from zlmreport.plane.lines import Line, side_by_side
-from zlmreport.plane.surface import Surface, surface
+from zlmreport.plane.surface import Line, Surface, side_by_side, surface
 from zlmreport.quantities.arrays import FloatArray
 
 DESIGN = linear_test(targets=9, runs=4, axis=Axis("X", travel=(0.0, 1.0)))

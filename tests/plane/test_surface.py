@@ -13,8 +13,7 @@ from zlmreport.measurement.approach import Approach
 from zlmreport.model.axis_model import ModelError
 from zlmreport.model.estimate import InstrumentError
 from zlmreport.model.noise import NoiseSource, noise_parts
-from zlmreport.plane.lines import Line, side_by_side
-from zlmreport.plane.surface import Surface, coefficient_names
+from zlmreport.plane.surface import Line, Surface, coefficient_names, side_by_side
 from zlmreport.quantities.arrays import FloatArray
 from zlmreport.quantities.units import MICROMETRE, MILLIMETRE
 

@@ -9,7 +9,7 @@ from zlmreport.certificate import conformity, statements, uncertainty
 from zlmreport.certificate.circumstances import Fact, date, days, stated_facts
 from zlmreport.certificate.conditions import MACHINE_KINDS, axis_in_words, identified
 from zlmreport.certificate.conditions import facts as facts_of_conditions
-from zlmreport.certificate.document import Block, Column, Facts, Notice, RowGroup, Symbol, Table
+from zlmreport.certificate.document import Block, Facts, Notice, RowGroup, Symbol, Table
 from zlmreport.certificate.readings import missing_readings
 from zlmreport.certificate.results import Evaluated, section_key
 from zlmreport.certificate.statements import amendment_notice, in_a_line
@@ -80,11 +80,7 @@ def _as_found(job: Job, writer: Writer) -> Iterator[Block]:
 
 def _results(pages: Sequence[tuple[Evaluated, ...]], writer: Writer, *, dense: bool) -> Table:
     values = Values.of((page[0].evaluation for page in pages), writer)
-    columns = (
-        Column(writer.say(Words(en="Symbol", de="Zeichen"))),
-        Column(writer.say(Words(en="Parameter", de="Kenngröße"))),
-        *values.columns,
-    )
+    columns = values.columns()
     groups = tuple(
         RowGroup(
             tuple(

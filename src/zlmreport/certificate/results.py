@@ -145,11 +145,7 @@ def shortfall(designations: str, items: tuple[str, ...], writer: Writer) -> Noti
 
 def _parameters(evaluation: Evaluation, writer: Writer) -> Table:
     values = Values.of([evaluation], writer, with_interval=True)
-    columns = (
-        Column(writer.say(Words(en="Symbol", de="Zeichen"))),
-        Column(writer.say(Words(en="Parameter and what it means", de="Kenngröße und ihre Bedeutung"))),
-        *values.columns,
-    )
+    columns = values.columns(Words(en="Parameter and what it means", de="Kenngröße und ihre Bedeutung"))
     groups = []
     for group, (heading, note) in _GROUPS.items():
         rows = tuple(

@@ -12,7 +12,6 @@ from typing import TypeAlias, TypeGuard
 from zlmreport.certificate import columns, conditions, conformity, cover, results, statements
 from zlmreport.certificate.document import (
     Block,
-    Column,
     Graph,
     Notice,
     Paragraph,
@@ -297,11 +296,7 @@ def _shortfalls(evaluations: Sequence[Evaluation], writer: Writer) -> Iterator[N
 def parameters(evaluation: Evaluation, writer: Writer) -> Table:
     """Return all parameters by a standard: a row each, what repeats apart from what scatters."""
     values = Values.of([evaluation], writer, with_interval=True)
-    headings = (
-        Column(writer.say(Words(en="Symbol", de="Zeichen"))),
-        Column(writer.say(Words(en="Parameter", de="Kenngröße"))),
-        *values.columns,
-    )
+    headings = values.columns()
     groups = (
         tuple(
             (Symbol(each.quantity.notation), writer.say(each.quantity.name), *values.cells(each))

@@ -15,6 +15,8 @@ from zlmreport.values import dataclass
 if TYPE_CHECKING:
     from zlmreport.evaluation.evaluation import Evaluation, Parameter, PositionQuantity, Quantity
 
+_SYMBOL = Words(en="Symbol", de="Zeichen")
+_PARAMETER = Words(en="Parameter", de="Kenngröße")
 _VALUE = Words(en="Value", de="Wert")
 _AXIS = Words(en="Axis, 95 %", de="Achse, 95 %")
 _LIMIT = Words(en="Limit", de="Grenzwert")
@@ -48,17 +50,18 @@ class Values:
             with_interval and any(parameter.axis_interval is not None for parameter in parameters),
         )
 
-    @property
-    def columns(self) -> tuple[Column, ...]:
-        """Their headings and units."""
-        return tuple(self._columns())
+    def columns(self, parameter: Words = _PARAMETER) -> tuple[Column, ...]:
+        """Return the headings of a row's symbol, of its parameter, and of what `cells` are."""
+        return tuple(self._columns(parameter))
 
     def cells(self, parameter: Parameter) -> tuple[Cell, ...]:
-        """Return what stands under `columns` for a parameter."""
+        """Return how large a parameter is, cell by cell."""
         return tuple(self._cells(parameter))
 
-    def _columns(self) -> Iterator[Column]:
+    def _columns(self, parameter: Words) -> Iterator[Column]:
         say, unit = self.writer.say, self.writer.deviation_unit.symbol
+        yield Column(say(_SYMBOL))
+        yield Column(say(parameter))
         yield Column(say(_VALUE), unit, Align.RIGHT)
         if self.has_uncertainty:
             yield Column(Symbol("U"), unit, Align.RIGHT)

@@ -17,8 +17,7 @@ from zlmreport.model.axis_model import ModelError
 from zlmreport.model.observations import observations_of
 from zlmreport.model.report import report_error
 from zlmreport.model.study import instrument_error
-from zlmreport.plane.lines import Line, side_by_side
-from zlmreport.plane.surface import Surface, coefficient_names, surface
+from zlmreport.plane.surface import Line, Surface, coefficient_names, side_by_side, surface
 
 #: A job, and what it measured.
 Measured = tuple[Job, MeasurementSet]

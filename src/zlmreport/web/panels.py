@@ -22,7 +22,6 @@ from zlmreport.presenting.model import (
     ErrorRows,
     ParameterRow,
     deviation,
-    no_table_takes_away,
     parameter_rows,
 )
 from zlmreport.presenting.writer import NOTHING, Writer, written
@@ -135,10 +134,6 @@ class Panels:
                 }
             )
         return found
-
-    def moving(self) -> str:
-        """Return the sentence on effects that no table takes away; empty if there are none."""
-        return no_table_takes_away(self.whole.fit, self.language)
 
     def excluded(self) -> list[dict[str, str]]:
         """Return the readings that the job sets aside, each with its value and the reason."""

@@ -15,6 +15,7 @@ from zlmreport.model.effect import Effect
 from zlmreport.model.faults import Fault
 from zlmreport.model.study import Study
 from zlmreport.presenting.diagnosis import CandidateRow, DiagnosisRows
+from zlmreport.presenting.model import no_table_takes_away
 from zlmreport.web.asked import asked, field_values, lacking
 from zlmreport.web.bench import PLACE, Bench, Loaded
 from zlmreport.web.commands import offered
@@ -81,7 +82,7 @@ def results(bench: Bench, loaded: Loaded, language: Language) -> dict[str, Any]:
         "stamp": loaded.stamp,
         "fall": panels.fall(bench.history(loaded)),
         "standards": panels.standards(bench.evaluated(loaded)),
-        "moving": panels.moving(),
+        "moving": no_table_takes_away(panels.whole.fit, language),
         "lacking": [field_values(each, language) for each in lacking(loaded, bench.registry)],
     }
 
