@@ -113,72 +113,43 @@ class InstalledEffect(WithKeys, Protocol):
 
 
 class Installed(Protocol):
-    """All plugins, by what jobs call them.
+    """All plugins, by kind, and by what jobs call them.
 
     The lookups raise `InputError` at `named_at` for an identifier that no plugin provides.
     """
 
     @property
-    def sources(self) -> Sequence[WithKeys]:
-        """All data sources."""
-
+    def sources(self) -> Sequence[WithKeys]: ...
     @property
-    def standards(self) -> Sequence[InstalledStandard]:
-        """All standards."""
-
+    def standards(self) -> Sequence[InstalledStandard]: ...
     @property
-    def renderers(self) -> Sequence[InstalledRenderer]:
-        """All file formats."""
-
+    def renderers(self) -> Sequence[InstalledRenderer]: ...
     @property
-    def effects(self) -> Sequence[InstalledEffect]:
-        """All effects."""
-
+    def effects(self) -> Sequence[InstalledEffect]: ...
     @property
-    def part_programs(self) -> Sequence[InstalledProgram]:
-        """All writers of part programs."""
-
+    def part_programs(self) -> Sequence[InstalledProgram]: ...
+    @property
+    def controllers(self) -> Sequence[WithKeys]: ...
+    @property
+    def instruments(self) -> Sequence[WithKeys]: ...
+    @property
+    def extensions(self) -> Sequence[InstalledExtension]: ...
     @property
     def extension_keys(self) -> Sequence[str]:
         """The keys of the groups that plugins add."""
 
-    @property
-    def extensions(self) -> Sequence[InstalledExtension]:
-        """All groups of keys that plugins add."""
-
-    @property
-    def instruments(self) -> Sequence[WithKeys]:
-        """All live instruments."""
-
-    def source(self, identifier: str, named_at: Place | None = None) -> WithKeys:
-        """Return a data source."""
-
-    def standard(self, identifier: str, named_at: Place | None = None) -> InstalledStandard:
-        """Return a standard."""
-
-    def renderer(self, identifier: str, named_at: Place | None = None) -> InstalledRenderer:
-        """Return a file format."""
-
-    def effect(self, identifier: str, named_at: Place | None = None) -> InstalledEffect:
-        """Return an effect."""
-
+    def source(self, identifier: str, named_at: Place | None = None) -> WithKeys: ...
+    def standard(self, identifier: str, named_at: Place | None = None) -> InstalledStandard: ...
+    def renderer(self, identifier: str, named_at: Place | None = None) -> InstalledRenderer: ...
+    def effect(self, identifier: str, named_at: Place | None = None) -> InstalledEffect: ...
     def programs_for(self, takes: type | None = None) -> Sequence[InstalledProgram]:
         """Return the writers of part programs that take this; without it, the motion of a planned test."""
 
-    @property
-    def controllers(self) -> Sequence[WithKeys]:
-        """All controls for which compensation tables are written."""
-
-    def controller(self, identifier: str, named_at: Place | None = None) -> WithKeys:
-        """Return a control for which compensation tables are written."""
-
+    def controller(self, identifier: str, named_at: Place | None = None) -> WithKeys: ...
     def part_program(
         self, identifier: str, named_at: Place | None = None, takes: type | None = None
     ) -> InstalledProgram:
         """Return a writer of part programs that takes this; without it, the motion of a planned test."""
 
-    def extension(self, identifier: str, named_at: Place | None = None) -> InstalledExtension:
-        """Return a group of keys that a plugin adds."""
-
-    def instrument(self, identifier: str, named_at: Place | None = None) -> WithKeys:
-        """Return a live instrument."""
+    def extension(self, identifier: str, named_at: Place | None = None) -> InstalledExtension: ...
+    def instrument(self, identifier: str, named_at: Place | None = None) -> WithKeys: ...
