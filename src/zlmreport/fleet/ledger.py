@@ -155,10 +155,12 @@ class Night:
         `was_tried`: Whether nobody was reached by it in the night before.
         """
         query = select(NEWS).where(NEWS.c.fleet == self.fleet).order_by(NEWS.c.id)
+        ended = select(func.max(NIGHTS.c.id)).where(NIGHTS.c.fleet == self.fleet, NIGHTS.c.ended.is_not(None))
         with self.database.transaction() as connection:
             rows = connection.execute(query).all()
+            last_ended = connection.scalar(ended) or 0
         if not was_tried and not any(way in row.told for row in rows):
-            rows = [row for row in rows if row.night == self.identity or _is_still_so(row)]
+            rows = [row for row in rows if row.night > last_ended or _is_still_so(row)]
         return tuple(News(Kind(row.kind), row.subject, row.text) for row in rows if way not in row.told)
 
     def tell(self, way: str) -> None:

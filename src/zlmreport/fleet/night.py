@@ -121,6 +121,7 @@ def spend(fleet: FleetFile, order: Order, watch: Watch) -> None:
             mistakes = (Notice(About.JOBS, same(each.message)) for each in unmatched)
             noticed = (*notices(known, night, gone, last), *mistakes)
             night.notice(noticed)
+            night.report(tuple(news_of_night(noticed, language)), is_all=False)  # it may be killed, too
             for notice in noticed:
                 watch.noticed(notice)
             before = last.began.isoformat() if last else ""
