@@ -29,7 +29,7 @@ from zlmreport.evaluation.checks import (
     runs_in_words,
     spacing_against_periods,
 )
-from zlmreport.evaluation.evaluation import Basis
+from zlmreport.evaluation.evaluation import Basis, Finding
 from zlmreport.language import Language, Words
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.axis import Axis, AxisKind
@@ -390,3 +390,57 @@ def test_mean_interval(number: int, met: bool) -> None:  # noqa: FBT001 - a colu
 @pytest.mark.parametrize(("length", "met"), [(0.25, True), (0.4, False)])
 def test_two_targets_have_one_interval(length: float, met: bool) -> None:  # noqa: FBT001 - a column of a table
     assert mean_interval(taken_at(0.0, 1000 * length), 0.25, Basis.APPLIED).met is met
+
+
+#: Five positions on 200 mm of an axis of 300 mm, once in each direction.
+FEW = evenly(0, 200, 5, axis=Axis("X", travel=(0.0, 0.3)))
+
+
+@pytest.mark.parametrize(
+    ("finding", "asked", "found"),
+    [
+        (
+            positions_per_metre(FEW, 5, Basis.APPLIED),
+            "Mindestens 5 Positionen je Meter",
+            "5 Positionen auf 200 mm",
+        ),
+        (positions_in_all(FEW, 11, Basis.APPLIED), "Mindestens 11 Positionen", "5 Positionen"),
+        (
+            positions_over_travel(FEW),
+            "Sollpositionen über den ganzen Verfahrweg verteilt",
+            "0 mm bis 200 mm von 0 mm bis 300 mm",
+        ),
+        (
+            both_directions(FEW, CONSEQUENCE, Basis.APPLIED),
+            "Anfahren der Sollpositionen in positiver und in negativer Richtung",
+            "beide Richtungen",
+        ),
+        (
+            number_of_runs(FEW, 5, Basis.APPLIED),
+            "Mindestens 5 Durchläufe je Richtung",
+            "1 Durchlauf",
+        ),
+        (no_missing_readings(FEW), "Ein Messwert je Sollposition und Durchlauf", "alle 10 Messwerte"),
+        (
+            random_fractions(FEW, FORMULA, Basis.APPLIED),
+            "Sollpositionen P = N·p + r mit zufälligem Anteil r",
+            "alle Abstände gleich: 50 mm",
+        ),
+        (
+            positions_by_angle(rotary(0, 90, 180), BY_ANGLE, 2, Basis.APPLIED),
+            "Mindestens 5 Positionen auf 180°",
+            "3 Positionen",
+        ),
+    ],
+    ids=lambda value: value if isinstance(value, str) else "",
+)
+def test_how_a_requirement_reads_in_german(finding: Finding, asked: str, found: str) -> None:
+    german = Language.GERMAN
+    assert (finding.requirement.in_language(german), finding.found.in_language(german)) == (asked, found)
+
+
+def test_runs_are_counted_in_german() -> None:
+    assert [runs_in_words(number).in_language(Language.GERMAN) for number in (1, 2)] == [
+        "1 Durchlauf",
+        "2 Durchläufe",
+    ]

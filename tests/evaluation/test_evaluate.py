@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 
 from plugins.standards.installed import STANDARDS
-from zlmreport.evaluation.evaluate import evaluate
+from zlmreport.evaluation.evaluate import doubts, evaluate
 from zlmreport.evaluation.evaluation import Evaluation
+from zlmreport.evaluation.statistics import position_statistics
 from zlmreport.job.types import Options
 from zlmreport.language import Language
 from zlmreport.measurement.approach import Approach
+from zlmreport.measurement.axis import Axis
 from zlmreport.testing import simulated_test
 
 ISO = STANDARDS["iso230-2:2014"]
@@ -69,3 +72,30 @@ def test_the_printed_value_has_the_sign_of_the_edition() -> None:
     assert old is not None
     assert new is not None
     assert old.value == new.value == new.printed_value == -old.printed_value
+
+
+@pytest.mark.parametrize(
+    ("symbol", "value", "sentence"),
+    [
+        (
+            "R",
+            -1e-6,
+            "−1 µm: not plausible, R cannot be negative; the formulas of the plugin are in doubt",
+        ),
+        (
+            "A",
+            5.0,
+            (
+                "5000000 µm: not plausible, no reading deviates by more than 3 µm; "
+                "the formulas of the plugin are in doubt"
+            ),
+        ),
+    ],
+)
+def test_a_value_that_is_not_plausible_is_named_with_its_parameter(
+    symbol: str, value: float, sentence: str
+) -> None:
+    quantity = next(each for each in ISO.quantities if each.symbol == symbol)
+    statistics = position_statistics(np.array([[[1e-6, -3e-6]]]))
+    (finding,) = doubts([(quantity, value)], statistics, Axis("X"))
+    assert finding.found.in_language(Language.ENGLISH) == sentence

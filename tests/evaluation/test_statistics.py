@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from zlmreport.evaluation.statistics import PositionStatistics, position_statistics
+from zlmreport.evaluation.statistics import PositionStatistics, position_statistics, span
 
 NAN = math.nan
 
@@ -90,3 +90,9 @@ def test_statistics_cannot_be_altered_and_leave_the_readings_as_they_are() -> No
     for array in (found.deviations, found.count, found.mean, found.standard_deviation):
         assert not array.flags.writeable
     assert readings.flags.writeable
+
+
+def test_a_single_value_has_no_range() -> None:
+    assert math.isnan(span(np.array([3.0])))
+    assert math.isnan(span(np.array([3.0, NAN])))
+    assert span(np.array([3.0, NAN, 1.0])) == 2.0

@@ -89,6 +89,21 @@ def test_an_entry_comes_back_as_it_was_given(address: str) -> None:
         assert list(ledger.entries()) == [ENTRY, FAILURE]
 
 
+def test_each_entry_has_its_own_parameters(address: str) -> None:
+    others = replace(ENTRY, number="CAL-2", parameters=ENTRY.parameters[::-1])
+    with night(address) as (ledger, at_work):
+        at_work.issue(ENTRY, FILES, BASIS)
+        at_work.issue(others, FILES, BASIS)
+        assert list(ledger.entries()) == [ENTRY, others]
+
+
+def test_to_begin_is_a_sign_of_life(address: str) -> None:
+    with night(address) as (ledger, _):
+        last = ledger.last_night()
+        assert last is not None
+        assert last.beat == last.began
+
+
 def test_what_a_certificate_was_made_from_comes_back(address: str) -> None:
     with night(address) as (ledger, at_work):
         at_work.issue(ENTRY, FILES, BASIS)

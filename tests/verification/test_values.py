@@ -73,6 +73,10 @@ def test_an_item_that_is_there_twice_differs() -> None:
     }
 
 
+def test_an_item_without_a_name_is_named_by_its_number() -> None:
+    assert differing({"x": [1.0, 2.0]}, {"x": [1.0]}) == {"x/2": (2.0, None)}
+
+
 def test_a_group_in_the_place_of_a_value_differs() -> None:
     assert f"{A}/value/limit" in differing(results({"limit": 20.0}), results())
 
