@@ -41,6 +41,19 @@ def fleet(request: pytest.FixtureRequest, tmp_path: Path) -> Path:
     return file
 
 
+def test_certificates_whose_number_no_job_has_are_named(
+    fleet: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for file in fleet.parent.glob("hall.db*"):
+        file.unlink()
+    job = fleet.parent / "x.yaml"
+    job.write_text(job.read_text(encoding="utf-8").replace("R-1", "R-2"), encoding="utf-8")
+    (fleet.parent / "certificates/note.json").write_text("{}", encoding="utf-8")
+    assert main(["fleet", "rebuild", str(fleet)]) == 4
+    (said,) = capsys.readouterr().err.splitlines()
+    assert "no job has the number R-1; it is not in the ledger" in said
+
+
 def test_it_knows_what_they_state_and_the_next_night_finds_them_unchanged(
     fleet: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

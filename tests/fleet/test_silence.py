@@ -239,6 +239,28 @@ def test_an_axis_that_was_not_measured_again_is_told_once(
     assert told == [[], [], ["CAL-U"], [], ["CAL-Z"], []]
 
 
+def test_an_axis_is_told_to_be_overdue_also_after_a_night_that_did_nothing(
+    fleet: Fleet, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    fleet.write("fleet.yaml", f"{FLEET}interval: 365\n")
+    on_a_day("2027-11-18", monkeypatch)
+    (fleet.folder / "certificates").rename(fleet.folder / "elsewhere")
+    with pytest.raises(MissingError):
+        fleet.spend()
+    (fleet.folder / "elsewhere").rename(fleet.folder / "certificates")
+    on_a_day("2027-11-19", monkeypatch)
+    told = [sum(each.what is What.OVERDUE for each in fleet.spend().seen) for _ in range(2)]
+    assert told == [1, 0]
+
+
+def test_an_interval_that_comes_late_is_told_at_once(fleet: Fleet, monkeypatch: pytest.MonkeyPatch) -> None:
+    on_a_day("2028-01-01", monkeypatch)
+    fleet.spend()
+    fleet.write("fleet.yaml", f"{FLEET}interval: 365\n")
+    on_a_day("2028-01-02", monkeypatch)
+    assert [sum(each.what is What.OVERDUE for each in fleet.spend().seen) for _ in range(2)] == [1, 0]
+
+
 def test_the_overview_lists_by_when_axes_are_to_be_measured(fleet: Fleet) -> None:
     now = night_of("2027-12-01")
     state = state_of("Hall North", fleet.entries(), ["jobs/x.yaml"], now, Rules(365))

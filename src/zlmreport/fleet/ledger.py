@@ -149,6 +149,12 @@ class Night:
             if new:
                 connection.execute(insert(NEWS), new)
 
+    def subjects(self, kind: Kind) -> frozenset[str]:
+        """Return the subjects of all news of a kind that there ever was."""
+        query = select(NEWS.c.subject).where(NEWS.c.fleet == self.fleet, NEWS.c.kind == kind.value)
+        with self.database.transaction() as connection:
+            return frozenset(connection.scalars(query))
+
     def untold(self, way: str, *, was_tried: bool) -> tuple[News, ...]:
         """Return what nobody heard of by a way, oldest first; by a new one, what is new or still so.
 

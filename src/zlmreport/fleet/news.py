@@ -88,8 +88,7 @@ def news_of(state: FleetState, language: Language) -> Iterator[News]:
     for term in state.overdue:
         entry = term.entry
         told = _OVERDUE.given(measured=entry.measured, due=str(term.due)).in_language(language)
-        subject = f"{entry.machine}|{entry.axis}|{term.due}"
-        yield News(Kind.OVERDUE, subject, f"{entry.of_axis}: {told}")
+        yield News(Kind.OVERDUE, entry.term(term.due.isoformat()), f"{entry.of_axis}: {told}")
     for entry in state.drafts:
         yield News(Kind.DRAFT, f"{entry.job}|{entry.number}", f"{entry.number}: {entry.message}")
 

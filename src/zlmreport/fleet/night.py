@@ -8,7 +8,7 @@ import itertools
 import math
 import os
 import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Container, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Protocol
@@ -23,7 +23,7 @@ from zlmreport.fleet.making import Failed, Limits, Task, defaults_digest
 from zlmreport.fleet.news import Ways, digest, news_of, news_of_job, news_of_night, ways_of
 from zlmreport.fleet.notices import documents, left, missing, notices, of_last, vanished
 from zlmreport.fleet.plan import Due, Evening, Planned, plan, reasons
-from zlmreport.fleet.records import About, Notice, PastNight, State, due_date
+from zlmreport.fleet.records import About, Kind, Notice, PastNight, State, due_date
 from zlmreport.fleet.state import Rules, state_of
 from zlmreport.fleet.workers import Cluster, Pool
 from zlmreport.job.fleet import FleetFile, found_jobs, is_retired, job_files
@@ -124,9 +124,8 @@ def spend(fleet: FleetFile, order: Order, watch: Watch) -> None:
             night.report(tuple(news_of_night(noticed, language)), is_all=False)  # it may be killed, too
             for notice in noticed:
                 watch.noticed(notice)
-            before = last.began.isoformat() if last else ""
             witness = _Witness(watch, known, ways)
-            for notice in _spend(known, order, witness, _Work(night, gone, before, ends, ledger.longest())):
+            for notice in _spend(known, order, witness, _Work(night, gone, ends, ledger.longest())):
                 watch.noticed(notice)
                 noticed = (*noticed, notice)
             if witness.saw_something or night.was_interrupted or (last and last.notices):
@@ -207,7 +206,6 @@ class _Work:
 
     night: Night  #: In the ledger.
     gone: Sequence[str]  #: Jobs whose files are gone.
-    last: str  #: When the night before began; empty for none.
     ends: float  #: When no job is begun any more, by `time.monotonic`.
     longest: Mapping[str, float]  #: The longest time that each job ever took, s.
 
@@ -232,7 +230,10 @@ def _spend(known: Evening, order: Order, witness: _Witness, work: _Work) -> Iter
         planned = plan(known, why)
         witness.watch.planned(planned)
         desk = Desk(known, night)
-        for happened in (*map(desk.vanished, work.gone), *overdue(known, work.last, night.began)):
+        for happened in (
+            *map(desk.vanished, work.gone),
+            *overdue(known, night.subjects(Kind.OVERDUE), night.began),
+        ):
             witness.happened(happened)
         for each in planned:
             if each.due not in _MADE:
@@ -271,8 +272,8 @@ def _not_made(planned: Planned, desk: Desk) -> Happened:
     return desk.failed(planned, Failed(planned.problems))
 
 
-def overdue(known: Evening, last: str, now: str) -> Iterator[Happened]:
-    """Yield the axes that should have been measured again since the last night."""
+def overdue(known: Evening, told: Container[str], now: str) -> Iterator[Happened]:
+    """Yield the axes that should have been measured again, and of which no night told that."""
     latest: dict[tuple[str, str], tuple[str, Standing]] = {}
     for job, standing in sorted(known.standings.items()):
         subject = standing.subject
@@ -283,7 +284,7 @@ def overdue(known: Evening, last: str, now: str) -> Iterator[Happened]:
     for job, standing in latest.values():
         subject = standing.subject
         due = due_date(subject.measured, subject.interval or known.fleet.keys.interval)
-        if due and last[:10] < due <= now[:10]:
+        if due and due <= now[:10] and subject.term(due) not in told:
             why = (
                 f"{subject.of_axis} was measured on {subject.measured}, and was to be measured again by {due}"
             )

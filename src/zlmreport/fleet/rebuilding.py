@@ -43,6 +43,7 @@ def rebuild(fleet: FleetFile, registry: Registry, now: str) -> Rebuilt:
     files = _by_number(fleet.output)
     numbers: list[str] = []
     problems: list[Problem] = []
+    others = dict(files)
     with Ledger.open(fleet.ledger, fleet.name) as ledger:
         known = [each for each in ledger.certificates().values() if each.fleet == fleet.name]
         if known:
@@ -55,6 +56,7 @@ def rebuild(fleet: FleetFile, registry: Registry, now: str) -> Rebuilt:
                     number, _ = number_of(job, fleet.defaults)
                 if number not in files:
                     continue
+                others.pop(number, None)
                 try:
                     _take(job, files[number], fleet, registry, night)
                     numbers.append(number)
@@ -63,7 +65,16 @@ def rebuild(fleet: FleetFile, registry: Registry, now: str) -> Rebuilt:
                 except (OSError, ValueError, NumberTakenError) as error:
                     problems.append(Problem(Place(str(files[number][0])), f"cannot be taken: {error}"))
             night.end(now)
+    problems.extend(_without_jobs(others))
     return Rebuilt(tuple(numbers), tuple(problems))
+
+
+def _without_jobs(files: Mapping[str, list[Path]]) -> Iterator[Problem]:
+    """Yield the certificates that are there, and of which no job has the number."""
+    for number, paths in files.items():
+        with contextlib.suppress(ZlmreportError, OSError, ValueError):  # of other files nothing is said
+            _results(paths)
+            yield Problem(Place(str(paths[0])), f"no job has the number {number}; it is not in the ledger")
 
 
 def _by_number(folder: Path) -> Mapping[str, list[Path]]:

@@ -208,6 +208,10 @@ class Subject:
         """What tells an axis from others: the machine, and its name."""
         return self.machine, self.axis
 
+    def term(self, due: str) -> str:
+        """Return what tells, in the news, that the axis is overdue since a day from any other event."""
+        return f"{self.machine}|{self.axis}|{due}"
+
     @property
     def of_axis(self) -> str:
         """Machine and axis for people, as far as they are known."""
