@@ -213,6 +213,14 @@ def test_certificates_that_no_job_makes_any_more_are_still_watched(fleet: Fleet,
     assert fleet.spend().notices == []
 
 
+def test_a_draft_that_is_made_again_says_what_made_it_differ(fleet: Fleet) -> None:
+    fleet.readings("x", "2 2 3 -1 -2 -3")
+    fleet.spend()
+    fleet.write("fleet.yaml", f"{FLEET}defaults: {{decision_rule: simple}}\n")
+    assert fleet.spend().what["x"] is What.DRAFT
+    assert fleet.entries()[-3].message == "readings jobs/x.txt changed since 2026-11-20"
+
+
 def test_a_certificate_that_is_gone_while_its_job_gives_a_draft_is_missed(fleet: Fleet) -> None:
     fleet.readings("x", "2 2 3 -1 -2 -3")
     fleet.spend()

@@ -172,7 +172,11 @@ class Desk:
         return Happened(What.VANISHED, job, standing.number, "", problems=(problem,))
 
     def _draft(self, planned: Planned, made: Made) -> Happened:
-        message = planned.why if planned.issued else _UNKNOWN
+        before = self.known.standings.get(planned.job)
+        if before and before.state is State.DRAFT and before.number == planned.number:
+            message = before.message  # made again for another reason, it still differs for the first
+        else:
+            message = planned.why if planned.issued else _UNKNOWN
         with laid(self.fleet.output, made.files) as files:
             entry = self._entry(planned, made.subject, State.DRAFT, message, made)
             self.night.add(entry, files.known, made.basis)
