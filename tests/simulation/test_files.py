@@ -149,3 +149,10 @@ def test_more_readings_than_a_file_may_have_are_refused(tmp_path: Path) -> None:
 def test_everything_wrong_with_the_effects_is_said_at_once(tmp_path: Path) -> None:
     line = "effects: [backlash, {periodic: {sine: 1}}, {eccentricity: {sine: 1}}]"
     assert len(mistakes(with_line(10, line), tmp_path)) == 3
+
+
+def test_an_axis_turns_round_at_least_a_micrometre_beyond_a_target(tmp_path: Path) -> None:
+    """Less is lost in the rounding of a target's place, and no approach to it is left."""
+    assert mistakes(with_line(7, "overrun: 0.001"), tmp_path) == []
+    (mistake,) = mistakes(with_line(7, "overrun: 1.0e-308"), tmp_path)
+    assert "'1.0e-308' is not a number of at least 0.001" in mistake

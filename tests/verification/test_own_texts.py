@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any, cast
 
 import pytest
 
 from verification.issued import JOB, LABORATORY, issue, lay_out
 from zlmreport.verification.findings import Outcome, Verdict, Verification
+from zlmreport.verification.own_texts import stated_results
 
 
 def _with(**keys: str) -> str:
@@ -64,3 +67,24 @@ def test_words_that_state_no_result_hold(
     sections: str, tmp_path: Path, verified: Callable[[bytes], Verification]
 ) -> None:
     assert verified(issue(lay_out(tmp_path, laboratory=_with(sections=sections)), "pdf-typst")).holds
+
+
+def _of(title: str, *symbols: str) -> list[str]:
+    """Return the keys of texts that read like a result, of a certificate that states these parameters."""
+    parameters = [SimpleNamespace(quantity=SimpleNamespace(symbol=each)) for each in symbols]
+    words = SimpleNamespace(head=title, foot="")
+    certificate = SimpleNamespace(
+        evaluations=[SimpleNamespace(parameters=parameters)], page_words=words, sections=()
+    )
+    keys = SimpleNamespace(certificate=SimpleNamespace(title=title))
+    job = SimpleNamespace(axis=SimpleNamespace(name="X"), keys=keys)
+    return [each.subject for each in stated_results(cast("Any", certificate), cast("Any", job))]
+
+
+def test_a_result_is_told_by_the_key_of_its_text() -> None:
+    assert _of("A = 1.0", "A") == ["certificate.title", "certificate.style.header"]
+
+
+def test_the_letter_of_a_parameter_alone_reads_like_it() -> None:
+    assert _of("B = 1.0", "B_mean")
+    assert not _of("C = 1.0", "B_mean")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from io import BytesIO
 
@@ -63,6 +64,13 @@ def test_what_shows_the_same_is_the_same() -> None:
 )
 def test_what_a_viewer_shows_otherwise_is_told(content: bytes, told: str) -> None:
     assert told in seen(content, page(words("7.26")))
+
+
+def test_each_pixel_is_counted_once() -> None:
+    """A quarter of an inch square: 24 pixels by 24, and its smoothed edge."""
+    count = re.search(r"(\d+) pixels", seen(page("20 20 18 18 re f"), page("")))
+    assert count is not None
+    assert 24**2 <= int(count[1]) <= 26**2
 
 
 def test_a_page_that_is_not_there_is_told() -> None:

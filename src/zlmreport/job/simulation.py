@@ -112,7 +112,11 @@ class SimulationKeys(JobPart):
         "linear", description="Positioning method."
     )
     runs: int = Field(5, ge=1, le=1000, description="Readings of each target in each direction.")
-    overrun: Positive = Field(5.0, description="How far beyond a target the axis turns round, mm or degrees.")
+    overrun: Positive = Field(
+        5.0,
+        ge=0.001,
+        description="How far beyond a target the axis turns round, mm or degrees, at least 0.001.",
+    )
     feed: Positive = Field(2000.0, description="Feed, mm/min or degrees/min.")
     dwell: NotNegative = Field(5.0, description="Time at rest before each reading, s.")
     effects: list[str | dict[str, dict[str, Any] | None]] = Field(

@@ -61,9 +61,8 @@ def _difference(page: Any, again: Any, *, is_alike: bool) -> str:
         return "in another size"
     if np.array_equal(pixels, pixels_again):
         return ""
-    rows, columns = np.vstack(
-        [_off(pixels, pixels_again, is_alike=is_alike), _off(pixels_again, pixels, is_alike=is_alike)]
-    ).T
+    on_either = [_off(pixels, pixels_again, is_alike=is_alike), _off(pixels_again, pixels, is_alike=is_alike)]
+    rows, columns = np.unique(np.vstack(on_either), axis=0).T
     if not len(rows):
         return ""
     across, down = columns[0] * _MILLIMETRES, rows[0] * _MILLIMETRES
