@@ -151,8 +151,9 @@ def test_everything_wrong_with_the_effects_is_said_at_once(tmp_path: Path) -> No
     assert len(mistakes(with_line(10, line), tmp_path)) == 3
 
 
-def test_an_axis_turns_round_at_least_a_micrometre_beyond_a_target(tmp_path: Path) -> None:
-    """Less is lost in the rounding of a target's place, and no approach to it is left."""
-    assert mistakes(with_line(7, "overrun: 0.001"), tmp_path) == []
-    (mistake,) = mistakes(with_line(7, "overrun: 1.0e-308"), tmp_path)
+@pytest.mark.parametrize(("line", "key"), [(7, "overrun"), (8, "feed")])
+def test_a_way_or_a_feed_that_no_axis_has_is_refused(line: int, key: str, tmp_path: Path) -> None:
+    """It would be lost in the rounding of a target's place, or take longer than any number."""
+    assert mistakes(with_line(line, f"{key}: 0.001"), tmp_path) == []
+    (mistake,) = mistakes(with_line(line, f"{key}: 1.0e-308"), tmp_path)
     assert "'1.0e-308' is not a number of at least 0.001" in mistake

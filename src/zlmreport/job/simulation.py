@@ -117,7 +117,7 @@ class SimulationKeys(JobPart):
         ge=0.001,
         description="How far beyond a target the axis turns round, mm or degrees, at least 0.001.",
     )
-    feed: Positive = Field(2000.0, description="Feed, mm/min or degrees/min.")
+    feed: Positive = Field(2000.0, ge=0.001, description="Feed, mm/min or degrees/min, at least 0.001.")
     dwell: NotNegative = Field(5.0, description="Time at rest before each reading, s.")
     effects: list[str | dict[str, dict[str, Any] | None]] = Field(
         [],
