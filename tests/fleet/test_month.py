@@ -35,6 +35,7 @@ TOLD = {
     "folder": 1,
     "clock": 1,
     "broken": 2,
+    "document": 1,
     "lost": 1,
     "hangs": 1,
     "aside": 1,
@@ -75,8 +76,8 @@ def schedule(rng: random.Random) -> dict[int, str]:
     full = rng.choice(MEASURED[3:-1])
     hang = rng.choice([day for day in MEASURED[2:6] if day != full])
     free = [day for day in range(5, 28) if day not in {*MEASURED, full - 1}]
-    *others, lost, found = rng.sample(free, 6)
-    troubles = dict(zip(others, ("kill", "kill", "mount", "clock"), strict=True))
+    *others, lost, found = rng.sample(free, 7)
+    troubles = dict(zip(others, ("kill", "kill", "mount", "clock", "document"), strict=True))
     lost, found = sorted((lost, found))
     return {**troubles, lost: "lost", found: "found", full: "disk", hang: "hang"}
 
@@ -118,6 +119,9 @@ class Month:
             shutil.move(folder / "jobs/a1t1.yaml", folder / "lost.yaml")
         elif trouble == "found":
             shutil.move(folder / "lost.yaml", folder / "jobs/a1t1.yaml")
+        elif trouble == "document":
+            self.fleet.write("fleet.yaml", f"{FLEET}{NOTIFY}retired: [jobs/a0t1.yaml]\n")
+            (folder / "certificates/17/A0/CAL-A0T1.txt").rename(folder / "CAL-A0T1.txt")
         elif trouble == "clock":
             on_a_day(2, monkeypatch)
         elif trouble == "disk":
@@ -131,6 +135,8 @@ class Month:
                 night.spend(self.fleet.file, night.Order(), Deadly())
         else:
             self.fleet.spend()
+        if trouble == "document":
+            (folder / "CAL-A0T1.txt").rename(folder / "certificates/17/A0/CAL-A0T1.txt")
 
     def mend(self) -> None:
         """Write the test that hangs anew, so that it does no more."""
@@ -147,6 +153,7 @@ def kind_of(line: str) -> str:
         "the folder is empty": "folder",
         "the clock stands": "clock",
         "was broken off": "broken",
+        "made again by no job": "document",
         "the job is gone": "lost",
         "it is set aside until": "aside",
         "the limit of a job": "hangs",
@@ -157,7 +164,7 @@ def kind_of(line: str) -> str:
     return next((kind for word, kind in words.items() if word in line), line)
 
 
-@pytest.mark.parametrize("seed", [1, 2, 3, 2027])
+@pytest.mark.parametrize("seed", [1, 2, 3, 10])
 def test_every_document_is_right_and_every_event_told_once(
     seed: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
