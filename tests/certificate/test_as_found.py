@@ -9,6 +9,7 @@ import pytest
 
 from certificate.documents import COMPLETE, certificate, lines_of, text_of
 from zlmreport.certificate.document import Graph, Table
+from zlmreport.language import Language
 
 HEAD = "target,direction,run,deviation\n"
 AS_LEFT = (
@@ -69,6 +70,16 @@ def test_each_section_of_results_says_to_which_measurement_it_belongs(adjusted):
     assert section(document, "nmtba").title.endswith("(as left, after the adjustment)")
     assert section(document, "as-found-nmtba").title.endswith("(as found, before the adjustment)")
     assert section(document, "as-found-readings").title == "Readings (as found, before the adjustment)"
+
+
+def test_each_graph_as_found_says_so(adjusted):
+    keys = {"evaluate": [{"standard": "iso230-2:2014", "tolerances": {"A": 5, "B": 5}}]}
+    document = adjusted(certificate={**COMPLETE["certificate"], "layout": "full"}, **keys)
+    blocks = section(document, "as-found-iso230-2-2014").blocks
+    figures = [each.figure for each in blocks if isinstance(each, Graph)]
+    assert "as-found-conformity" in [each.key for each in figures]
+    titles = [each.title.in_language(Language.ENGLISH) for each in figures]
+    assert all(each.endswith("(as found, before the adjustment)") for each in titles)
 
 
 def test_the_first_page_shows_the_axis_as_left_and_says_so(adjusted):

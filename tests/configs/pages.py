@@ -10,7 +10,7 @@ import numpy as np
 import pypdfium2
 
 from zlmreport.certificate.columns import table_layout, text_of
-from zlmreport.certificate.document import Certificate, Formulas, Notice, Paragraph, Symbol, Table
+from zlmreport.certificate.document import Certificate, Facts, Formulas, Notice, Paragraph, Symbol, Table
 
 #: Points from the edge of a page in which its head and its foot stand, and its margin at the sides.
 _HEAD, _FOOT, _SIDE = 58.0, 52.0, 55.0
@@ -31,6 +31,7 @@ def embarrassments(certificate: Certificate, pdf: bytes) -> list[str]:
         *(f"page {number} leaves alone {line!r}" for number, line in _left_alone(certificate, bodies)),
         *(f"page {number} parts a paragraph: {line!r}" for number, line in _widows(certificate, bodies)),
         *(f"page {number} parts a value from its unit: {line!r}" for number, line in _torn(bodies)),
+        *(f"no page has {name!r} whole" for name in _broken(certificate, bodies)),
         *(f"page {number} parts the table {caption!r}" for number, caption in _parted(certificate, bodies)),
         *(
             f"page {number} has text outside its margins"
@@ -101,6 +102,13 @@ def _torn(bodies: list[list[str]]) -> Iterator[tuple[int, str]]:
         for before, after in pairwise(body):
             if re.search(r"(?<!\S)−?\d[\d.,]*$", before) and re.match(r"(?:[µmn]?m|hPa|K|°C|%)(?!\w)", after):
                 yield number, f"{before} / {after}"
+
+
+def _broken(certificate: Certificate, bodies: list[list[str]]) -> Iterator[str]:
+    """Yield words of names of facts that are wider than their place."""
+    words = {word for body in bodies for line in body for word in line.split()}
+    names = [name for each in _blocks(certificate) if isinstance(each, Facts) for name, _ in each.pairs]
+    yield from (word for name in names for word in name.split() if word not in words)
 
 
 def _parted(certificate: Certificate, bodies: list[list[str]]) -> Iterator[tuple[int, str]]:

@@ -18,12 +18,14 @@ from environments import ROOT
 from figures.samples import collisions
 from typesetting import samples
 from zlmreport import pipeline
+from zlmreport.certificate.build import build
 from zlmreport.certificate.document import Certificate, Notice, Paragraph, Section
 from zlmreport.cli import main
 from zlmreport.errors import InputError
 from zlmreport.files import write
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
+from zlmreport.language import Language
 from zlmreport.plugins import Registry, find_plugins
 
 CONFIGS = ROOT / "configs"
@@ -78,10 +80,10 @@ def made(
     job = load(request.param, registry)
     job = replace(job, directory=tmp_path_factory.mktemp("made"), formats=(*job.formats, "dcc"))
     with pytest.MonkeyPatch.context() as patch:
-        build = Mock(wraps=pipeline.build)
-        patch.setattr(pipeline, "build", build)
+        whole = Mock(wraps=build)
+        patch.setattr(pipeline, "build", whole)
         written = write(pipeline.run(job, registry).documents)
-    (_, *others), _ = build.call_args
+    (_, *others), _ = whole.call_args
     laid_out = {}
     for layout in ("sheet", "standard", "full"):
         keys = job.keys.certificate.model_copy(update={"layout": layout})
@@ -110,6 +112,20 @@ def test_no_page_of_any_layout_embarrasses(made: Made, registry: Registry) -> No
     asked_for = made.laid_out[made.job.keys.certificate.layout]
     found |= {each.name: embarrassments(asked_for, each.read_bytes()) for each in of_files}
     assert not {where: what for where, what in found.items() if what}
+
+
+@pytest.mark.parametrize("press", ["pdf", "pdf-typst"])
+def test_no_page_with_long_german_names_embarrasses(
+    press: str, registry: Registry, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    job = load(CONFIGS / "as-found" / "certificate.yaml", registry)
+    keys = job.keys.certificate.model_copy(update={"language": Language.GERMAN})
+    job = replace(job, keys=job.keys.model_copy(update={"certificate": keys}))
+    whole = Mock(wraps=build)
+    monkeypatch.setattr(pipeline, "build", whole)
+    pipeline.run(replace(job, directory=tmp_path, formats=("json",)), registry)
+    certificate = build(*whole.call_args.args)
+    assert not embarrassments(certificate, registry.renderer(press).render(certificate))
 
 
 def test_nothing_drawn_in_any_layout_collides(made: Made) -> None:

@@ -109,6 +109,23 @@ def test_the_title_of_the_values_reads_upwards() -> None:
     assert y_title.angle == 90.0
 
 
+def test_a_long_title_of_the_values_stays_inside_a_low_graph() -> None:
+    long = replace(figure(both_directions()), y_title=same("Slope of the residuals of a pass"), height=50)
+    _, y_title = drawn(long).texts_of("title")
+    _, height = figure_size(long)
+    assert 0 < y_title.box.bottom < y_title.box.top < height
+
+
+def test_names_of_one_line_leave_no_second_line_free_below_them() -> None:
+    def gap(*names: str) -> float:
+        bars = tuple(Bar(same(name), 80.0, same("80.0")) for name in names)
+        canvas = drawn(figure(Panel(bars=bars)))
+        x_title, _ = canvas.texts_of("title")
+        return x_title.box.bottom - max(each.box.top for each in canvas.texts_of("tick x"))
+
+    assert gap("backlash", "offset") == pytest.approx(gap(*["spindle-temperature"] * 6), abs=1.0)
+
+
 @by_name
 @pytest.mark.parametrize("language", Language)
 def test_labels_stay_inside_and_off_each_other_and_off_lines(sample: Figure, language: Language) -> None:

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from model.axis_tests import EFFECTS, INSTALLED, linear_test, model_of, noise
-from zlmreport.language import Language
+from zlmreport.language import Language, same
 from zlmreport.model.axis_model import ModelError
 from zlmreport.model.design import Design
 from zlmreport.model.diagnosis import Diagnosis, diagnose
@@ -106,6 +106,16 @@ def test_a_log_that_one_session_lacks_is_left_out_and_said() -> None:
     said = [each.in_language(Language.ENGLISH) for each in both.remarks]
     assert said[0].startswith("Session 2, warm.yaml: runs 4 to 6")
     assert said[1] == "Not every session logged axis_temperature: the model does without."
+
+
+def test_a_remark_on_one_session_says_on_which_and_one_on_all_stands_once() -> None:
+    cool, warm = _session(2.0, 1, "scale-error"), _session(5.0, 2, "scale-error")
+    cool, warm = (
+        replace(each, remarks=(same("An overrun is taken."), same(f"A noise of {noise}.")))
+        for each, noise in ((cool, 2), (warm, 3))
+    )
+    said = [each.in_language(Language.ENGLISH) for each in held_together(cool, [("w", warm)]).remarks]
+    assert said[:3] == ["An overrun is taken.", "Session 1: A noise of 2.", "Session 2: A noise of 3."]
 
 
 def test_times_in_one_session_and_none_in_the_other_are_refused() -> None:

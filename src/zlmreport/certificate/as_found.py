@@ -170,9 +170,12 @@ def _results(
     section_of: Callable[[Evaluated, Writer], Section], evaluated: Evaluated, state: Words, writer: Writer
 ) -> Section:
     """Return the results as found by a standard, whose definitions stand with the results as left."""
-    figures = tuple(_named(figure, state) for figure in evaluated.figures)
-    section = section_of(replace(evaluated, figures=figures), writer)
-    blocks = tuple(block for block in section.blocks if not isinstance(block, Formulas))
+    section = section_of(evaluated, writer)
+    blocks = tuple(
+        Graph(_named(block.figure, state)) if isinstance(block, Graph) else block
+        for block in section.blocks
+        if not isinstance(block, Formulas)
+    )
     return _labelled(replace(section, key=f"as-found-{section.key}", blocks=blocks), state, writer)
 
 

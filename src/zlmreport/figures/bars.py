@@ -32,7 +32,7 @@ _GRAPH = Words(
 #: One by itself compares nothing.
 _FEWEST_BARS = 2
 _X_TITLE = Words(en="Parameters with a limit", de="Kenngrößen mit Grenzwert")
-_Y_TITLE = Words(en="Amount over limit", de="Betrag über Grenzwert")
+_Y_TITLE = Words(en="Share of limit", de="Anteil am Grenzwert")
 _BAR = Words(en="{symbol}: {percent} % of its limit", de="{symbol}: {percent} % des Grenzwerts")
 _UNCERTAIN = Words(en="{bar} ± {uncertainty} %", de="{bar} ± {uncertainty} %")
 _ACCEPTED = Words(en="{bar}, accepted up to {accepted} %", de="{bar}, angenommen bis {accepted} %")

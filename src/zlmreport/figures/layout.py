@@ -73,9 +73,7 @@ def figure_size(figure: Figure) -> tuple[float, float]:
 def lay_out(figure: Figure, language: Language) -> FigureLayout:
     """Return the places of everything in a figure."""
     _, height = figure_size(figure)
-    has_bars = any(panel.bars for panel in figure.panels)
     bottom = _EDGE + 1.35 * TEXT_SIZE + _TITLE_GAP + TICK_TEXT_SIZE + TICK_GAP + TICK_LENGTH
-    bottom += TICK_LINE if has_bars else 0.0
     columns = len(figure.panels) if figure.is_wide else 1
     rows = max(1, len(figure.panels) // max(1, columns))
     # The width of the values' labels is the left margin, and the legend's rows follow from it; so the
@@ -88,6 +86,7 @@ def lay_out(figure: Figure, language: Language) -> FigureLayout:
     room = (WIDTH + _PANEL_GAP) / max(1, columns) - _PANEL_GAP
     right = room - _EDGE - max(levels + brackets, _LEAST_MARGIN)
     x_scale = _x_scale(figure, language, right - left)
+    bottom += TICK_LINE if any("\n" in label for label in x_scale.labels) else 0.0
     legends = [lay_out_legend(panel, language, room - _EDGE - left) for panel in figure.panels]
     if figure.is_wide:
         boxes = _boxes_in_a_row(Box(left, bottom, right, height), room + _PANEL_GAP, legends)
@@ -101,9 +100,11 @@ def lay_out(figure: Figure, language: Language) -> FigureLayout:
     y_title = plain_label(axis_title(figure.y_title, figure.y_unit, language), TEXT_SIZE)
     top = boxes[0].top if boxes else height
     right = boxes[-1].right if boxes else right
+    middle = (bottom + top - y_title.width) / 2
+    foot = max(_EDGE, min(middle, height - _EDGE - y_title.width))
     titles = (
         PlacedLabel(x_title, (left + right - x_title.width) / 2, _EDGE + 0.35 * TEXT_SIZE),
-        PlacedLabel(y_title, _EDGE + 0.8 * TEXT_SIZE, (bottom + top - y_title.width) / 2, 90.0),
+        PlacedLabel(y_title, _EDGE + 0.8 * TEXT_SIZE, foot, 90.0),
     )
     return FigureLayout(WIDTH, height, panels, titles)
 

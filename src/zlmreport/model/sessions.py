@@ -25,6 +25,7 @@ _HELD_TOGETHER = Words(
     de="Messung {number}, {name}: Durchläufe {first} bis {last}; ihr Nullpunkt ist ihr eigener, alles andere "
     "gemeinsam.",
 )
+_OF_SESSION = Words(en="Session {number}: {remark}", de="Messung {number}: {remark}")
 _NOT_IN_ALL = Words(
     en="Not every session logged {conditions}: the model does without.",
     de="Nicht jede Messung hat {conditions} aufgezeichnet: Das Modell kommt ohne aus.",
@@ -114,10 +115,13 @@ def held_together(own: Observations, others: Sequence[tuple[str, Observations]])
         span=(float(spans[:, 0].min()), float(spans[:, 1].max())),
         session=read_only_integers(session),
     )
-    remarks: list[Words] = []
-    for remark in (each for one in observed for each in one.remarks):
-        if remark not in remarks:
-            remarks.append(remark)
+    remarks = [each for each in own.remarks if all(each in one.remarks for one in observed)]
+    remarks += [
+        _OF_SESSION.given(number=number, remark=each)
+        for number, one in enumerate(observed, start=1)
+        for each in one.remarks
+        if each not in remarks
+    ]
     for number, (name, _) in enumerate(others, start=1):
         runs = design.cycle[session == number]
         first, last = int(runs.min()), int(runs.max())
