@@ -383,7 +383,7 @@ _FIVE, _FIVE_FINEST = 1.0, 4.6
 _SECTION_HEADING = 14.0 + 2.5 + 5.0
 _LOGO = 31.0
 #: Em of the names and values of facts in one of two columns.
-_NAME_EM, _VALUE_EM = 9.9, 16.8
+_NAME_EM, _VALUE_EM = 10.4, 16.3
 _FACTS_MARGIN = 4.0
 _USUAL_GRAPH = 60 * MILLIMETRE
 
