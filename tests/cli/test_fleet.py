@@ -114,6 +114,16 @@ def test_a_summary_for_programs(run: Run) -> None:
 
 
 @pytest.mark.usefixtures("fleet")
+def test_a_summary_for_programs_says_what_concerned_the_whole_night(run: Run) -> None:
+    _, output, _ = run("fleet", "fleet.yaml", "--json", "--max-time", "1e-9")
+    (notice,) = json.loads(output)["notices"]
+    assert notice == {
+        "about": "left",
+        "message": "the time of the night was over before 3 of 3 jobs; they are for the next night",
+    }
+
+
+@pytest.mark.usefixtures("fleet")
 def test_a_log_for_programs(run: Run) -> None:
     _, output, _ = run("fleet", "fleet.yaml", "--log-json")
     events: list[dict[str, Any]] = [json.loads(line) for line in output.splitlines()]

@@ -87,16 +87,16 @@ class _Watcher:
         self._logs = logs
         self._options = options
         self._begun = time.monotonic()
-        self._notices: list[Notice] = []
+        self.notices: list[Notice] = []
         self._progress = Progress(sys.stderr, 0)
 
     @property
     def exit_code(self) -> int:
         """What the shell is told."""
-        return _FAILED if self._notices or any(self.counts[what] for what in _NOT_DONE) else 0
+        return _FAILED if self.notices or any(self.counts[what] for what in _NOT_DONE) else 0
 
     def noticed(self, notice: Notice) -> None:
-        self._notices.append(notice)
+        self.notices.append(notice)
         self._progress.hide()
         for log in self._logs:
             log.noticed(notice)
@@ -178,6 +178,7 @@ def _summary(fleet: FleetFile, watcher: _Watcher, code: int) -> dict[str, Any]:
         "exit_code": code,
         "counts": by_word(watcher.counts),
         "jobs": watcher.jobs,
+        "notices": [{"about": each.about.value, "message": each.english} for each in watcher.notices],
         "priors": watcher.priors,
     }
 
