@@ -43,7 +43,7 @@ def test_the_decimal_sign_is_that_of_the_language() -> None:
 
 
 @pytest.mark.parametrize(
-    ("axis", "deviation", "position"), [(AXIS, "1.2 µm", "123.4 mm"), (ROTARY, "2.1 ″", "10.00 °")]
+    ("axis", "deviation", "position"), [(AXIS, "1.2 µm", "123.4 mm"), (ROTARY, "2.1″", "10.00°")]
 )
 def test_units_are_those_of_the_axis(axis: Axis, deviation: str, position: str) -> None:
     # 1.234 µm, or 10 µrad = 2.06″.

@@ -36,6 +36,7 @@ from zlmreport.capture.visits import ListedVisit
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.axis import Axis
 from zlmreport.quantities.formatting import MINUS, fixed_number
+from zlmreport.quantities.units import with_unit
 
 #: Where an axis comes from, by its direction.
 SIDES = {Approach.POSITIVE: "from below", Approach.NEGATIVE: "from above"}
@@ -55,7 +56,7 @@ class AxisWriter:
     def position(self, value: float, decimals: int = 3) -> str:
         """Write a position in mm or °."""
         unit = self.axis.position_unit
-        return f"{fixed_number(unit.from_si(value), decimals)} {unit.symbol}"
+        return with_unit(fixed_number(unit.from_si(value), decimals), unit.symbol)
 
     def deviation(self, value: float) -> str:
         """Write a deviation in µm or ″, with its sign."""
@@ -65,7 +66,7 @@ class AxisWriter:
     def fine(self, value: float) -> str:
         """Write a small length in µm or ″."""
         unit = self.axis.deviation_unit
-        return f"{fixed_number(unit.from_si(value), 2)} {unit.symbol}"
+        return with_unit(fixed_number(unit.from_si(value), 2), unit.symbol)
 
     def visit(self, visit: ListedVisit) -> str:
         """Name a visit: ``run 2 ↑  150.000 mm``."""

@@ -9,6 +9,7 @@ from zlmreport.language import Language, Words, same
 from zlmreport.measurement.axis import Axis
 from zlmreport.model import wording
 from zlmreport.quantities.formatting import plain, rounded_pair
+from zlmreport.quantities.units import behind
 from zlmreport.uncertainty.budget import Budget
 
 _UNCERTAIN_TITLE = Words(
@@ -92,7 +93,7 @@ _BUDGET_TITLE = Words(
 )
 _CONTRIBUTIONS = Words(en="Contributions", de="Beiträge")
 _STANDARD_UNCERTAINTY = Words(en="Standard uncertainty", de="Standardunsicherheit")
-_CONTRIBUTION = Words(en="{symbol}, {name}: {value} {unit}.", de="{symbol}, {name}: {value} {unit}.")
+_CONTRIBUTION = Words(en="{symbol}, {name}: {value}{unit}.", de="{symbol}, {name}: {value}{unit}.")
 
 
 def budget_bars(budget: Budget, axis: Axis) -> Figure:
@@ -105,7 +106,9 @@ def budget_bars(budget: Budget, axis: Axis) -> Figure:
         bar = Bar(same(f"u_{{{number}}}"), size, _written(size), is_symbol=True)
         bars.append(bar)
         sentences.append(
-            _CONTRIBUTION.given(symbol=f"u{number}", name=each.name, value=bar.value, unit=unit.symbol)
+            _CONTRIBUTION.given(
+                symbol=f"u{number}", name=each.name, value=bar.value, unit=behind(unit.symbol)
+            )
         )
     return Figure(
         key="budget",

@@ -18,6 +18,7 @@ from zlmreport.model.diagnosis import Candidate
 from zlmreport.model.effect import Dimension, unit_of
 from zlmreport.model.study import Fitted
 from zlmreport.quantities.arrays import FloatArray, IntArray, read_only_floats
+from zlmreport.quantities.units import behind
 
 #: Groups of readings that follow one another, through whose means a curve leads.
 _GROUPS = 12
@@ -40,7 +41,7 @@ _SLOPES = Words(
     de="Steigung über der Position dessen, was das Modell von jedem Durchgang übrig lässt, über {quantity}",
 )
 _SLOPES_RANGE = Words(
-    en="{caption}: from {low} to {high} {unit}.", de="{caption}: von {low} bis {high} {unit}."
+    en="{caption}: from {low} to {high}{unit}.", de="{caption}: von {low} bis {high}{unit}."
 )
 _MEASURED = Words(en="Measured and model", de="Gemessen und Modell")
 _RUN = (Words(en="Run", de="Durchlauf"), Words(en="the run", de="dem Durchlauf"))
@@ -138,7 +139,7 @@ def slopes_over_time(diagram: ModelDiagram) -> Figure:
     return Figure(
         key="slopes-time",
         title=caption,
-        alternative=alternative_text(_SLOPES_RANGE.given(caption=caption, unit=slope.symbol, **ends)),
+        alternative=alternative_text(_SLOPES_RANGE.given(caption=caption, unit=behind(slope.symbol), **ends)),
         x_title=title,
         y_title=_SLOPE,
         x_unit=unit_of_time,
@@ -204,8 +205,8 @@ _TITLE = Words(
 _WITHOUT = Words(en="without model", de="ohne Modell")
 _ADDED = Words(en="+ {effect}", de="+ {effect}")
 _WITH = Words(en="with {effect}", de="mit {effect}")
-_BAR = Words(en="{label}: {value} {unit}.", de="{label}: {value} {unit}.")
-_FLOOR = Words(en="Noise floor: {value} {unit}.", de="Grundrauschen: {value} {unit}.")
+_BAR = Words(en="{label}: {value}{unit}.", de="{label}: {value}{unit}.")
+_FLOOR = Words(en="Noise floor: {value}{unit}.", de="Grundrauschen: {value}{unit}.")
 _X_TITLE = Words(en="Effects, one after another", de="Einflüsse, einer nach dem anderen")
 _Y_TITLE = Words(en="Root mean square error", de="Quadratischer Mittelwert")
 
@@ -228,12 +229,12 @@ def fall_chart(history: Sequence[Fitted], missing: Candidate | None = None) -> F
         Bar(label, value, wording.number(value, decimals))
         for label, value in zip(labels, values, strict=True)
     )
-    sentences = [_BAR.given(label=bar.label, value=bar.value, unit=unit.symbol) for bar in bars]
+    sentences = [_BAR.given(label=bar.label, value=bar.value, unit=behind(unit.symbol)) for bar in bars]
     levels: tuple[Level, ...] = ()
     if noise is not None:
         levels = (Level("σ₀", Role.TOLERANCE, unit.from_si(noise)),)
         written = wording.number(unit.from_si(noise), decimals)
-        sentences.append(_FLOOR.given(value=written, unit=unit.symbol))
+        sentences.append(_FLOOR.given(value=written, unit=behind(unit.symbol)))
     return Figure(
         key="fall",
         title=_TITLE,

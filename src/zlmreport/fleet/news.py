@@ -29,7 +29,7 @@ from zlmreport.plugin.kinds import NOTIFIER
 from zlmreport.plugin.protocols import Message, Notifier, Occasion
 from zlmreport.plugins import Registry, find_plugins
 from zlmreport.quantities.formatting import fixed_number, general_number
-from zlmreport.quantities.units import printed_symbol
+from zlmreport.quantities.units import behind, printed_symbol
 
 _KINDS = {
     Kind.NIGHT: Words(en="the whole night", de="zum ganzen Lauf"),
@@ -147,9 +147,9 @@ def _changed(machine: str, axis: str, trends: Sequence[Trend], state: FleetState
 
 def _not_met(trend: Trend, language: Language) -> str:
     latest, sign = trend.series.latest, language.decimal_sign
-    unit = printed_symbol(trend.series.unit)
-    value = f"{fixed_number(latest.value, 1, sign)} {unit}"
-    limit = f"{general_number(latest.limit or 0.0, sign)} {unit}"
+    unit = behind(printed_symbol(trend.series.unit))
+    value = f"{fixed_number(latest.value, 1, sign)}{unit}"
+    limit = f"{general_number(latest.limit or 0.0, sign)}{unit}"
     return _NOT_MET.given(symbol=trend.series.symbol, value=value, limit=limit).in_language(language)
 
 
@@ -163,7 +163,7 @@ def _drift(trend: Trend, language: Language) -> str:
 
 def _signed(change: float, unit: str, language: Language) -> str:
     number = fixed_number(abs(change), 1, language.decimal_sign)
-    return f"{'+' if change > 0 else '−'} {number} {printed_symbol(unit)}"
+    return f"{'+' if change > 0 else '−'} {number}{behind(printed_symbol(unit))}"
 
 
 #: For which the night waits until a message is taken, s: nothing that tells of a night may stop it.

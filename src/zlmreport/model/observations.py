@@ -14,6 +14,7 @@ from zlmreport.measurement.measurement_set import CONDITIONS, MeasurementSet
 from zlmreport.model.axis_model import ModelError
 from zlmreport.model.design import Design
 from zlmreport.quantities.arrays import FloatArray, IntArray, read_only_floats, read_only_integers
+from zlmreport.quantities.units import behind
 from zlmreport.values import dataclass
 
 #: How far the axis is taken to travel beyond a target before it returns to it, m or rad.
@@ -33,8 +34,8 @@ _COUNTED = Words(
     "folgend, und Zeitkonstanten zählen in Messwerten.",
 )
 _OVERRUN = Words(
-    en="The axis is taken to run over a target by {overrun} {unit} before it returns to it.",
-    de="Es ist angenommen, dass die Achse {overrun} {unit} über eine Zielposition hinausfährt, bevor sie zu "
+    en="The axis is taken to run over a target by {overrun}{unit} before it returns to it.",
+    de="Es ist angenommen, dass die Achse {overrun}{unit} über eine Zielposition hinausfährt, bevor sie zu "
     "ihr zurückkehrt.",
 )
 _GAPS = Words(
@@ -134,7 +135,7 @@ def observations_of(measurements: MeasurementSet, *, overrun: float | None = Non
         remarks.append(_COUNTED)
     if overrun is None:
         unit = axis.position_unit
-        remarks.append(_OVERRUN.given(overrun=unit.from_si(beyond), unit=unit.symbol))
+        remarks.append(_OVERRUN.given(overrun=unit.from_si(beyond), unit=behind(unit.symbol)))
     moments = time[present] - time[present[0]]
     conditions = {}
     for name, log in measurements.conditions.items():

@@ -32,7 +32,7 @@ from zlmreport.model.repeats import outliers
 from zlmreport.model.sessions import held_together, of_the_job, with_zeros
 from zlmreport.quantities.arrays import FloatArray, read_only_floats
 from zlmreport.quantities.formula import names_in, parse_formula
-from zlmreport.quantities.units import MICROMETRE
+from zlmreport.quantities.units import MICROMETRE, with_unit
 
 #: The effect that is a full polynomial over the position.
 _POLYNOMIAL = "polynomial"
@@ -248,7 +248,7 @@ def _rms(fitted: Fitted) -> str:
     """Write an error with so many digits that a slight change shows."""
     unit = fitted.fit.design.axis.deviation_unit
     digits = wording.significant(unit.from_si(fitted.error.rms), 4)
-    return f"{digits.in_language(Language.ENGLISH)} {unit.symbol}"
+    return with_unit(digits.in_language(Language.ENGLISH), unit.symbol)
 
 
 def _meaning(choice: EffectChoice) -> tuple[object, ...]:

@@ -8,8 +8,9 @@ from zlmreport.language import Language, Words
 from zlmreport.measurement.axis import Axis
 from zlmreport.model.design import Design
 from zlmreport.quantities.formatting import fixed_number
+from zlmreport.quantities.units import behind
 
-_QUANTITY = Words(en="{value} {unit}", de="{value} {unit}")
+_QUANTITY = Words(en="{value}{unit}", de="{value}{unit}")
 _READING = Words(en="{position}, {arrow}, run {run}", de="{position}, {arrow}, Durchlauf {run}")
 _CELL = Words(en="{position}, {arrow}", de="{position}, {arrow}")
 _COUNTED = Words(en="{value} readings", de="{value} Messwerte")
@@ -38,19 +39,19 @@ def significant(value: float, digits: int = _SIGNIFICANT) -> Words:
 def deviation(axis: Axis, value: float) -> Words:
     """Return a deviation given in m or rad."""
     unit = axis.deviation_unit
-    return _QUANTITY.given(value=significant(unit.from_si(value), 2), unit=unit.symbol)
+    return _QUANTITY.given(value=significant(unit.from_si(value), 2), unit=behind(unit.symbol))
 
 
 def position(axis: Axis, value: float) -> Words:
     """Return a position on the axis given in m or rad."""
     unit = axis.position_unit
-    return _QUANTITY.given(value=significant(unit.from_si(value), 4), unit=unit.symbol)
+    return _QUANTITY.given(value=significant(unit.from_si(value), 4), unit=behind(unit.symbol))
 
 
 def length(axis: Axis, value: float) -> Words:
     """Return a distance along the axis given in m or rad."""
     unit = axis.position_unit
-    return _QUANTITY.given(value=significant(unit.from_si(value)), unit=unit.symbol)
+    return _QUANTITY.given(value=significant(unit.from_si(value)), unit=behind(unit.symbol))
 
 
 def span_of_time(design: Design, value: float) -> Words:
@@ -58,8 +59,8 @@ def span_of_time(design: Design, value: float) -> Words:
     if design.time_is_counted:
         return _COUNTED.given(value=significant(value, 2))
     if value >= _LONG:
-        return _QUANTITY.given(value=significant(value / _MINUTE, 3), unit="min")
-    return _QUANTITY.given(value=significant(value, 3), unit="s")
+        return _QUANTITY.given(value=significant(value / _MINUTE, 3), unit=behind("min"))
+    return _QUANTITY.given(value=significant(value, 3), unit=behind("s"))
 
 
 def cell(design: Design, reading: int) -> Words:

@@ -25,9 +25,13 @@ _TOUCHING = ("°", "″")
 
 def with_unit(number: str, symbol: str) -> str:
     """Return a number with its unit as printed: ``20 µm``, ``20″``, ``4.2 ± 0.3 µm``, ``(4.2 ± 0.3)″``."""
-    if symbol not in _TOUCHING:
-        return f"{number} {symbol}"
-    return f"({number}){symbol}" if "±" in number else f"{number}{symbol}"
+    is_sum = symbol in _TOUCHING and "±" in number
+    return f"({number}){behind(symbol)}" if is_sum else f"{number}{behind(symbol)}"
+
+
+def behind(symbol: str) -> str:
+    """Return a unit as it stands behind a number: ``″`` touches it, and a blank parts others from it."""
+    return symbol if symbol in _TOUCHING else f" {symbol}"
 
 
 @dataclass(frozen=True, slots=True)
