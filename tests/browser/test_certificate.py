@@ -155,3 +155,16 @@ def test_a_phone_parts_neither_the_number_nor_a_name(window: Window, file: Path)
         }"""
     )
     assert longest > 1
+
+
+def test_a_phone_parts_no_symbol_of_a_definition(window: Window, file: Path) -> None:
+    page = window(file.as_uri(), viewport={"width": 390, "height": 844})
+    lines = page.locator(".formulas th").evaluate_all(
+        """all => all.map(e => {
+            const range = document.createRange()
+            range.selectNodeContents(e)
+            return range.getBoundingClientRect().height / parseFloat(getComputedStyle(e).fontSize)
+        })"""
+    )
+    assert lines
+    assert max(lines) < 2

@@ -16,6 +16,8 @@ from zlmreport.certificate.document import Certificate, Facts, Formulas, Notice,
 _HEAD, _FOOT, _SIDE = 58.0, 52.0, 55.0
 #: A part of a page that may be left empty nowhere but on the last.
 _LEAST_FILL = 0.35
+#: Points between a rule and what it belongs to, at most.
+_APART = 8
 
 
 def embarrassments(certificate: Certificate, pdf: bytes) -> list[str]:
@@ -28,6 +30,7 @@ def embarrassments(certificate: Certificate, pdf: bytes) -> list[str]:
     ]
     return [
         *(f"page {number} is filled to {fill:.2f}" for number, fill in _emptiness(pages)),
+        *(f"page {number} ends with a line below nothing" for number in _ruled(pages)),
         *(f"page {number} leaves alone {line!r}" for number, line in _left_alone(certificate, bodies)),
         *(f"page {number} parts a paragraph: {line!r}" for number, line in _widows(certificate, bodies)),
         *(f"page {number} parts a value from its unit: {line!r}" for number, line in _torn(bodies)),
@@ -46,10 +49,24 @@ def _lines(page: pypdfium2.PdfPage, bottom: float, top: float) -> list[str]:
     return [line for line in (" ".join(each.split()) for each in text.splitlines()) if line]
 
 
+def _ruled(pages: list[pypdfium2.PdfPage]) -> Iterator[int]:
+    """Yield pages with a rule at the end that stands apart from all else."""
+    for number, page in enumerate(pages, 1):
+        inked = np.flatnonzero(_ink(page, scale=1.0).any(axis=1))
+        apart = np.diff(inked, prepend=inked[:1])
+        if (apart[-2:] > _APART).any():
+            yield number
+
+
+def _ink(page: pypdfium2.PdfPage, *, scale: float) -> np.ndarray:
+    """Return where a page has ink between its head and its foot."""
+    ink = page.render(scale=scale, grayscale=True).to_numpy().squeeze() < 225
+    return ink[int(_HEAD * scale) : int((page.get_height() - _FOOT) * scale)]
+
+
 def _emptiness(pages: list[pypdfium2.PdfPage]) -> Iterator[tuple[int, float]]:
     for number, page in enumerate(pages[:-1], 1):
-        ink = page.render(scale=0.5, grayscale=True).to_numpy().squeeze() < 225
-        body = ink[int(_HEAD / 2) : int((page.get_height() - _FOOT) / 2)].any(axis=1)
+        body = _ink(page, scale=0.5).any(axis=1)
         fill = (np.flatnonzero(body).max(initial=-1) + 1) / len(body)
         if fill < _LEAST_FILL:
             yield number, fill

@@ -115,15 +115,18 @@ def test_no_page_of_any_layout_embarrasses(made: Made, registry: Registry) -> No
 
 
 @pytest.mark.parametrize("press", ["pdf", "pdf-typst"])
+@pytest.mark.parametrize(
+    ("example", "layout"), [("as-found/certificate", "standard"), ("step-gauge/job", "full")]
+)
 def test_no_page_with_long_german_names_embarrasses(
-    press: str, registry: Registry, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    example: str, layout: str, press: str, registry: Registry, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    job = load(CONFIGS / "as-found" / "certificate.yaml", registry)
-    keys = job.keys.certificate.model_copy(update={"language": Language.GERMAN})
+    job = load(CONFIGS / f"{example}.yaml", registry)
+    keys = job.keys.certificate.model_copy(update={"language": Language.GERMAN, "layout": layout})
     job = replace(job, keys=job.keys.model_copy(update={"certificate": keys}))
     whole = Mock(wraps=build)
     monkeypatch.setattr(pipeline, "build", whole)
-    pipeline.run(replace(job, directory=tmp_path, formats=("json",)), registry)
+    pipeline.run(replace(job, formats=("json",)), registry)
     certificate = build(*whole.call_args.args)
     assert not embarrassments(certificate, registry.renderer(press).render(certificate))
 
