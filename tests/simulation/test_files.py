@@ -146,6 +146,12 @@ def test_more_readings_than_a_file_may_have_are_refused(tmp_path: Path) -> None:
     assert message.startswith("6:1: runs: 1000 runs over 101 targets are more than 200000 readings")
 
 
+def test_a_time_that_nothing_takes_is_refused(tmp_path: Path) -> None:
+    line = "conditions: {axis_temperature: {start: 20, end: 21, time_constant: 1.0e-308}}"
+    (mistake,) = mistakes(with_line(12, line), tmp_path)
+    assert "1e-308 is smaller than anything that is there; 1e-12 is the least" in mistake
+
+
 def test_everything_wrong_with_the_effects_is_said_at_once(tmp_path: Path) -> None:
     line = "effects: [backlash, {periodic: {sine: 1}}, {eccentricity: {sine: 1}}]"
     assert len(mistakes(with_line(10, line), tmp_path)) == 3

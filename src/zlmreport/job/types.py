@@ -226,8 +226,18 @@ InWords = Annotated[Text, AfterValidator(_in_words)]
 InstrumentUncertainty = Annotated[InWords, AfterValidator(_instrument_uncertainty)]
 #: No axis is longer, no room hotter, no test slower; and every square of such numbers is one.
 _LARGEST = 1e9
+#: Nothing that is there is shorter or briefer; and no quotient of such numbers is too large.
+_SMALLEST = 1e-12
+
+
+def _not_too_small(value: float) -> float:
+    if value < _SMALLEST:
+        raise ValueError(f"{value:g} is smaller than anything that is there; {_SMALLEST:g} is the least")
+    return value
+
+
 #: A number above 0.
-Positive = Annotated[float, Field(gt=0, le=_LARGEST, allow_inf_nan=False)]
+Positive = Annotated[float, Field(gt=0, le=_LARGEST, allow_inf_nan=False), AfterValidator(_not_too_small)]
 #: A number from 0.
 NotNegative = Annotated[float, Field(ge=0, le=_LARGEST, allow_inf_nan=False)]
 #: A number of a size that things have.
