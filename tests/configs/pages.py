@@ -76,7 +76,9 @@ def _left_alone(certificate: Certificate, bodies: list[list[str]]) -> Iterator[t
     """Yield pages that end with a heading, begin with the last line of a part, or consist of notes alone."""
     notes = [each for each in _blocks(certificate) if isinstance(each, Paragraph | Notice)]
     headings = {f"{number} {section.title}" for number, section in enumerate(certificate.sections, 1)}
-    headings |= {each.heading for each in notes if isinstance(each, Notice)}
+    headings |= {
+        each.heading for each in _blocks(certificate) if isinstance(each, Notice | Facts) and each.heading
+    }
     tables = [each for each in _blocks(certificate) if isinstance(each, Table)]
     headings |= {group.heading for each in tables for group in each.groups if group.heading}
     table = f"{certificate.page_words.table} "

@@ -116,7 +116,12 @@ def test_no_page_of_any_layout_embarrasses(made: Made, registry: Registry) -> No
 
 @pytest.mark.parametrize("press", ["pdf", "pdf-typst"])
 @pytest.mark.parametrize(
-    ("example", "layout"), [("as-found/certificate", "standard"), ("step-gauge/job", "full")]
+    ("example", "layout"),
+    [
+        ("as-found/certificate", "standard"),
+        ("as-found/certificate", "full"),
+        ("step-gauge/job", "full"),
+    ],
 )
 def test_no_page_with_long_german_names_embarrasses(
     example: str, layout: str, press: str, registry: Registry, monkeypatch: pytest.MonkeyPatch
