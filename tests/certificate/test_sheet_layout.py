@@ -184,6 +184,12 @@ def test_the_estimate_of_the_room_is_no_less_than_what_is_taken(tmp_path: Path, 
     assert estimate < 1.15 * taken
 
 
+def test_words_that_do_not_share_a_line_take_one_each() -> None:
+    one, four = (columns.height([Paragraph(" ".join(["n" * 60] * words))]) for words in (1, 4))
+    both = columns.height([Paragraph("n" * 60), Paragraph("n" * 60)])
+    assert four - one == pytest.approx(3 * (both - one - 3.0))
+
+
 @pytest.mark.parametrize(
     "block", [Paragraph("word " * 100), Notice("Heading", ("item " * 60,)), Facts((("name", "value " * 40),))]
 )

@@ -75,8 +75,9 @@ def test_ticks_lie_between_the_limits_in_steps_of_1_2_or_5(start: float, span: f
     assert all(start - slack <= tick <= start + span + slack for tick in ticks)
     steps = np.diff(ticks)
     if len(steps):
-        digit = steps[0] / 10 ** np.floor(np.log10(steps[0]))
-        assert min(abs(digit - one) for one in (1, 2, 5, 10)) < 1e-3
+        power = 10 ** np.floor(np.log10(steps[0]))
+        rounding = 2 * np.spacing(np.abs(ticks).max()) / power + 1e-9
+        assert min(abs(steps[0] / power - one) for one in (1, 2, 5, 10)) < rounding
         assert len(steps) <= most
 
 

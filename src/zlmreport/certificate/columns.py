@@ -418,7 +418,7 @@ def _height(block: GatheredBlock) -> float:
             drawing = figure.height * MILLIMETRE if figure.height else _USUAL_GRAPH * len(figure.panels)
             return drawing + 10.0 + _SMALL_TYPE * _LINE
         case Paragraph(text):
-            return _lines_of(text, _PAGE_EM) * _LINE + 3.0
+            return _lines_of_words(text, _PAGE_EM) * _LINE + 3.0
         case Notice(title, items):
             lines = sum(_lines_of(item, _NOTICE_EM) for item in items) + _lines_of(title, _NOTICE_EM)
             return lines * _LINE + 1.5 * len(items) + 19.0
@@ -449,6 +449,21 @@ def _facts_height(groups: tuple[Facts, ...]) -> float:
             for name, value in group.pairs
         )
     return room
+
+
+#: Running text is narrower than its letters are estimated.
+_RUNNING = 1.04
+
+
+def _lines_of_words(text: str, room: float) -> int:
+    """Return how many lines a paragraph takes, whose words go over to the next line where they do not fit."""
+    lines, taken = 1, 0.0
+    for word in text.split(" "):
+        width = width_of(word)
+        if taken and taken + width > _RUNNING * room:
+            lines, taken = lines + 1, 0.0
+        taken += width + width_of(" ")
+    return lines
 
 
 def _lines_of(text: str, room: float) -> int:
