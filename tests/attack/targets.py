@@ -13,12 +13,12 @@ import tempfile
 import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
 
 from attack.edits import BINARY, TEXT, Edit
 from environments import ROOT
 from verification.issued import READINGS, content_of, with_attachment
+from zlmreport import pipeline
 from zlmreport.cli import main
 from zlmreport.model import null_distribution
 from zlmreport.plugins import find_plugins
@@ -123,8 +123,7 @@ def _by_rules_of_ptb(folder: Path) -> int:
 
 def with_few_draws() -> None:
     """Simulate little: what a spoiled file breaks does not depend on how often."""
-    expanded.propagate = partial(expanded.propagate, trials=100)  # type: ignore[attr-defined]
-    expanded.axis_intervals = partial(expanded.axis_intervals, pairs=20)  # type: ignore[attr-defined]
+    pipeline.with_uncertainty = lambda *given: expanded.with_uncertainty(*given[:2], trials=100)  # type: ignore[attr-defined]
     null_distribution.TRIALS = 20
 
 
